@@ -1,0 +1,152 @@
+"""What every reader returns: an asset of parts in the object frame. It reads no files."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal, final
+
+import numpy as np
+
+from grafu.errors import AssetError
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.vocabulary import JointType, PartLabel
+
+AssetKind = Literal["partnet-mobility", "urdf", "glb", "mesh folder", "mesh file", "made"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PartSource:
+    """Where a part came from: its original name, and the file and link that held it (empty where there is none)."""
+
+    name: str
+    file: str = ""
+    link: str = ""
+
+
+@final
+@dataclass(frozen=True)
+class Part:
+    """One part, its surfaces in the object frame (metres, Z up, front -Y).
+
+    `id` is unique and safe in URDF and USD. `labelled_by` says what the label rests on. `rides_on` is the id of the
+    moving part that carries this one, where the input says so (a handle in a door's link, a knob on a drawer).
+    """
+
+    id: str
+    label: PartLabel
+    surfaces: tuple[Surface, ...]
+    source: PartSource
+    labelled_by: Literal["name", "annotation", "user", "prediction", "none"] = "none"
+    rides_on: str | None = None
+
+    @cached_property
+    def mesh(self) -> TriangleMesh:
+        """All surfaces as one mesh."""
+        return merge_meshes([s.mesh for s in self.surfaces])
+
+    @property
+    def box(self) -> Box:
+        """The axis-aligned box of the mesh."""
+        return self.mesh.box
+
+
+@final
+@dataclass(frozen=True)
+class AnnotatedJoint:
+    """A joint that the input itself states: the moving part, the axis in the object frame, limits as stated.
+
+    Limits are radians or metres along `axis`; unlike a `Joint`'s they may be negative, reversed or not start at 0,
+    and `limited=False` says that the input states none.
+    """
+
+    part: str
+    type: JointType
+    axis: Axis
+    lower: float
+    upper: float
+    limited: bool = True
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Frame(ArrayValue):
+    """How the input's own coordinates became the object frame.
+
+    `input_to_output` is a similarity (4x4, row-major): from the coordinates of the input's mesh files (for a URDF: its
+    static root link's) to the object frame. `up` and `front` are directions in the input's coordinates, spelled
+    like `+Y`; `scale` is metres per input unit; `assumed` says in words what was decided and why.
+    """
+
+    input_to_output: Mat4
+    up: str
+    front: str
+    scale: float
+    assumed: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "input_to_output", frozen_array(self.input_to_output))
+
+
+IDENTITY_FRAME = Frame(np.eye(4), "+Z", "-Y", 1.0)
+
+
+@final
+@dataclass(frozen=True)
+class Asset:
+    """A part-segmented model in the object frame, and the joints that it states itself.
+
+    Raises:
+        AssetError: if part ids repeat, or `rides_on` or a joint names a part that is not there.
+    """
+
+    name: str
+    path: str
+    kind: AssetKind
+    parts: tuple[Part, ...]
+    frame: Frame = IDENTITY_FRAME
+    joints: tuple[AnnotatedJoint, ...] = ()
+    notes: tuple[str, ...] = ()  # what the reader left out or mended, in words
+
+    def __post_init__(self) -> None:
+        known = {part.id for part in self.parts}
+        if len(known) < len(self.parts):
+            raise AssetError(f"part ids must be unique: {self.path or self.name} repeats one")
+        named = {joint.part for joint in self.joints} | {p.rides_on for p in self.parts if p.rides_on}
+        if not named <= known:
+            raise AssetError(
+                f"joints and riders must name parts: {self.path or self.name} lacks {sorted(named - known)}"
+            )
+
+    @cached_property
+    def _by_id(self) -> dict[str, Part]:
+        return {part.id: part for part in self.parts}
+
+    def part(self, part_id: str) -> Part:
+        """Returns the part with this id. Raises KeyError where there is none."""
+        return self._by_id[part_id]
+
+    @cached_property
+    def box(self) -> Box:
+        """The box around all parts."""
+        box = self.parts[0].box
+        for part in self.parts[1:]:
+            box = box.union(part.box)
+        return box
+
+    @property
+    def unit(self) -> float:
+        """The object's largest side in metres: the paper's unit cube (metrics scale by it)."""
+        return float(self.box.size.max())
+
+    def without_annotation(self) -> "Asset":
+        """Returns the same parts without the joints and riders that the input stated."""
+        return replace(self, parts=tuple(replace(p, rides_on=None) for p in self.parts), joints=())
+
+    def with_labels(self, labels: dict[str, PartLabel]) -> "Asset":
+        """Returns the same asset with some parts relabelled by the user or a prediction."""
+        parts = tuple(replace(p, label=labels[p.id]) if p.id in labels else p for p in self.parts)
+        return replace(self, parts=parts)

@@ -1,0 +1,1 @@
+"""The command `grafu`: one verb per file."""

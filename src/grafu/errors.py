@@ -1,0 +1,56 @@
+"""Every exception that grafu raises, named by whose fault it is.
+
+    FunctionalizationError
+      AssetError              the input is at fault
+        UnreadableAsset         missing, damaged, or not a kind of file that is read
+        UnsegmentedAsset        one piece where several parts were expected
+        AssetTooLarge           more parts, faces or bytes than the limits allow
+        UnknownLabel            a label outside the vocabulary, where unknown is not allowed
+      GraphError              a functional graph breaks an invariant
+      ArticulationError       an articulated object is not a tree, or a limit is upside down
+      TemplateError           a mechanism template is at fault
+      ExportError             a format cannot say this, or the output cannot be written
+
+A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.realization.report`).
+Messages are one line: what was given, what was expected, how to fix it.
+"""
+
+
+class FunctionalizationError(Exception):
+    """Base of all errors that grafu raises on purpose."""
+
+
+class AssetError(FunctionalizationError):
+    """The input asset is at fault."""
+
+
+class UnreadableAsset(AssetError):
+    """The input is missing, damaged, or of a kind that is not read."""
+
+
+class UnsegmentedAsset(AssetError):
+    """The input holds one piece where several parts were expected."""
+
+
+class AssetTooLarge(AssetError):
+    """The input exceeds a stated limit on parts, faces or bytes."""
+
+
+class UnknownLabel(AssetError):
+    """A label is outside the vocabulary where `unknown` is not allowed."""
+
+
+class GraphError(FunctionalizationError):
+    """A functional graph breaks an invariant."""
+
+
+class ArticulationError(FunctionalizationError):
+    """An articulated object is not a tree, or its joints are ill-defined."""
+
+
+class TemplateError(FunctionalizationError):
+    """A mechanism template is damaged or incomplete."""
+
+
+class ExportError(FunctionalizationError):
+    """A format cannot express the object, or the output cannot be written."""

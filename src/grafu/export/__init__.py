@@ -1,0 +1,1 @@
+"""Articulated objects and reports as files: one format per module, one function that writes."""

@@ -1,0 +1,1 @@
+"""Numbers only: arrays in, arrays out. No files, no labels, no furniture."""

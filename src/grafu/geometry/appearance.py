@@ -1,0 +1,85 @@
+"""How a mesh looks: materials, textures, and surfaces that carry both. It knows no file format."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, final
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from grafu.geometry.arrays import ArrayValue, Mat4, Points, frozen_array
+from grafu.geometry.mesh import TriangleMesh
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Texture:
+    """An encoded image, kept byte for byte from input to output."""
+
+    name: str
+    data: bytes = field(repr=False)
+    mime: Literal["image/png", "image/jpeg"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Material:
+    """A metallic-roughness material in glTF's terms; colours are linear RGB(A) in 0..1.
+
+    Texture slots hold the image alone; all of them use the surface's one set of texture coordinates.
+    """
+
+    name: str = "default"
+    base_color: tuple[float, float, float, float] = (0.8, 0.8, 0.8, 1.0)
+    metallic: float = 0.0
+    roughness: float = 0.8
+    emissive: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    base_color_texture: Texture | None = None
+    metallic_roughness_texture: Texture | None = None
+    normal_texture: Texture | None = None
+    occlusion_texture: Texture | None = None
+    emissive_texture: Texture | None = None
+    alpha_mode: Literal["OPAQUE", "MASK", "BLEND"] = "OPAQUE"
+    alpha_cutoff: float = 0.5
+    double_sided: bool = False
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Surface(ArrayValue):
+    """A mesh with one material; per-vertex attributes are optional.
+
+    `uv` follows OBJ and OpenGL (origin bottom left); `normals` are unit vectors in the object frame; `colors` is
+    8-bit RGBA.
+
+    Raises:
+        ValueError: if an attribute's length is not the number of vertices.
+    """
+
+    mesh: TriangleMesh
+    material: Material = Material()
+    uv: Float[np.ndarray, "n 2"] | None = None
+    normals: Points | None = None
+    colors: UInt8[np.ndarray, "n 4"] | None = None
+
+    def __post_init__(self) -> None:
+        for name, dtype in (("uv", np.float64), ("normals", np.float64), ("colors", np.uint8)):
+            values = getattr(self, name)
+            if values is None:
+                continue
+            if len(values) != len(self.mesh.vertices):
+                raise ValueError(f"`Surface.{name}` must have {len(self.mesh.vertices)} rows: got {len(values)}")
+            object.__setattr__(self, name, frozen_array(values, dtype))
+
+    @cached_property
+    def is_empty(self) -> bool:
+        """Whether there is no face."""
+        return not len(self.mesh.faces)
+
+    def transformed(self, T: Mat4) -> "Surface":
+        """Returns the surface mapped by T, normals turned with it."""
+        normals = self.normals
+        if normals is not None:
+            mapped = normals @ np.linalg.inv(T[:3, :3])
+            normals = mapped / np.maximum(np.linalg.norm(mapped, axis=1, keepdims=True), 1e-300)
+        return Surface(self.mesh.transformed(T), self.material, self.uv, normals, self.colors)

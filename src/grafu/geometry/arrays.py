@@ -1,0 +1,58 @@
+"""Array shapes by name, and the base of every value that holds arrays.
+
+Arrays inside values are copies that cannot be written to; values compare and hash by content.
+"""
+
+from collections.abc import Callable
+from dataclasses import fields
+from hashlib import blake2b
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+Vec3 = Float[np.ndarray, "3"]
+Vec2 = Float[np.ndarray, "2"]
+Points = Float[np.ndarray, "n 3"]
+Faces = Int[np.ndarray, "m 3"]
+Mat3 = Float[np.ndarray, "3 3"]
+Mat4 = Float[np.ndarray, "4 4"]
+Scalars = Float[np.ndarray, " n"]
+Indices = Int[np.ndarray, " n"]
+Mask = Bool[np.ndarray, " n"]
+
+
+def frozen_array(values: Any, dtype: type = np.float64) -> Any:
+    """Returns a contiguous copy of `values` that cannot be written to (or `values`, where it already is one)."""
+    if isinstance(values, np.ndarray) and values.dtype == dtype and not values.flags.writeable and values.base is None:
+        return values
+    array = np.array(values, dtype=dtype, order="C", copy=True)
+    array.setflags(write=False)
+    return array
+
+
+def vec3(x: float, y: float, z: float) -> Vec3:
+    """Returns one vector of three floats."""
+    return np.array([x, y, z], dtype=np.float64)
+
+
+class ArrayValue:
+    """Abstract base of frozen dataclasses with array fields: equality, hash and pickling by content."""
+
+    def _content(self) -> tuple[Any, ...]:
+        return tuple(getattr(self, f.name) for f in fields(self))  # type: ignore[arg-type]
+
+    def __eq__(self, other: object) -> bool:
+        if other.__class__ is not self.__class__:
+            return NotImplemented
+        pairs = zip(self._content(), other._content(), strict=True)  # type: ignore[attr-defined]
+        return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in pairs)
+
+    def __hash__(self) -> int:
+        digest = blake2b(digest_size=8)
+        for item in self._content():
+            digest.update(item.tobytes() if isinstance(item, np.ndarray) else str(hash(item)).encode())
+        return int.from_bytes(digest.digest(), "little", signed=True)
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return (self.__class__, self._content())

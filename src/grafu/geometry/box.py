@@ -1,0 +1,161 @@
+"""Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis. It knows no meshes and no labels."""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, frozen_array
+from grafu.geometry.transform import from_rotation, transform_points
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Box(ArrayValue):
+    """An axis-aligned box in metres.
+
+    Raises:
+        ValueError: if `high` is below `low` on some axis, or a number is not finite.
+    """
+
+    low: Vec3
+    high: Vec3
+
+    def __post_init__(self) -> None:
+        low, high = frozen_array(self.low), frozen_array(self.high)
+        if not (np.all(np.isfinite(low)) and np.all(np.isfinite(high)) and np.all(high >= low)):
+            raise ValueError(f"`Box.high` must be at least `Box.low` on every axis: got low={low}, high={high}")
+        object.__setattr__(self, "low", low)
+        object.__setattr__(self, "high", high)
+
+    @classmethod
+    def around(cls, points: Points) -> "Box":
+        """Returns the smallest box around at least one point."""
+        return cls(points.min(axis=0), points.max(axis=0))
+
+    @classmethod
+    def from_center(cls, center: Vec3, half: Vec3) -> "Box":
+        """Returns the box with this centre and these half sizes."""
+        return cls(np.asarray(center) - half, np.asarray(center) + half)
+
+    @property
+    def center(self) -> Vec3:
+        """The middle, metres."""
+        return (self.low + self.high) / 2
+
+    @property
+    def half(self) -> Vec3:
+        """Half the side lengths."""
+        return (self.high - self.low) / 2
+
+    @property
+    def size(self) -> Vec3:
+        """The side lengths."""
+        return self.high - self.low
+
+    @property
+    def thin_axis(self) -> int:
+        """The index of the shortest side (the first of equals)."""
+        return int(np.argmin(self.size))
+
+    @property
+    def volume(self) -> float:
+        """The volume, cubic metres."""
+        return float(np.prod(self.size))
+
+    @property
+    def diagonal(self) -> float:
+        """The length of the space diagonal."""
+        return float(np.linalg.norm(self.size))
+
+    def union(self, other: "Box") -> "Box":
+        """Returns the smallest box around both."""
+        return Box(np.minimum(self.low, other.low), np.maximum(self.high, other.high))
+
+    def grown(self, margin: float) -> "Box":
+        """Returns this box with every face moved outwards by `margin` (inwards at most to the centre)."""
+        half = np.maximum(self.half + margin, 0.0)
+        return Box.from_center(self.center, half)
+
+    def axis_gaps(self, other: "Box") -> Vec3:
+        """Returns the gap along each axis; negative where the two overlap (official.md 2.2)."""
+        return np.maximum(self.low - other.high, other.low - self.high)
+
+    def gap(self, other: "Box") -> float:
+        """Returns the distance between the two boxes, 0 where they touch or overlap."""
+        return float(np.linalg.norm(np.maximum(self.axis_gaps(other), 0.0)))
+
+    def overlaps(self, other: "Box", margin: float = 0.0) -> bool:
+        """Whether the two, one grown by `margin`, share a point."""
+        return bool(np.all(self.axis_gaps(other) <= margin))
+
+    def contains(self, points: Points) -> np.ndarray:
+        """Returns for each point whether it lies in the box, its border counted in."""
+        return np.all((points >= self.low) & (points <= self.high), axis=1)
+
+    def face_center(self, code: int) -> Vec3:
+        """Returns the centre of a face; codes 0..5 are -X, +X, -Y, +Y, -Z, +Z (official.md 3.1)."""
+        center = self.center.copy()
+        center[code // 2] = self.high[code // 2] if code % 2 else self.low[code // 2]
+        return center
+
+    def corners(self) -> Points:
+        """Returns the eight corners."""
+        pick = np.array([[(k >> a) & 1 for a in range(3)] for k in range(8)])
+        return np.where(pick == 1, self.high, self.low)
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class OrientedBox(ArrayValue):
+    """A box with its own right-handed axes: the columns of `rotation` are its axes in the object frame."""
+
+    center: Vec3
+    half: Vec3
+    rotation: Mat3
+
+    def __post_init__(self) -> None:
+        half = frozen_array(self.half)
+        if not np.all(half >= 0):
+            raise ValueError(f"`OrientedBox.half` must not be negative: got {half}")
+        object.__setattr__(self, "center", frozen_array(self.center))
+        object.__setattr__(self, "half", half)
+        object.__setattr__(self, "rotation", frozen_array(self.rotation))
+
+    @property
+    def T_object_box(self) -> Mat4:
+        """Maps the box's own coordinates (origin at its centre) to the object frame."""
+        return from_rotation(np.asarray(self.rotation), np.asarray(self.center))
+
+    def corners(self) -> Points:
+        """Returns the eight corners in the object frame."""
+        return transform_points(self.T_object_box, Box(-self.half, self.half).corners())
+
+    @classmethod
+    def around(cls, points: Points, rotation: Mat3) -> "OrientedBox":
+        """Returns the smallest box around the points whose axes are the columns of `rotation`."""
+        local = Box.around(points @ rotation)
+        return cls(rotation @ local.center, local.half, rotation)
+
+
+def yaw_of(points: Points) -> float:
+    """Returns the rotation about Z, radians in (-pi/4, pi/4], in which the points fill the smallest rectangle.
+
+    A part that already fills its axis-aligned box as well as any other (within 1 %) has yaw 0.
+    """
+    from scipy.spatial import ConvexHull, QhullError  # local: scipy.spatial costs 0.1 s and most parts need no hull
+
+    flat = points[:, :2]
+    try:
+        hull = flat[ConvexHull(flat).vertices]
+    except (QhullError, ValueError):
+        return 0.0
+    edges = np.roll(hull, -1, axis=0) - hull
+    angles = np.unique(np.round(np.mod(np.arctan2(edges[:, 1], edges[:, 0]) + np.pi / 4, np.pi / 2) - np.pi / 4, 6))
+    cosines, sines = np.cos(angles), np.sin(angles)
+    u = np.outer(cosines, hull[:, 0]) + np.outer(sines, hull[:, 1])
+    v = np.outer(cosines, hull[:, 1]) - np.outer(sines, hull[:, 0])
+    areas = np.ptp(u, axis=1) * np.ptp(v, axis=1)
+    best = int(np.argmin(areas))
+    straight = float(np.prod(np.ptp(flat, axis=0)))
+    return 0.0 if areas[best] >= 0.99 * straight else float(angles[best])

@@ -1,0 +1,128 @@
+"""Triangle meshes as values. Heavy queries live in `raycast`, `intersection` and `solids`; no materials here."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import final
+
+import numpy as np
+import trimesh
+
+from grafu.geometry.arrays import ArrayValue, Faces, Mat4, Points, Scalars, Vec3, frozen_array
+from grafu.geometry.box import Box
+from grafu.geometry.transform import is_mirror, transform_points
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TriangleMesh(ArrayValue):
+    """Vertices in metres and triangles as counter-clockwise index triples.
+
+    It need not be closed, connected or consistently oriented: real furniture is not.
+
+    Raises:
+        ValueError: if a vertex is not finite or a face names a vertex that is not there.
+    """
+
+    vertices: Points
+    faces: Faces
+
+    def __post_init__(self) -> None:
+        vertices, faces = frozen_array(self.vertices), frozen_array(self.faces, np.int64)
+        if not np.all(np.isfinite(vertices)):
+            raise ValueError("`TriangleMesh.vertices` must be finite numbers: got NaN or infinity")
+        if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
+            found = f"{faces.min()}..{faces.max()}"
+            raise ValueError(f"`TriangleMesh.faces` must index {len(vertices)} vertices: got {found}")
+        object.__setattr__(self, "vertices", vertices)
+        object.__setattr__(self, "faces", faces)
+
+    @cached_property
+    def box(self) -> Box:
+        """The axis-aligned box around the vertices that a face uses (all vertices, where there is no face)."""
+        used = self.vertices[np.unique(self.faces)] if len(self.faces) else self.vertices
+        return Box.around(used)
+
+    @cached_property
+    def triangles(self) -> np.ndarray:
+        """The corners of each face, (faces, 3, 3)."""
+        return frozen_array(self.vertices[self.faces])
+
+    @cached_property
+    def area(self) -> float:
+        """The surface area, square metres."""
+        return float(self.face_areas.sum())
+
+    @cached_property
+    def _face_cross(self) -> np.ndarray:
+        t = self.triangles
+        return np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+
+    @property
+    def face_areas(self) -> Scalars:
+        """The area of each face."""
+        return np.linalg.norm(self._face_cross, axis=1) / 2
+
+    @cached_property
+    def face_normals(self) -> Points:
+        """The unit normal of each face; zero where the face has no area."""
+        lengths = np.linalg.norm(self._face_cross, axis=1, keepdims=True)
+        return self._face_cross / np.maximum(lengths, 1e-300)
+
+    @cached_property
+    def is_closed(self) -> bool:
+        """Whether every edge, vertices merged by position, is shared by two oppositely directed faces."""
+        if not len(self.faces):
+            return False
+        merged = self.to_trimesh()
+        merged.merge_vertices()
+        return bool(merged.is_watertight and merged.is_winding_consistent)
+
+    def transformed(self, T: Mat4) -> "TriangleMesh":
+        """Returns the mesh mapped by T; a mirror image keeps its faces' outward sides outward."""
+        faces = self.faces[:, ::-1] if is_mirror(T) else self.faces
+        return TriangleMesh(transform_points(T, self.vertices), faces)
+
+    def translated(self, offset: Vec3) -> "TriangleMesh":
+        """Returns the mesh shifted by `offset`."""
+        return TriangleMesh(self.vertices + offset, self.faces)
+
+    def with_faces(self, keep: np.ndarray) -> "TriangleMesh":
+        """Returns the mesh of the selected faces (mask or indices), unused vertices dropped."""
+        faces = self.faces[keep]
+        used, index = np.unique(faces, return_inverse=True)
+        return TriangleMesh(self.vertices[used], index.reshape(faces.shape))
+
+    def to_trimesh(self) -> trimesh.Trimesh:
+        """Returns a new, unprocessed trimesh copy."""
+        return trimesh.Trimesh(self.vertices.copy(), self.faces.copy(), process=False, validate=False)
+
+    @classmethod
+    def from_trimesh(cls, mesh: trimesh.Trimesh) -> "TriangleMesh":
+        """Returns the value of a trimesh."""
+        return cls(np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces, dtype=np.int64))
+
+    @classmethod
+    def box_mesh(cls, box: Box) -> "TriangleMesh":
+        """Returns the closed mesh of a box, 12 faces."""
+        return cls(box.corners(), np.array(_BOX_FACES))
+
+
+def merge_meshes(meshes: Sequence[TriangleMesh]) -> TriangleMesh:
+    """Returns one mesh of all faces, in order; no vertex is welded."""
+    if not meshes:
+        return TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64))
+    if len(meshes) == 1:
+        return meshes[0]
+    starts = np.cumsum([0] + [len(m.vertices) for m in meshes[:-1]])
+    return TriangleMesh(
+        np.vstack([m.vertices for m in meshes]),
+        np.vstack([m.faces + start for m, start in zip(meshes, starts, strict=True)]),
+    )
+
+
+# The corners come as Box.corners(): bit 0 is x, bit 1 is y, bit 2 is z.
+_BOX_FACES = [
+    [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
+    [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5],
+]  # fmt: skip

@@ -1,0 +1,87 @@
+"""Rigid (and similarity) transforms as 4x4 matrices, `T_target_source`. It knows no meshes.
+
+Angles are radians, positive by the right-hand rule; quaternions are wxyz.
+"""
+
+from math import cos, sin
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
+
+
+def transform_points(T: Mat4, points: Points) -> Points:
+    """Returns the points mapped by T."""
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
+def transform_direction(T: Mat4, direction: Vec3) -> Vec3:
+    """Returns the unit direction mapped by the linear part of T (a polar vector: mirrored like a displacement)."""
+    mapped = T[:3, :3] @ direction
+    return mapped / np.linalg.norm(mapped)
+
+
+def translation(offset: Vec3) -> Mat4:
+    """Returns the transform that shifts by `offset`."""
+    T = np.eye(4)
+    T[:3, 3] = offset
+    return T
+
+
+def from_rotation(R: Mat3, offset: Vec3 | None = None) -> Mat4:
+    """Returns the transform with linear part R and translation `offset` (none: zero)."""
+    T = np.eye(4)
+    T[:3, :3] = R
+    if offset is not None:
+        T[:3, 3] = offset
+    return T
+
+
+def rotation_matrix(direction: Vec3, angle: float) -> Mat3:
+    """Returns the rotation by `angle` about the unit `direction` (Rodrigues' formula)."""
+    x, y, z = direction
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + sin(angle) * K + (1.0 - cos(angle)) * (K @ K)
+
+
+def rotation_about(point: Vec3, direction: Vec3, angle: float) -> Mat4:
+    """Returns the rotation by `angle` about the line through `point` along the unit `direction`."""
+    R = rotation_matrix(direction, angle)
+    return from_rotation(R, point - R @ point)
+
+
+def minimal_rotation(source: Vec3, target: Vec3) -> Mat3:
+    """Returns the rotation of least angle that maps the unit vector `source` onto the unit vector `target`.
+
+    Where they are opposite, half a turn about any perpendicular is returned.
+    """
+    axis = np.cross(source, target)
+    sine, cosine = float(np.linalg.norm(axis)), float(source @ target)
+    if sine < 1e-12:
+        if cosine > 0:
+            return np.eye(3)
+        other = np.eye(3)[int(np.argmin(np.abs(source)))]
+        axis = np.cross(source, other)
+        return rotation_matrix(axis / np.linalg.norm(axis), float(np.pi))
+    return rotation_matrix(axis / sine, float(np.arctan2(sine, cosine)))
+
+
+def reflection(point: Vec3, normal: Vec3) -> Mat4:
+    """Returns the mirror image across the plane through `point` with unit `normal` (supplement, eq. rail mirror)."""
+    M = np.eye(3) - 2.0 * np.outer(normal, normal)
+    return from_rotation(M, point - M @ point)
+
+
+def invert(T: Mat4) -> Mat4:
+    """Returns the inverse transform."""
+    return np.linalg.inv(T)
+
+
+def scale_of(T: Mat4) -> float:
+    """Returns the uniform scale of a similarity transform (positive, also for a mirror image)."""
+    return float(np.cbrt(abs(np.linalg.det(T[:3, :3]))))
+
+
+def is_mirror(T: Mat4) -> bool:
+    """Whether T turns a right hand into a left one."""
+    return bool(np.linalg.det(T[:3, :3]) < 0)

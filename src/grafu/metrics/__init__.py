@@ -1,0 +1,1 @@
+"""What a result is measured by: collision, connectivity, motion agreement. Pure functions."""

@@ -1,0 +1,1 @@
+"""`functionalize`: the paper's figure as one function. It reads and writes no files."""

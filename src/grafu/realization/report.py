@@ -1,0 +1,94 @@
+"""What came of each request: installed with its figures, or skipped with a reason from a closed list."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import final
+
+from grafu.geometry.axis import Axis
+from grafu.vocabulary import JointType, MechanismClass
+
+
+class SkipReason(StrEnum):
+    """Why something that was asked for could not be built."""
+
+    NO_FACING_SURFACES = "no facing surfaces"  # nothing static near enough to carry a mechanism
+    NO_ROOM = "no room"  # a mechanism would cut into parts
+    BLOCKED = "blocked"  # the part cannot move freely about any candidate axis
+    NO_TEMPLATE_FITS = "no template fits"
+    NO_MOTION = "no motion"  # nobody could say how the part moves
+    NOT_A_BOX = "not a box"
+    UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (sliding doors)
+    REJECTED_BY_USER = "rejected by user"
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Clearance:
+    """Material taken away so that a part can move: which part, how, and how much.
+
+    `kind` is trimmed (cut off the moving part), scaled (the moving part made smaller) or carved (cut out of a static
+    part); `amount` is the largest depth in metres, `share` the share of the part's surface or volume that went.
+    """
+
+    part: str
+    kind: str
+    amount: float
+    share: float
+    why: str
+
+
+@final
+@dataclass(frozen=True)
+class Installed:
+    """A joint that was built, with what was measured on it."""
+
+    moving: str
+    joint: str
+    type: JointType
+    mount: str
+    mechanism: MechanismClass
+    template: str
+    count: int
+    source: str
+    initial_axis: Axis
+    axis: Axis
+    opening: float
+    reference: float | None
+    restricted: bool
+    collision_share: float
+    largest_gap: float
+    after: tuple[str, ...] = ()
+    clearances: tuple[Clearance, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """A request that was not built, why, and what would help."""
+
+    request: str
+    reason: SkipReason
+    detail: str = ""
+
+
+Outcome = Installed | Skipped
+
+
+@final
+@dataclass(frozen=True)
+class RealizationReport:
+    """One outcome per request, and all clearances."""
+
+    outcomes: tuple[Outcome, ...] = ()
+    timings: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def installed(self) -> tuple[Installed, ...]:
+        """The joints that were built."""
+        return tuple(o for o in self.outcomes if isinstance(o, Installed))
+
+    @property
+    def skipped(self) -> tuple[Skipped, ...]:
+        """The requests that were not built."""
+        return tuple(o for o in self.outcomes if isinstance(o, Skipped))

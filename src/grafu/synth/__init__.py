@@ -1,0 +1,1 @@
+"""Furniture made by rules, for samples, tests and training."""

@@ -1,0 +1,183 @@
+"""What a mechanism template is: two ends, a motion axis, snap planes and a range (supplement, Template Annotation).
+
+Hinge frame, closed: the pin runs through the origin along +Z, which is also the opening axis (right-hand rule). +X
+points from the pin across the moving part, +Y is where the moving part sets off to when it opens. A snap plane's normal
+points from the template to the part that its end is mounted on:
+
+    class   static end              dynamic end
+    C       leaf along -Y, n = -X   leaf along -Y, n = +X     the leaves lie stacked in the seam
+    F       leaf along -X, n = -Y   leaf along +X, n = -Y     the leaves lie on two flush faces
+    P       leaf along +Y, n = -X   leaf along +X, n = -Y     the leaves line an inner corner
+
+Rail frame, closed: +X points from the wall to the drawer, +Z up, and the drawer slides out along -Y. The origin is the
+centre of the static snap plane (n = -X, at x = 0); the dynamic snap plane has n = +X, at x = thickness. This is the
+rail on one side of the drawer; the other is its mirror image.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from grafu.errors import TemplateError
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, frozen_array
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.transform import transform_points
+from grafu.vocabulary import MechanismClass
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class SnapPlane(ArrayValue):
+    """A rectangle that comes to lie on a part: centre, unit normal (towards the part), half-extent vectors u and v."""
+
+    center: Vec3
+    normal: Vec3
+    u: Vec3
+    v: Vec3
+
+    def __post_init__(self) -> None:
+        for name in ("center", "normal", "u", "v"):
+            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        across = max(abs(float(self.normal @ self.u)), abs(float(self.normal @ self.v)), abs(float(self.u @ self.v)))
+        size = float(np.linalg.norm(self.u) * np.linalg.norm(self.v))
+        if abs(float(np.linalg.norm(self.normal)) - 1) > 1e-6 or size <= 0 or across > 1e-6:
+            found = f"{self.normal}, {self.u}, {self.v}"
+            raise TemplateError(f"a snap plane needs a unit normal square to two extents: got {found}")
+
+    def transformed(self, T: Mat4) -> "SnapPlane":
+        """Returns the plane mapped by a similarity T (normals and extents like displacements)."""
+        L = T[:3, :3]
+        normal = L @ self.normal
+        center = transform_points(T, np.asarray(self.center)[None])[0]
+        return SnapPlane(center, normal / np.linalg.norm(normal), L @ self.u, L @ self.v)
+
+
+@final
+@dataclass(frozen=True)
+class TemplateEnd:
+    """One end of a mechanism: what it looks like and where it meets its part."""
+
+    surfaces: tuple[Surface, ...]
+    snap: SnapPlane
+
+    @cached_property
+    def mesh(self) -> TriangleMesh:
+        """All surfaces as one mesh."""
+        return merge_meshes([s.mesh for s in self.surfaces])
+
+    def transformed(self, T: Mat4) -> "TemplateEnd":
+        """Returns the end mapped by T."""
+        return TemplateEnd(tuple(s.transformed(T) for s in self.surfaces), self.snap.transformed(T))
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HingeSize:
+    """Metres: `length` along the pin, `leaf` from the pin to the leaf's far edge, leaf `thickness`, barrel `radius`."""
+
+    length: float
+    leaf: float
+    thickness: float
+    radius: float
+
+    def scaled(self, factor: float) -> "HingeSize":
+        """Returns all four sizes times `factor`."""
+        return HingeSize(self.length * factor, self.leaf * factor, self.thickness * factor, self.radius * factor)
+
+
+@final
+@dataclass(frozen=True)
+class HingeTemplate:
+    """A hinge in its own frame, closed. `range` is the widest opening in radians, in (0, 2 pi)."""
+
+    id: str
+    mechanism: MechanismClass
+    static: TemplateEnd
+    dynamic: TemplateEnd
+    range: float
+    size: HingeSize
+
+    def __post_init__(self) -> None:
+        if not 0 < self.range < 2 * np.pi:
+            raise TemplateError(f"the range of hinge `{self.id}` must be in (0, 2 pi) radians: got {self.range}")
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class RailSize:
+    """Metres: `length` along the slide, `height`, and `thickness` from wall to drawer flank."""
+
+    length: float
+    height: float
+    thickness: float
+
+
+@final
+@dataclass(frozen=True)
+class RailTemplate:
+    """One rail of a pair in its own frame, closed. `range` is the widest travel in metres.
+
+    `support` is the plane under the drawer's bottom (n = +Z) for mounts that carry the drawer from below, else None.
+    """
+
+    id: str
+    mechanism: MechanismClass
+    static: TemplateEnd
+    dynamic: TemplateEnd
+    range: float
+    size: RailSize
+    support: SnapPlane | None = None
+
+    def __post_init__(self) -> None:
+        if not 0 < self.range <= self.size.length:
+            raise TemplateError(f"the range of rail template `{self.id}` must be in (0, its length]: got {self.range}")
+
+
+@final
+@dataclass(frozen=True)
+class HingeModel:
+    """A hinge template that can be built at any size; `natural` is its real-world size in metres."""
+
+    id: str
+    title: str
+    mechanism: MechanismClass
+    natural: HingeSize
+    build: Callable[[HingeSize], HingeTemplate]
+
+
+@final
+@dataclass(frozen=True)
+class RailModel:
+    """A rail template that can be built at any size; `natural` is its real-world size in metres."""
+
+    id: str
+    title: str
+    mechanism: MechanismClass
+    natural: RailSize
+    build: Callable[[RailSize], RailTemplate]
+
+
+@final
+@dataclass(frozen=True)
+class Gallery:
+    """All templates at hand, in order of preference within each class."""
+
+    hinges: tuple[HingeModel, ...]
+    rails: tuple[RailModel, ...]
+
+    def __post_init__(self) -> None:
+        ids = [h.id for h in self.hinges] + [r.id for r in self.rails]
+        if len(set(ids)) < len(ids):
+            raise TemplateError(f"template ids must be unique: got {sorted(i for i in ids if ids.count(i) > 1)}")
+
+    def hinges_of(self, mechanism: MechanismClass) -> tuple[HingeModel, ...]:
+        """Returns the hinges of one class, best first."""
+        return tuple(h for h in self.hinges if h.mechanism is mechanism)
+
+    def extended(self, other: "Gallery") -> "Gallery":
+        """Returns both galleries as one; the other's templates come first."""
+        return replace(self, hinges=other.hinges + self.hinges, rails=other.rails + self.rails)

@@ -1,0 +1,65 @@
+"""The closed word lists: part labels, edge kinds, joint types. It knows no geometry and no files.
+
+The labels are the paper's thirteen categories and `unknown` (paper, section Functional Graph Parsing).
+"""
+
+from enum import StrEnum
+
+
+class PartLabel(StrEnum):
+    """The category of a part, spelled as in the authors' files."""
+
+    TOP_PANEL = "top panel"
+    SIDE_PANEL = "side panel"
+    BACK_PANEL = "back panel"
+    BOTTOM_PANEL = "bottom panel"
+    FACE_FRAME = "face frame"
+    SHELF = "shelf"
+    DIVIDER = "divider"
+    BAR = "bar"
+    LEG = "leg"
+    DOOR = "door"
+    DRAWER = "drawer"
+    HANDLE = "handle"
+    MISC = "misc"
+    UNKNOWN = "unknown"
+
+    @property
+    def is_movable(self) -> bool:
+        """Whether parts of this label move on a hinge or on rails."""
+        return self in (PartLabel.DOOR, PartLabel.DRAWER)
+
+    @property
+    def is_support(self) -> bool:
+        """Whether parts of this label may carry a hinge or a rail (official rule 8)."""
+        return self not in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE)
+
+
+class EdgeKind(StrEnum):
+    """The four kinds of functional edges."""
+
+    CONTACT = "contact"
+    HINGE = "hinge"
+    RAIL = "rail"
+    ATTACHED = "attached"
+
+
+class JointType(StrEnum):
+    """How a child link moves against its parent."""
+
+    FIXED = "fixed"
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
+
+
+class MechanismClass(StrEnum):
+    """How a mechanism meets its two parts (paper, figure Hinge Configurations).
+
+    C joins two contacting faces, F two flush faces, P two perpendicular faces; rails are named by their mount.
+    """
+
+    C = "C"
+    F = "F"
+    P = "P"
+    CENTRE = "centre-mount"
+    CORNER = "corner-mount"
