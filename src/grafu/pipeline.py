@@ -1,1 +1,0 @@
-"""`functionalize`: the paper's figure as one function. It reads and writes no files."""
