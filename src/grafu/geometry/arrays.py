@@ -26,7 +26,7 @@ def frozen_array(values: Any, dtype: type = np.float64) -> Any:
     """Returns a contiguous copy of `values` that cannot be written to (or `values`, where it already is one)."""
     if isinstance(values, np.ndarray) and values.dtype == dtype and not values.flags.writeable and values.base is None:
         return values
-    array = np.array(values, dtype=dtype, order="C", copy=True)
+    array: np.ndarray = np.array(values, dtype=dtype, order="C", copy=True)
     array.setflags(write=False)
     return array
 
@@ -40,7 +40,7 @@ class ArrayValue:
     """Abstract base of frozen dataclasses with array fields: equality, hash and pickling by content."""
 
     def _content(self) -> tuple[Any, ...]:
-        return tuple(getattr(self, f.name) for f in fields(self))  # type: ignore[arg-type]
+        return tuple(getattr(self, f.name) for f in fields(self))
 
     def __eq__(self, other: object) -> bool:
         if other.__class__ is not self.__class__:
