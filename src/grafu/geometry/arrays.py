@@ -4,9 +4,8 @@ Arrays inside values are copies that cannot be written to; values compare and ha
 """
 
 from collections.abc import Callable
-from dataclasses import fields
 from hashlib import blake2b
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -39,13 +38,16 @@ def vec3(x: float, y: float, z: float) -> Vec3:
 class ArrayValue:
     """Abstract base of frozen dataclasses with array fields: equality, hash and pickling by content."""
 
+    __slots__ = ()
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
     def _content(self) -> tuple[Any, ...]:
-        return tuple(getattr(self, f.name) for f in fields(self))
+        return tuple(getattr(self, name) for name in self.__dataclass_fields__)
 
     def __eq__(self, other: object) -> bool:
         if other.__class__ is not self.__class__:
             return NotImplemented
-        pairs = zip(self._content(), other._content(), strict=True)  # type: ignore[attr-defined]
+        pairs = zip(self._content(), other._content(), strict=True)
         return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in pairs)
 
     def __hash__(self) -> int:

@@ -13,8 +13,8 @@ class JointRequest:
     """One joint to build.
 
     `axis` is an initial guess in the object frame; positive motion along or about it opens. `reference` is the
-    opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts that should
-    carry it, best first; empty leaves the choice to the geometry. `riders` move with the part (its handles).
+    opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts
+    that should carry it, best first; empty leaves the choice to the geometry. `riders` move with the part (handles).
     `source` says where the motion came from; `either_sign` lets the geometry choose the sense.
     """
 
