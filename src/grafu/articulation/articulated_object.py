@@ -155,6 +155,11 @@ class ArticulatedObject:
             yield by_id[link]
             queue += below.get(link, [])
 
+    @cached_property
+    def links_from_root(self) -> tuple[Link, ...]:
+        """All links, every parent before its children."""
+        return tuple(self._walk())
+
     def link(self, link_id: str) -> Link:
         """Returns the link with this id. Raises KeyError where there is none."""
         return self._links_by_id[link_id]

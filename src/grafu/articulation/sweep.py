@@ -1,0 +1,141 @@
+"""Which joint moves when: one joint from rest to full, and the cycle that opens and closes everything.
+
+A joint moves only while the joints named in its `after` are fully open: doors first, then the drawers behind them. It
+knows no meshes and no files.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.errors import ArticulationError
+from grafu.geometry.arrays import ArrayValue, Scalars, frozen_array
+
+JointValues = dict[str, float]
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class JointTrack(ArrayValue):
+    """The values (radians or metres) that one joint passes through at increasing `times` (seconds)."""
+
+    joint: str
+    times: Scalars
+    values: Scalars
+
+    def __post_init__(self) -> None:
+        times, values = frozen_array(self.times), frozen_array(self.values)
+        if len(times) != len(values) or not np.all(np.diff(times) > 0):
+            raise ValueError(f"`JointTrack` needs increasing times, one per value: got {len(times)} and {len(values)}")
+        object.__setattr__(self, "times", times)
+        object.__setattr__(self, "values", values)
+
+
+def opening_stages(articulated: ArticulatedObject) -> tuple[tuple[str, ...], ...]:
+    """Returns the moving joints in the order in which they may open; those of one stage open together.
+
+    Raises:
+        ArticulationError: if an `after` names a joint that is not there, or two joints wait for one another.
+    """
+    waiting = {joint.id: set(joint.after) for joint in articulated.moving_joints}
+    unknown = sorted(set().union(*waiting.values()) - set(waiting)) if waiting else []
+    if unknown:
+        raise ArticulationError(f"`after` must name moving joints of `{articulated.name}`: got {unknown}")
+    stages: list[tuple[str, ...]] = []
+    opened: set[str] = set()
+    while len(opened) < len(waiting):
+        free = tuple(joint for joint, after in waiting.items() if joint not in opened and after <= opened)
+        if not free:
+            raise ArticulationError(f"joints must not wait for one another: {sorted(set(waiting) - opened)} do")
+        stages.append(free)
+        opened.update(free)
+    return tuple(stages)
+
+
+def values_before(articulated: ArticulatedObject, joint_id: str) -> JointValues:
+    """Returns the values in which a joint may start: every joint it waits for fully open, all others at rest.
+
+    Raises:
+        ArticulationError: if the joint is not a moving joint, or the order of opening cannot be kept.
+    """
+    _moving_joint(articulated, joint_id)
+    opening_stages(articulated)
+    joints = {joint.id: joint for joint in articulated.moving_joints}
+    values = {joint.id: joint.limits.lower for joint in joints.values()}
+    queue = list(joints[joint_id].after)
+    while queue:
+        other = joints[queue.pop()]
+        values[other.id] = other.limits.upper
+        queue += other.after
+    return values
+
+
+def rest_to_full(articulated: ArticulatedObject, joint_id: str, count: int = 50) -> list[JointValues]:
+    """Returns `count` frames of all joint values in which one moving joint goes from rest to full, evenly spaced.
+
+    Joints that it waits for (`after`) are fully open throughout; all others rest. The default is the paper's number
+    of poses.
+    """
+    joint = _moving_joint(articulated, joint_id)
+    start = values_before(articulated, joint_id)
+    steps = np.linspace(joint.limits.lower, joint.limits.upper, count)
+    return [{**start, joint_id: float(value)} for value in steps]
+
+
+def all_open(articulated: ArticulatedObject) -> JointValues:
+    """Returns every moving joint at its upper limit."""
+    return {joint.id: joint.limits.upper for joint in articulated.moving_joints}
+
+
+def cycle_tracks(
+    articulated: ArticulatedObject, stage_seconds: float = 1.5, pause: float = 0.5, steps: int = 16
+) -> tuple[JointTrack, ...]:
+    """Returns one track per moving joint: closed, open in order, a pause, closed again in reverse order.
+
+    Each stage takes `stage_seconds` with a soft start and stop, sampled at `steps` + 1 keys. All tracks span the whole
+    cycle, which starts at 0 s; `pause` must be positive.
+    """
+    stages = opening_stages(articulated)
+    whole = 2 * len(stages) * stage_seconds + pause
+    joints = {joint.id: joint for joint in articulated.moving_joints}
+    tracks: list[JointTrack] = []
+    for index, stage in enumerate(stages):
+        keys = _cycle_keys(index * stage_seconds, stage_seconds, whole, steps)
+        tracks += [JointTrack(joint_id, keys[0], _scaled(joints[joint_id], keys[1])) for joint_id in stage]
+    return tuple(tracks)
+
+
+def values_at(tracks: tuple[JointTrack, ...], time: float) -> JointValues:
+    """Returns the value of each track's joint at a time in seconds, interpolated linearly."""
+    return {track.joint: float(np.interp(time, track.times, track.values)) for track in tracks}
+
+
+def cycle_frames(articulated: ArticulatedObject, count: int) -> list[Mapping[str, float]]:
+    """Returns `count` frames of all joint values, evenly spaced over the closed-open-closed cycle."""
+    tracks = cycle_tracks(articulated)
+    end = max((float(track.times[-1]) for track in tracks), default=0.0)
+    return [values_at(tracks, float(time)) for time in np.linspace(0.0, end, count)]
+
+
+def _moving_joint(articulated: ArticulatedObject, joint_id: str) -> Joint:
+    for joint in articulated.moving_joints:
+        if joint.id == joint_id:
+            return joint
+    known = [joint.id for joint in articulated.moving_joints]
+    raise ArticulationError(f"`{joint_id}` is not a moving joint of `{articulated.name}`: it has {known}")
+
+
+def _cycle_keys(start: float, seconds: float, whole: float, steps: int) -> tuple[Scalars, Scalars]:
+    """Returns key times and shares of opening: mirrored in time about the middle of the whole."""
+    ramp = np.linspace(0.0, 1.0, steps + 1)
+    times, shares = start + seconds * ramp, ramp * ramp * (3.0 - 2.0 * ramp)
+    if start > 0:
+        times, shares = np.concatenate([[0.0], times]), np.concatenate([[0.0], shares])
+    return np.concatenate([times, whole - times[::-1]]), np.concatenate([shares, shares[::-1]])
+
+
+def _scaled(joint: Joint, shares: Scalars) -> Scalars:
+    return joint.limits.lower + joint.limits.range * shares
