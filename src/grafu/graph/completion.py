@@ -1,0 +1,85 @@
+"""What a completion returns: the graph before and after, how sure each decision is, and what was refused."""
+
+from dataclasses import dataclass
+from typing import Literal, final
+
+from grafu.errors import GraphError
+from grafu.graph.functional_graph import FunctionalGraph
+
+Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slide"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """One answer about one part: the choice, its score in 0..1, and the next best choice where there is one.
+
+    `choice` and `runner_up` are words: a label, a node id, a border, sign or signed axis as its code.
+
+    Raises:
+        GraphError: if a score is not in 0..1.
+    """
+
+    part: str
+    question: Question
+    choice: str
+    score: float
+    runner_up: str = ""
+    runner_up_score: float = 0.0
+
+    def __post_init__(self) -> None:
+        for score in (self.score, self.runner_up_score):
+            if not 0.0 <= score <= 1.0:
+                raise GraphError(f"the scores of a decision must be in 0..1: got {score} for `{self.part}`")
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class RefusedMotion:
+    """A movable part that is left static, and why, in words."""
+
+    part: str
+    why: str
+
+
+@final
+@dataclass(frozen=True)
+class GraphCompletion:
+    """A completed graph and how it came about.
+
+    `source` names what completed it (rule, network). No door and no drawer of the completed graph is left without a
+    motion in silence: each has its edge or stands in `refused`.
+
+    Raises:
+        GraphError: if a node of the input is missing, `added` is not exactly what is new, a decision or refusal names
+            no node, or a movable part is neither moved nor refused.
+    """
+
+    input: FunctionalGraph
+    completed: FunctionalGraph
+    source: str
+    added: tuple[str, ...] = ()
+    decisions: tuple[Decision, ...] = ()
+    refused: tuple[RefusedMotion, ...] = ()
+
+    def __post_init__(self) -> None:
+        before, after = {n.id for n in self.input.nodes}, {n.id for n in self.completed.nodes}
+        if not before <= after:
+            raise GraphError(f"a completion must keep every node of its input: it lost {sorted(before - after)}")
+        if set(self.added) != after - before:
+            raise GraphError(f"`added` must be the new nodes {sorted(after - before)}: got {sorted(self.added)}")
+        named = {d.part for d in self.decisions} | {r.part for r in self.refused}
+        if not named <= after:
+            raise GraphError(f"decisions and refusals must name nodes: there is no {sorted(named - after)}")
+        silent = self._silent_parts()
+        if silent:
+            raise GraphError(f"every door and drawer needs its motion or a refusal: {silent} have neither")
+
+    def _silent_parts(self) -> list[str]:
+        answered = {h.child for h in self.completed.hinges} | {r.child for r in self.completed.rails}
+        answered |= {r.part for r in self.refused}
+        return [n.id for n in self.completed.nodes if n.label.is_movable and n.id not in answered]
+
+    def decision(self, part: str, question: Question) -> Decision | None:
+        """Returns the decision on this question about this part, or None where none was taken."""
+        return next((d for d in self.decisions if d.part == part and d.question == question), None)

@@ -1,0 +1,184 @@
+"""The functional graph: parts as nodes, four kinds of edges, and every invariant checked when it is made.
+
+The paper's three attributes of a node are its label, its box and its points. The graph knows no meshes.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import assert_never, final
+
+import numpy as np
+
+from grafu.errors import GraphError
+from grafu.geometry.box import Box
+from grafu.geometry.sampling import PointCloud
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.vocabulary import PartLabel
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PartNode:
+    """One part: `box` and `points` in the object frame, metres; `source_name` is the input's own word for it."""
+
+    id: str
+    label: PartLabel
+    box: Box
+    points: PointCloud | None = None
+    source_name: str = ""
+
+
+@final
+@dataclass(frozen=True)
+class FunctionalGraph:
+    """Nodes in a fixed order (the network's slots) and edges without doubles.
+
+    An unknown label may stand for any part, so that a graph whose labels are masked keeps its edges.
+
+    Raises:
+        GraphError: if ids repeat or are empty, an edge dangles, joins a part to itself or doubles another, an edge
+            breaks the type system (official.md 6, rule 8), a handle has two parents, or two edges of one moving part
+            state different motions.
+    """
+
+    model_id: str
+    nodes: tuple[PartNode, ...]
+    edges: tuple[Edge, ...] = ()
+
+    def __post_init__(self) -> None:
+        _require_unique_ids(self.nodes)
+        _require_simple_edges(self.edges, self._by_id)
+        for edge in self.edges:
+            _require_types(edge, self._by_id)
+        _require_one_parent(self.edges)
+        _require_one_motion(self.edges)
+
+    @cached_property
+    def _by_id(self) -> dict[str, PartNode]:
+        return {node.id: node for node in self.nodes}
+
+    def node(self, node_id: str) -> PartNode:
+        """Returns the node with this id.
+
+        Raises:
+            GraphError: if there is none.
+        """
+        if node_id not in self._by_id:
+            raise GraphError(f"graph `{self.model_id}` has no node `{node_id}`: its nodes are {list(self._by_id)[:12]}")
+        return self._by_id[node_id]
+
+    def __contains__(self, node_id: str) -> bool:
+        return node_id in self._by_id
+
+    def labelled(self, *labels: PartLabel) -> tuple[PartNode, ...]:
+        """Returns the nodes that carry one of these labels, in order."""
+        return tuple(node for node in self.nodes if node.label in labels)
+
+    @cached_property
+    def box(self) -> Box:
+        """The box around all nodes; a graph without nodes has an empty box at the origin."""
+        if not self.nodes:
+            return Box(np.zeros(3), np.zeros(3))
+        lows, highs = [n.box.low for n in self.nodes], [n.box.high for n in self.nodes]
+        return Box(np.min(lows, axis=0), np.max(highs, axis=0))
+
+    @cached_property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contact edges, in order."""
+        return tuple(e for e in self.edges if isinstance(e, Contact))
+
+    @cached_property
+    def attachments(self) -> tuple[Attached, ...]:
+        """The attached edges, in order."""
+        return tuple(e for e in self.edges if isinstance(e, Attached))
+
+    @cached_property
+    def hinges(self) -> tuple[Hinge, ...]:
+        """The hinge edges, in order."""
+        return tuple(e for e in self.edges if isinstance(e, Hinge))
+
+    @cached_property
+    def rails(self) -> tuple[Rail, ...]:
+        """The rail edges, in order."""
+        return tuple(e for e in self.edges if isinstance(e, Rail))
+
+    @cached_property
+    def neighbours(self) -> dict[str, tuple[str, ...]]:
+        """For each id, the ids that an edge of any kind joins it to, in edge order."""
+        found: dict[str, list[str]] = {node.id: [] for node in self.nodes}
+        for edge in self.edges:
+            a, b = ends_of(edge)
+            found[a].append(b)
+            found[b].append(a)
+        return {node_id: tuple(ids) for node_id, ids in found.items()}
+
+
+def is_allowed(edge: Edge, parent: PartLabel, child: PartLabel) -> bool:
+    """Whether the type system allows this edge between these labels; for a contact, any two."""
+    unknown = PartLabel.UNKNOWN
+    match edge:
+        case Contact():
+            return True
+        case Hinge():
+            return child in (PartLabel.DOOR, unknown) and parent.is_support
+        case Rail():
+            return child in (PartLabel.DRAWER, unknown) and parent.is_support
+        case Attached():
+            return child in (PartLabel.HANDLE, unknown) and (parent.is_movable or parent is unknown)
+        case _:
+            assert_never(edge)
+
+
+def _require_unique_ids(nodes: tuple[PartNode, ...]) -> None:
+    seen: set[str] = set()
+    for node in nodes:
+        if not node.id:
+            raise GraphError("node ids must not be empty: give every part a name")
+        if node.id in seen:
+            raise GraphError(f"node ids must be unique: got `{node.id}` more than once")
+        seen.add(node.id)
+
+
+def _require_simple_edges(edges: Iterable[Edge], known: dict[str, PartNode]) -> None:
+    seen: set[frozenset[str]] = set()
+    for edge in edges:
+        ends = ends_of(edge)
+        for end in ends:
+            if end not in known:
+                raise GraphError(f"both ends of an edge must be nodes: got {edge}, there is no node `{end}`")
+        if ends[0] == ends[1]:
+            raise GraphError(f"an edge must join two parts: got {edge}")
+        if frozenset(ends) in seen:
+            raise GraphError(f"two parts must share at most one edge: got a second one, {edge}")
+        seen.add(frozenset(ends))
+
+
+def _require_types(edge: Edge, known: dict[str, PartNode]) -> None:
+    parent, child = (known[end].label for end in ends_of(edge))
+    if not is_allowed(edge, parent, child):
+        rules = "a hinge joins support and door, a rail support and drawer, attached a door or drawer and its handle"
+        raise GraphError(f"{rules}: got {kind_of(edge)} from {parent} to {child}, {edge}")
+
+
+def _require_one_parent(edges: Iterable[Edge]) -> None:
+    seen: set[str] = set()
+    for edge in edges:
+        if isinstance(edge, Attached):
+            if edge.child in seen:
+                raise GraphError(f"a handle must be attached to one part: got a second parent in {edge}")
+            seen.add(edge.child)
+
+
+def _require_one_motion(edges: Iterable[Edge]) -> None:
+    stated: dict[str, set[tuple[str, int, int]]] = defaultdict(set)
+    for edge in edges:
+        if isinstance(edge, Hinge):
+            stated[edge.child].add(("hinge", edge.border, edge.sign))
+        elif isinstance(edge, Rail):
+            stated[edge.child].add(("rail", edge.axis, 0))
+        if isinstance(edge, Hinge | Rail) and len(stated[edge.child]) > 1:
+            raise GraphError(
+                f"all edges of a moving part must state one motion: `{edge.child}` has {stated[edge.child]}"
+            )

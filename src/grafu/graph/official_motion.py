@@ -1,0 +1,64 @@
+"""The authors' motion keys on an edge and our codes, both ways (official.md 2.5 and 3). It reads no files."""
+
+from dataclasses import dataclass
+from typing import Any, cast, final
+
+from grafu.geometry.box import Box
+from grafu.graph.edges import AxisSign, Edge, Hinge, HingeBorder, Rail, SignedAxis
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.json_values import Json, read_code
+from grafu.graph.motion import border_to_face, border_to_signed_axis, face_to_border
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HingeCodes:
+    """Border and sign of a hinge."""
+
+    border: HingeBorder
+    sign: AxisSign
+
+
+def motion_fields(edge: Edge, graph: FunctionalGraph) -> dict[str, int]:
+    """Returns the authors' motion keys of an edge: none for contact and attached."""
+    if isinstance(edge, Rail):
+        return {"rail_axis_signed": edge.axis}
+    if not isinstance(edge, Hinge):
+        return {}
+    thin = graph.node(edge.child).box.thin_axis
+    return {
+        "hinge_border_4": edge.border,
+        "hinge_axis_sign": edge.sign,
+        "hinge_border": border_to_face(thin, edge.border),
+        "hinge_axis_signed": border_to_signed_axis(thin, edge.border, edge.sign),
+    }
+
+
+def read_hinge(data: Json, door: Box, door_end: str) -> HingeCodes | None:
+    """Returns the hinge that an edge states, in the newest of the three label versions that it has, or None.
+
+    `door_end` is `src` or `dst`: the end of the edge that the door is.
+    """
+    border, sign = read_code(data, "hinge_border_4", 4), read_code(data, "hinge_axis_sign", 2)
+    if border is not None and sign is not None:
+        return HingeCodes(cast(HingeBorder, border), cast(AxisSign, sign))
+    face, axis = read_code(data, "hinge_border", 6), read_code(data, "hinge_axis_signed", 6)
+    if face is None or axis is None:
+        face, axis = read_code(data, f"hinge_face_{door_end}", 6), _second_version_axis(data)
+    return _codes_of(face, axis, door.thin_axis)
+
+
+def read_rail(data: Json) -> SignedAxis | None:
+    """Returns the slide that an edge states, or None; the older unsigned `rail_axis` does not say which way opens."""
+    return cast(SignedAxis | None, read_code(data, "rail_axis_signed", 6))
+
+
+def _second_version_axis(data: Json) -> int | None:
+    axis, direction = read_code(data, "hinge_axis", 3), read_code(data, "hinge_direction", 2)
+    return None if axis is None or direction is None else 2 * axis + (1 - direction)
+
+
+def _codes_of(face: Any, axis: int | None, thin: int) -> HingeCodes | None:
+    if face is None or axis is None or face // 2 == thin or axis // 2 in (thin, face // 2):
+        return None
+    return HingeCodes(face_to_border(thin, face), cast(AxisSign, axis % 2))

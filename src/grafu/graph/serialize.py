@@ -1,0 +1,197 @@
+"""Our own graph JSON, `grafu.graph/1`, in and out; a round trip is exact. It knows no files: text and dicts only.
+
+The form is a superset of the authors' (official.md 2), so that their tools read it too:
+
+    schema    "grafu.graph/1"
+    model_id  the model's name
+    nodes     {id: node} in slot order
+      id, type, material, obb   as the authors' (`type` is "part"; `material` their word; quaternion always identity)
+      label                     one of the fourteen labels
+      box                       {low, high}: exact, metres, object frame
+      source_name               the input's own word
+      points                    [[x, y, z], ...], only where the node has points
+    edges     [edge]
+      src, dst, kind, connector as the authors'; src is the parent, dst the child of a directed edge
+      hinge: hinge_border_4, hinge_axis_sign, hinge_border, hinge_axis_signed; rail: rail_axis_signed
+    completion   only in a completed graph
+      source, added [id], decisions [{part, question, choice, score, runner_up, runner_up_score}],
+      refused [{part, why}], input {a graph of the same form}
+
+Readers ignore keys that they do not know, and refuse another schema.
+"""
+
+import json
+from dataclasses import asdict
+from typing import Any, assert_never, get_args
+
+import numpy as np
+
+from grafu.errors import GraphError
+from grafu.geometry.box import Box
+from grafu.geometry.sampling import PointCloud
+from grafu.graph.completion import Decision, GraphCompletion, Question, RefusedMotion
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.json_values import Json, read_code, read_list, read_object, read_score, read_text, read_vector
+from grafu.graph.official_labels import node_to_material
+from grafu.graph.official_motion import motion_fields
+from grafu.vocabulary import EdgeKind, PartLabel
+
+SCHEMA = "grafu.graph/1"
+
+
+def graph_to_json(graph: FunctionalGraph) -> dict[str, Any]:
+    """Returns the graph as a JSON-ready dict."""
+    return {
+        "schema": SCHEMA,
+        "model_id": graph.model_id,
+        "nodes": {node.id: _node_to_json(node) for node in graph.nodes},
+        "edges": [_edge_to_json(edge, graph) for edge in graph.edges],
+    }
+
+
+def completion_to_json(completion: GraphCompletion) -> dict[str, Any]:
+    """Returns the completed graph as a JSON-ready dict, with what was added, decided and refused."""
+    return graph_to_json(completion.completed) | {
+        "completion": {
+            "source": completion.source,
+            "added": list(completion.added),
+            "decisions": [asdict(d) for d in completion.decisions],
+            "refused": [asdict(r) for r in completion.refused],
+            "input": graph_to_json(completion.input),
+        }
+    }
+
+
+def dump_json(data: Json) -> str:
+    """Returns the text of a graph's or completion's dict; numbers keep every digit."""
+    return json.dumps(data, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def load_json(text: str) -> Json:
+    """Returns the JSON object in a text.
+
+    Raises:
+        GraphError: if the text is not JSON or not an object.
+    """
+    try:
+        return read_object(json.loads(text), "a graph file")
+    except json.JSONDecodeError as error:
+        raise GraphError(f"a graph file must be JSON: {error.msg} in line {error.lineno}") from error
+
+
+def graph_from_json(data: Json) -> FunctionalGraph:
+    """Returns the graph in a dict of our form (the completed one, where it was completed).
+
+    Raises:
+        GraphError: if the schema is another, a value is missing or wrong, or the graph breaks an invariant.
+    """
+    if data.get("schema") != SCHEMA:
+        raise GraphError(f"a graph must have the schema `{SCHEMA}`: got {data.get('schema')!r}")
+    nodes = read_object(data.get("nodes"), "`nodes`")
+    edges = read_list(data, "edges", "the graph")
+    return FunctionalGraph(
+        read_text(data, "model_id", "the graph"),
+        tuple(_node_from_json(node_id, node) for node_id, node in nodes.items()),
+        tuple(_edge_from_json(read_object(edge, "an edge")) for edge in edges),
+    )
+
+
+def completion_from_json(data: Json) -> GraphCompletion:
+    """Returns the completion in a dict of our form.
+
+    Raises:
+        GraphError: if there is none, or something in it is wrong.
+    """
+    extra = read_object(data.get("completion"), "`completion`")
+    return GraphCompletion(
+        graph_from_json(read_object(extra.get("input"), "`completion.input`")),
+        graph_from_json(data),
+        read_text(extra, "source", "`completion`"),
+        tuple(str(i) for i in read_list(extra, "added", "`completion`")),
+        tuple(_decision_from_json(read_object(d, "a decision")) for d in read_list(extra, "decisions", "`completion`")),
+        tuple(_refusal_from_json(read_object(r, "a refusal")) for r in read_list(extra, "refused", "`completion`")),
+    )
+
+
+def box_to_obb(box: Box) -> dict[str, list[float]]:
+    """Returns a box in the authors' form: centre, half sizes, identity quaternion (wxyz)."""
+    return {"center": box.center.tolist(), "half": box.half.tolist(), "quat": [1.0, 0.0, 0.0, 0.0]}
+
+
+def _node_to_json(node: PartNode) -> dict[str, Any]:
+    points = {} if node.points is None else {"points": node.points.points.tolist()}
+    return {
+        "id": node.id,
+        "type": "part",
+        "material": node_to_material(node),
+        "obb": box_to_obb(node.box),
+        "label": node.label.value,
+        "box": {"low": node.box.low.tolist(), "high": node.box.high.tolist()},
+        "source_name": node.source_name,
+    } | points
+
+
+def _edge_to_json(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
+    src, dst = ends_of(edge)
+    return {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None} | motion_fields(edge, graph)
+
+
+def _node_from_json(node_id: str, data: Any) -> PartNode:
+    where = f"node `{node_id}`"
+    node = read_object(data, where)
+    box = read_object(node.get("box"), f"`box` of {where}")
+    low, high = (read_vector(box, key, f"the box of {where}", (3,)) for key in ("low", "high"))
+    if np.any(high < low):
+        raise GraphError(f"the box of {where} must have `high` at least `low`: got {low}, {high}")
+    points = PointCloud(read_vector(node, "points", where, (-1, 3))) if node.get("points") else None
+    label = read_text(node, "label", where)
+    if label not in tuple(PartLabel):
+        raise GraphError(f"the label of {where} must be one of {[x.value for x in PartLabel]}: got `{label}`")
+    return PartNode(node_id, PartLabel(label), Box(low, high), points, read_text(node, "source_name", where, ""))
+
+
+def _edge_from_json(data: Json) -> Edge:
+    src, dst = read_text(data, "src", "an edge"), read_text(data, "dst", "an edge")
+    kind = read_text(data, "kind", "an edge")
+    if kind not in tuple(EdgeKind):
+        raise GraphError(f"the kind of an edge must be one of {[x.value for x in EdgeKind]}: got `{kind}`")
+    match EdgeKind(kind):
+        case EdgeKind.CONTACT:
+            return Contact(src, dst)
+        case EdgeKind.ATTACHED:
+            return Attached(src, dst)
+        case EdgeKind.HINGE:
+            border, sign = _code(data, "hinge_border_4", 4), _code(data, "hinge_axis_sign", 2)
+            return Hinge(src, dst, border, sign)
+        case EdgeKind.RAIL:
+            return Rail(src, dst, _code(data, "rail_axis_signed", 6))
+        case other:
+            assert_never(other)
+
+
+def _code(data: Json, key: str, count: int) -> Any:
+    value = read_code(data, key, count)
+    if value is None:
+        raise GraphError(
+            f"a {data['kind']} edge must state `{key}` 0..{count - 1}: {data['src']}-{data['dst']} has none"
+        )
+    return value
+
+
+def _decision_from_json(data: Json) -> Decision:
+    question = read_text(data, "question", "a decision")
+    if question not in get_args(Question):
+        raise GraphError(f"`question` of a decision must be one of {get_args(Question)}: got `{question}`")
+    return Decision(
+        read_text(data, "part", "a decision"),
+        question,  # type: ignore[arg-type]
+        read_text(data, "choice", "a decision"),
+        read_score(data, "score", "a decision"),
+        read_text(data, "runner_up", "a decision", ""),
+        read_score(data, "runner_up_score", "a decision"),
+    )
+
+
+def _refusal_from_json(data: Json) -> RefusedMotion:
+    return RefusedMotion(read_text(data, "part", "a refusal"), read_text(data, "why", "a refusal"))
