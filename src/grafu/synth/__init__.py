@@ -1,1 +1,1 @@
-"""Furniture made by rules, for samples, tests and training."""
+"""Made furniture: parametric models with ground truth, for samples, tests and training. It touches no files."""

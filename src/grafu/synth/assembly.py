@@ -1,0 +1,83 @@
+"""Pieces of made furniture, and the asset that they make up: names, riders, ground-truth joints, the centred frame."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+from grafu.asset.edit import centred
+from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.axis import Axis
+from grafu.vocabulary import JointType, PartLabel
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """How a piece truly moves: positive opens, from 0 to `upper` (radians or metres)."""
+
+    type: JointType
+    axis: Axis
+    upper: float
+
+    def transformed(self, T: Mat4) -> "Motion":
+        """Returns the motion mapped by a rigid T."""
+        return replace(self, axis=self.axis.transformed(T, rotational=self.type is JointType.REVOLUTE))
+
+
+@final
+@dataclass(frozen=True)
+class Piece:
+    """A part to be: `stem` becomes its name, numbered where it repeats; `riders` move with it."""
+
+    label: PartLabel
+    stem: str
+    surfaces: tuple[Surface, ...]
+    motion: Motion | None = None
+    riders: tuple["Piece", ...] = ()  # riders carry no riders of their own
+
+    def transformed(self, T: Mat4) -> "Piece":
+        """Returns the piece, its motion and its riders mapped by a rigid T."""
+        return replace(
+            self,
+            surfaces=tuple(surface.transformed(T) for surface in self.surfaces),
+            motion=self.motion.transformed(T) if self.motion else None,
+            riders=tuple(rider.transformed(T) for rider in self.riders),
+        )
+
+
+def assemble(name: str, pieces: Sequence[Piece]) -> Asset:
+    """Returns the asset of all pieces, centred in x and y and standing on z = 0, with its true joints."""
+    entries = list(_with_carriers(pieces))
+    ids = _numbered([piece.stem for piece, _ in entries])
+    parts = tuple(
+        Part(i, piece.label, piece.surfaces, PartSource(i), "annotation", None if carrier is None else ids[carrier])
+        for i, (piece, carrier) in zip(ids, entries, strict=True)
+    )
+    joints = tuple(
+        AnnotatedJoint(i, piece.motion.type, piece.motion.axis, 0.0, piece.motion.upper)
+        for i, (piece, _) in zip(ids, entries, strict=True)
+        if piece.motion
+    )
+    return centred(Asset(name, "", "made", parts, joints=joints))
+
+
+def _with_carriers(pieces: Sequence[Piece]) -> Iterator[tuple[Piece, int | None]]:
+    position = 0
+    for piece in pieces:
+        yield piece, None
+        for rider in piece.riders:
+            yield rider, position
+        position += 1 + len(piece.riders)
+
+
+def _numbered(stems: Sequence[str]) -> list[str]:
+    """Returns unique ids: a stem that occurs once stays as it is, others get _1, _2, ..."""
+    total, seen = Counter(stems), Counter[str]()
+    ids = []
+    for stem in stems:
+        seen[stem] += 1
+        ids.append(stem if total[stem] == 1 else f"{stem}_{seen[stem]}")
+    return ids

@@ -1,0 +1,105 @@
+"""The solids that made furniture consists of: boards, chamfered and bowed boards, turned rods. No materials here.
+
+Every mesh is closed with its faces outward. Boards that stand in a front face -Y. Lengths are metres.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+
+Rings = Float[np.ndarray, "k n 3"]
+
+
+def board(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:
+    """Returns the box between two corners."""
+    return TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))
+
+
+def loft(rings: Rings) -> TriangleMesh:
+    """Returns the solid through convex rings of equally many points, both ends capped.
+
+    Each ring runs counter-clockwise about the direction in which the rings follow each other.
+    """
+    count, n = rings.shape[:2]
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(count - 1), np.arange(n), indexing="ij"))
+    a, b = i * n + j, i * n + (j + 1) % n
+    fan = np.arange(1, n - 1)
+    hub = np.zeros_like(fan)
+    last = (count - 1) * n
+    faces = [
+        np.column_stack([a, b, b + n]),
+        np.column_stack([a, b + n, a + n]),
+        np.column_stack([hub, fan + 1, fan]),
+        np.column_stack([hub, fan, fan + 1]) + last,
+    ]
+    return TriangleMesh(rings.reshape(-1, 3), np.vstack(faces))
+
+
+def turned(start: Vec3, end: Vec3, profile: Sequence[tuple[float, float]], sides: int = 12) -> TriangleMesh:
+    """Returns a turned solid from `start` to `end`; `profile` lists (share of the way, radius), radii above 0."""
+    direction = (end - start) / np.linalg.norm(end - start)
+    across = np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))])
+    across /= np.linalg.norm(across)
+    angles = 2 * np.pi * (np.arange(sides) + 0.5) / sides
+    circle = np.outer(np.cos(angles), across) + np.outer(np.sin(angles), np.cross(direction, across))
+    return loft(np.stack([start + share * (end - start) + radius * circle for share, radius in profile]))
+
+
+def rod(start: Vec3, end: Vec3, radius: float, sides: int = 12) -> TriangleMesh:
+    """Returns a round rod."""
+    return turned(start, end, ((0.0, radius), (1.0, radius)), sides)
+
+
+def chamfered_board(box: Box, chamfer: float) -> TriangleMesh:
+    """Returns a board that faces -Y, its four front edges cut at 45 degrees."""
+    rings = [_front_ring(box, box.high[1], 0.0), _front_ring(box, box.low[1] + chamfer, 0.0)]
+    return loft(np.stack([*rings, _front_ring(box, box.low[1], chamfer)]))
+
+
+def rounded_board(box: Box, radius: float, steps: int = 4) -> TriangleMesh:
+    """Returns a board that faces -Y, its four front edges rounded."""
+    angles = np.linspace(0.0, np.pi / 2, steps + 1)
+    rings = [_front_ring(box, box.high[1], 0.0)]
+    for angle in angles:
+        y, inset = box.low[1] + radius * (1 - np.sin(angle)), radius * (1 - np.cos(angle))
+        rings.append(_front_ring(box, float(y), float(inset)))
+    return loft(np.stack(rings))
+
+
+def bowed_board(box: Box, bow: float, steps: int = 12) -> TriangleMesh:
+    """Returns a board whose middle bulges towards -Y by `bow`; its left and right edges lie in the box."""
+    shares = np.linspace(0.0, 1.0, steps + 1)
+    (_, y0, z0), (_, y1, z1) = box.low, box.high
+    rings = []
+    for share in shares:
+        x, shift = box.low[0] + share * box.size[0], -bow * (1 - (2 * share - 1) ** 2)
+        rings.append([(x, y0 + shift, z0), (x, y1 + shift, z0), (x, y1 + shift, z1), (x, y0 + shift, z1)])
+    return loft(np.array(rings))
+
+
+def prism(outline: Sequence[tuple[float, float]], low: float, high: float) -> TriangleMesh:
+    """Returns the upright prism over a convex outline in XY, given counter-clockwise."""
+    flat = np.array(outline, dtype=np.float64)
+    return loft(np.stack([np.column_stack([flat, np.full(len(flat), z)]) for z in (low, high)]))
+
+
+def framed_opening(box: Box, width: float) -> tuple[TriangleMesh, ...]:
+    """Returns four boards, two stiles and two rails between them, around a board that faces -Y."""
+    (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
+    return (
+        board((x0, y0, z0), (x0 + width, y1, z1)),
+        board((x1 - width, y0, z0), (x1, y1, z1)),
+        board((x0 + width, y0, z0), (x1 - width, y1, z0 + width)),
+        board((x0 + width, y0, z1 - width), (x1 - width, y1, z1)),
+    )
+
+
+def _front_ring(box: Box, y: float, inset: float) -> Float[np.ndarray, "4 3"]:
+    x0, z0 = box.low[0] + inset, box.low[2] + inset
+    x1, z1 = box.high[0] - inset, box.high[2] - inset
+    return np.array([(x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1)])
