@@ -1,0 +1,135 @@
+"""Closed solids that mechanisms are made of: plates, profiles, turned pieces. It knows no hinge and no rail.
+
+Every solid is closed and faces outward. Plates are drawn in two coordinates (s, t) and grow along a third, d; `placed`
+maps (s, t, d) to the template's axes.
+"""
+
+from collections.abc import Sequence
+
+import mapbox_earcut
+import numpy as np
+from jaxtyping import Float
+from shapely.geometry import MultiPolygon, Polygon, box
+from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import orient
+
+from grafu.geometry.arrays import Mat3, Mat4, Vec3
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.transform import from_rotation
+
+Outline = Polygon
+Rows = Float[np.ndarray, "n 2"]
+
+
+def extrude(shape: BaseGeometry, near: float, far: float) -> TriangleMesh:
+    """Returns the prism over a plane shape, coordinates (s, t, d) with d from `near` to `far`, near < far."""
+    return merge_meshes([_extrude_polygon(polygon, near, far) for polygon in polygons_of(shape)])
+
+
+def polygons_of(shape: BaseGeometry) -> list[Polygon]:
+    """Returns the polygons of a plane shape, without slivers."""
+    if isinstance(shape, Polygon):
+        parts = [shape]
+    elif isinstance(shape, MultiPolygon):
+        parts = list(shape.geoms)
+    else:
+        parts = [g for g in getattr(shape, "geoms", []) if isinstance(g, Polygon)]
+    # A triangulation skips points on straight lines, and the walls would then not match the caps.
+    clean = [p.simplify(1e-9) for p in parts if p.area > 1e-12]
+    return [orient(p) for p in clean]
+
+
+def _extrude_polygon(polygon: Polygon, near: float, far: float) -> TriangleMesh:
+    rings = [np.asarray(ring.coords)[:-1, :2] for ring in (polygon.exterior, *polygon.interiors)]
+    flat = np.vstack(rings)
+    count = len(flat)
+    ends = np.cumsum([len(ring) for ring in rings])
+    cap = _facing_up(flat, mapbox_earcut.triangulate_float64(flat, ends.astype(np.uint32)).reshape(-1, 3))
+    index = np.arange(count)
+    follow = index + 1
+    follow[ends - 1] = np.concatenate([[0], ends[:-1]])
+    walls = np.vstack([np.c_[index, follow, follow + count], np.c_[index, follow + count, index + count]])
+    vertices = np.vstack([np.c_[flat, np.full(count, near)], np.c_[flat, np.full(count, far)]])
+    return TriangleMesh(vertices, np.vstack([cap[:, ::-1], cap + count, walls]).astype(np.int64))
+
+
+def _facing_up(flat: Rows, faces: np.ndarray) -> np.ndarray:
+    faces = faces.astype(np.int64)
+    a, b, c = flat[faces[:, 0]], flat[faces[:, 1]], flat[faces[:, 2]]
+    cross = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    return np.where((cross < 0)[:, None], faces[:, ::-1], faces)
+
+
+def turned(profile: Sequence[tuple[float, float]], segments: int = 16) -> TriangleMesh:
+    """Returns the solid of revolution about Z of a closed profile of (radius, z) points, in either order.
+
+    Points at radius 0 become one vertex each, so a profile may start and end on the axis.
+    """
+    rows = np.array(profile, dtype=np.float64)
+    if _signed_area(rows) < 0:
+        rows = rows[::-1]
+    angles = np.arange(segments) * (2 * np.pi / segments)
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    on_axis = rows[:, 0] < 1e-12
+    sizes = np.where(on_axis, 1, segments)
+    starts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    vertices = [
+        np.array([[0.0, 0.0, z]]) if r < 1e-12 else np.c_[ring * r, np.full(segments, z)] for r, z in rows.tolist()
+    ]
+    faces = [_band(starts[k], starts[(k + 1) % len(rows)], on_axis, k, segments) for k in range(len(rows))]
+    return TriangleMesh(np.vstack(vertices), np.vstack(faces).astype(np.int64))
+
+
+def _band(start: int, end: int, on_axis: np.ndarray, k: int, segments: int) -> np.ndarray:
+    """Returns the faces between profile point k and the next one (none where both lie on the axis)."""
+    index = np.arange(segments)
+    follow = (index + 1) % segments
+    first, last = bool(on_axis[k]), bool(on_axis[(k + 1) % len(on_axis)])
+    a = np.full(segments, start) if first else start + index
+    b = np.full(segments, start) if first else start + follow
+    c = np.full(segments, end) if last else end + index
+    d = np.full(segments, end) if last else end + follow
+    faces = np.zeros((0, 3), np.int64)
+    if not first:
+        faces = np.vstack([faces, np.c_[a, b, d]])
+    if not last:
+        faces = np.vstack([faces, np.c_[a, d, c]])
+    return faces
+
+
+def _signed_area(rows: Rows) -> float:
+    x, y = rows[:, 0], rows[:, 1]
+    return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y) / 2)
+
+
+def tube(inner: float, outer: float, low: float, high: float, segments: int = 12, chamfer: float = 0.0) -> TriangleMesh:
+    """Returns a tube about Z between two radii (`inner` 0: a full cylinder); `chamfer` cuts its outer edges."""
+    edge = min(chamfer, 0.4 * (outer - inner), 0.2 * (high - low))
+    if edge <= 0:
+        return turned([(inner, low), (outer, low), (outer, high), (inner, high)], segments)
+    profile = [(inner, low), (outer - edge, low), (outer, low + edge)]
+    profile += [(outer, high - edge), (outer - edge, high), (inner, high)]
+    return turned(profile, segments)
+
+
+def disc(center: tuple[float, float], radius: float, segments: int = 10) -> Polygon:
+    """Returns a regular polygon around a centre as a plane shape."""
+    angles = np.arange(segments) * (2 * np.pi / segments)
+    return Polygon(np.c_[center[0] + radius * np.cos(angles), center[1] + radius * np.sin(angles)])
+
+
+def rectangle(s: tuple[float, float], t: tuple[float, float], chamfer: float = 0.0) -> Polygon:
+    """Returns a rectangle over two intervals; `chamfer` cuts its corners."""
+    (s0, s1), (t0, t1) = s, t
+    c = min(chamfer, 0.45 * (s1 - s0), 0.45 * (t1 - t0))
+    if c <= 0:
+        return box(s0, t0, s1, t1)
+    corners = [(s0 + c, t0), (s1 - c, t0), (s1, t0 + c), (s1, t1 - c)]
+    return Polygon([*corners, (s1 - c, t1), (s0 + c, t1), (s0, t1 - c), (s0, t0 + c)])
+
+
+def placed(mesh: TriangleMesh, s: Vec3, t: Vec3, d: Vec3) -> TriangleMesh:
+    """Returns a solid drawn in (s, t, d) with these coordinates laid along three given directions."""
+    R: Mat3 = np.stack([s, t, d], axis=1)
+    T: Mat4 = from_rotation(R)
+    return mesh.transformed(T)
