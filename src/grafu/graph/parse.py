@@ -71,7 +71,7 @@ def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
     return sorted((int(i), int(j)) for i, j in found)
 
 
-def _counters(counts: Indices) -> Indices:
+def _counters(counts: Indices) -> np.ndarray:
     """Returns 0..count-1 for each count, one after the other."""
     starts = np.repeat(np.cumsum(counts) - counts, counts)
     return np.arange(len(starts)) - starts
