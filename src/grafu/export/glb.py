@@ -1,0 +1,198 @@
+"""An articulated object as one animated GLB: every part its own node, every joint a channel of one animation.
+
+Coordinates are baked to glTF's frame (Y up, front +Z). Each link has a node whose origin lies on its joint's axis; its
+parts, its hardware and the links it carries are the children. Node `extras.grafu` say what glTF cannot: the joint's
+type, axis (in the node's frame), limits and order, and each part's role and label.
+"""
+
+import json
+import struct
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.link_frames import link_origins
+from grafu.articulation.sweep import JointTrack, cycle_tracks
+from grafu.errors import ExportError
+from grafu.export.files import ExportFiles
+from grafu.export.gltf_buffer import GltfBuffer
+from grafu.export.gltf_material import GltfMaterials
+from grafu.export.gltf_mesh import mesh_of, to_y_up
+from grafu.export.names import NameBook
+from grafu.export.shading import CREASE_ANGLE
+from grafu.geometry.arrays import Vec3
+from grafu.version import __version__
+from grafu.vocabulary import JointType
+
+ANIMATION_NAME = "open_close"
+_JSON_CHUNK = 0x4E4F534A
+_BINARY_CHUNK = 0x004E4942
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class GlbConfig:
+    """How a GLB is written; times in seconds, the crease angle in radians.
+
+    `stage_seconds` is how long what opens together takes; `pause` how long all stays open.
+    """
+
+    animate: bool = True
+    stage_seconds: float = 1.5
+    pause: float = 0.5
+    crease_angle: float = CREASE_ANGLE
+
+    def __post_init__(self) -> None:
+        if self.stage_seconds <= 0 or self.pause <= 0:
+            raise ValueError(f"times must be positive seconds: got {self.stage_seconds} and {self.pause}")
+
+
+DEFAULT_GLB_CONFIG = GlbConfig()
+
+
+def export_glb(articulated: ArticulatedObject, config: GlbConfig = DEFAULT_GLB_CONFIG) -> ExportFiles:
+    """Returns `model.glb`, the same bytes for the same object.
+
+    Raises:
+        ExportError: if the file would exceed the 4 GiB of the format.
+    """
+    return ExportFiles({"model.glb": _GlbWriter(articulated, config).to_bytes()})
+
+
+@final
+class _GlbWriter:
+    """Fills the tables of one glTF file."""
+
+    def __init__(self, articulated: ArticulatedObject, config: GlbConfig) -> None:
+        self._object = articulated
+        self._config = config
+        self._origins = link_origins(articulated)
+        self._buffer = GltfBuffer()
+        self._materials = GltfMaterials(self._buffer)
+        self._names = _reserved_names(articulated)
+        self._nodes: list[dict[str, Any]] = []
+        self._meshes: list[dict[str, Any]] = []
+
+    def to_bytes(self) -> bytes:
+        link_nodes = {link.id: self._add_link(link) for link in self._object.links_from_root}
+        for link, node in link_nodes.items():
+            joint = self._object.joint_of.get(link)
+            if joint is not None:
+                self._nodes[link_nodes[joint.parent]].setdefault("children", []).append(node)
+        animation = self._animation(link_nodes) if self._config.animate else None
+        return _packed(self._tables(link_nodes[self._object.root], animation), self._buffer.to_bytes())
+
+    def _tables(self, root: int, animation: dict[str, Any] | None) -> dict[str, Any]:
+        data = self._buffer.to_bytes()
+        tables: dict[str, Any] = {
+            "asset": {"version": "2.0", "generator": f"grafu {__version__}"},
+            "scene": 0,
+            "scenes": [{"name": self._object.name, "nodes": [root]}],
+            "nodes": self._nodes,
+            "meshes": self._meshes,
+            **self._materials.tables,
+            "animations": [animation] if animation is not None else [],
+            "accessors": self._buffer.accessors,
+            "bufferViews": self._buffer.views,
+            "buffers": [{"byteLength": len(data)}] if data else [],
+        }
+        return {name: table for name, table in tables.items() if table != []}
+
+    def _add_link(self, link: Link) -> int:
+        joint = self._object.joint_of.get(link.id)
+        node: dict[str, Any] = {"name": self._names.unique(f"{link.id}_link")}
+        extras: dict[str, Any] = {"link": link.id}
+        if joint is not None:
+            node["translation"] = self._offset(joint)
+            extras["joint"] = _described_joint(joint)
+        node["extras"] = {"grafu": extras}
+        self._nodes.append(node)
+        index = len(self._nodes) - 1
+        children = [self._add_visual(visual, self._origins[link.id]) for visual in link.visuals]
+        if children:
+            node["children"] = children
+        return index
+
+    def _offset(self, joint: Joint) -> list[float]:
+        offset = self._origins[joint.child] - self._origins[joint.parent]
+        return _plain(to_y_up(offset[None])[0])
+
+    def _add_visual(self, visual: Visual, origin: Vec3) -> int:
+        mesh = mesh_of(visual, origin, (self._buffer, self._materials), self._config.crease_angle)
+        node: dict[str, Any] = {"name": visual.name}
+        if mesh["primitives"]:
+            node["mesh"] = len(self._meshes)
+            self._meshes.append(mesh)
+        node["extras"] = {"grafu": {"role": visual.role.value, "label": visual.label.value}}
+        self._nodes.append(node)
+        return len(self._nodes) - 1
+
+    def _animation(self, link_nodes: dict[str, int]) -> dict[str, Any] | None:
+        tracks = cycle_tracks(self._object, self._config.stage_seconds, self._config.pause)
+        joints = {joint.id: joint for joint in self._object.moving_joints if joint.limits.range > 0}
+        moving = [track for track in tracks if track.joint in joints]
+        if not moving:
+            return None
+        times: dict[bytes, int] = {}
+        samplers = [self._sampler(track, joints[track.joint], times) for track in moving]
+        channels = [_channel(k, joints[track.joint], link_nodes) for k, track in enumerate(moving)]
+        return {"name": ANIMATION_NAME, "channels": channels, "samplers": samplers}
+
+    def _sampler(self, track: JointTrack, joint: Joint, times: dict[bytes, int]) -> dict[str, Any]:
+        key = track.times.tobytes()
+        if key not in times:  # joints of one stage share their key times
+            times[key] = self._buffer.add_array(track.times.astype(np.float32), bounds=True)
+        axis = to_y_up(joint.axis.direction[None])[0]
+        if joint.type is JointType.REVOLUTE:
+            values = _quaternions(axis, track.values)
+        else:
+            values = np.array(self._offset(joint)) + np.outer(track.values, axis)
+        output = self._buffer.add_array(np.ascontiguousarray(values, dtype=np.float32))
+        return {"input": times[key], "output": output, "interpolation": "LINEAR"}
+
+
+def _reserved_names(articulated: ArticulatedObject) -> NameBook:
+    names = NameBook()
+    for link in articulated.links:
+        for visual in link.visuals:
+            names.unique(visual.name)
+    return names
+
+
+def _channel(sampler: int, joint: Joint, link_nodes: dict[str, int]) -> dict[str, Any]:
+    path = "rotation" if joint.type is JointType.REVOLUTE else "translation"
+    return {"sampler": sampler, "target": {"node": link_nodes[joint.child], "path": path}}
+
+
+def _described_joint(joint: Joint) -> dict[str, Any]:
+    return {
+        "id": joint.id,
+        "type": joint.type.value,
+        "axis": _plain(to_y_up(joint.axis.direction[None])[0]),
+        "lower": joint.limits.lower,
+        "upper": joint.limits.upper,
+        "after": list(joint.after),
+    }
+
+
+def _quaternions(axis: Vec3, angles: np.ndarray) -> np.ndarray:
+    """Returns rotations about `axis` in glTF's order xyzw; neighbours lie on one side, so interpolation never flips."""
+    half = angles / 2
+    return np.column_stack([np.outer(np.sin(half), axis), np.cos(half)])
+
+
+def _plain(vector: Vec3) -> list[float]:
+    return [float(v) + 0.0 for v in vector]  # + 0.0 turns -0.0 into 0.0
+
+
+def _packed(tables: dict[str, Any], binary: bytes) -> bytes:
+    text = json.dumps(tables, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), _JSON_CHUNK) + text
+    if binary:
+        chunks += struct.pack("<II", len(binary), _BINARY_CHUNK) + binary
+    if 12 + len(chunks) >= 2**32:
+        raise ExportError(f"a GLB holds at most 4 GiB: `{len(chunks)}` bytes are needed; choose another format")
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks

@@ -1,0 +1,115 @@
+"""Normals for files that need them: kept where a surface has them, else smooth up to a crease angle.
+
+It knows no file format.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, Scalars
+from grafu.geometry.mesh import TriangleMesh
+
+CREASE_ANGLE = float(np.radians(30.0))  # Blender's "shade auto smooth" default: panels stay flat, round knobs smooth
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class CornerNormals(ArrayValue):
+    """Unit normals, and for each face the normal of each of its corners."""
+
+    normals: Points
+    corners: Faces
+
+
+def corner_normals(surface: Surface, crease_angle: float = CREASE_ANGLE) -> CornerNormals:
+    """Returns the surface's own normals, or new ones that are smooth across edges bent by less than `crease_angle`.
+
+    Angles are radians. Faces meet across vertices of equal position, whether or not they share an index. A normal
+    without length is replaced by that of a face.
+    """
+    mesh = surface.mesh
+    if surface.normals is not None:
+        return CornerNormals(_mended(surface.normals, mesh), np.asarray(mesh.faces))
+    groups, corner_group = _smooth_groups(mesh, crease_angle)
+    weights = _corner_angles(mesh).ravel()
+    flat = np.repeat(mesh.face_normals, 3, axis=0) * weights[:, None]
+    summed = np.column_stack([np.bincount(corner_group, flat[:, k], groups) for k in range(3)])
+    fallback = np.zeros((groups, 3))
+    fallback[corner_group] = np.repeat(mesh.face_normals, 3, axis=0)
+    return CornerNormals(_unit(summed, fallback), corner_group.reshape(-1, 3))
+
+
+def welded(points: Points, tolerance: float = 1e-6) -> Indices:
+    """Returns for each point the number of its position; points within about `tolerance` metres share one.
+
+    Numbers run from 0 in no particular order.
+    """
+    grid = np.round(points / tolerance).astype(np.int64)
+    # one 64-bit key per position: odd multipliers of no pattern make two positions of one key practically impossible
+    key = grid @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
+    return np.unique(key, return_inverse=True)[1].reshape(-1)
+
+
+def _mended(normals: Points, mesh: TriangleMesh) -> Points:
+    fallback = np.zeros_like(normals)
+    fallback[mesh.faces.ravel()] = np.repeat(mesh.face_normals, 3, axis=0)
+    return _unit(np.nan_to_num(normals), fallback)
+
+
+def _unit(vectors: Points, fallback: Points) -> Points:
+    """Returns unit vectors; where one has no length its fallback's, and up where that has none either."""
+    result = np.where(np.linalg.norm(vectors, axis=1, keepdims=True) > 1e-9, vectors, fallback)
+    lengths = np.linalg.norm(result, axis=1, keepdims=True)
+    return np.where(lengths > 1e-12, result / np.maximum(lengths, 1e-12), [0.0, 0.0, 1.0])
+
+
+def _corner_angles(mesh: TriangleMesh) -> np.ndarray:
+    """Returns the inner angle at each corner, (faces, 3): a weight that does not depend on how faces are cut."""
+    t = mesh.triangles
+    ahead, back = np.roll(t, -1, axis=1) - t, np.roll(t, 1, axis=1) - t
+    cross = np.linalg.norm(np.cross(ahead, back), axis=2)
+    return np.arctan2(cross, np.einsum("fkd,fkd->fk", ahead, back))
+
+
+def _smooth_groups(mesh: TriangleMesh, crease_angle: float) -> tuple[int, Indices]:
+    """Returns how many groups of corners share a normal, and the group of each corner (face by face)."""
+    position = welded(mesh.vertices)[mesh.faces]
+    start, end = position.ravel(), np.roll(position, -1, axis=1).ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    order = np.argsort(low * (len(mesh.vertices) + 1) + high, kind="stable")
+    links = [_joined_corners(order, low, high, lag, mesh.face_normals, crease_angle) for lag in (1, 2, 3)]
+    a, b = (np.concatenate([link[k] for link in links]) for k in range(2))
+    # a corner belongs to one position only: the two ends of an edge are joined each with its own partner
+    first, second = _partners(a, b, start)
+    count = 3 * len(mesh.faces)
+    graph = coo_matrix((np.ones(len(first), np.int8), (first, second)), (count, count))
+    groups, group = connected_components(graph, directed=False)
+    return int(groups), group.astype(np.int64)
+
+
+def _joined_corners(
+    order: Indices, low: Indices, high: Indices, lag: int, normals: Points, crease_angle: float
+) -> tuple[Indices, Indices]:
+    """Returns pairs of half-edges on one edge, `lag` apart in `order`, whose faces bend by less than the angle.
+
+    Lags up to 3 find every pair where four faces meet in an edge, as doubled faces do.
+    """
+    a, b = order[:-lag], order[lag:]
+    same: Mask = (low[a] == low[b]) & (high[a] == high[b])
+    a, b = a[same], b[same]
+    cosine: Scalars = np.einsum("nd,nd->n", normals[a // 3], normals[b // 3])
+    smooth = cosine > np.cos(crease_angle)
+    return a[smooth], b[smooth]
+
+
+def _partners(a: Indices, b: Indices, start: Indices) -> tuple[Indices, Indices]:
+    """Returns the pairs of corners that lie at one position, for pairs of half-edges (named by their first corner)."""
+    next_a, next_b = a - a % 3 + (a + 1) % 3, b - b % 3 + (b + 1) % 3
+    opposite = start[a] != start[b]
+    first_b, last_b = np.where(opposite, next_b, b), np.where(opposite, b, next_b)
+    return np.concatenate([a, next_a]), np.concatenate([first_b, last_b])
