@@ -16,7 +16,8 @@ from grafu.vocabulary import JointType, PartLabel
 
 
 def board(*bounds: float) -> TriangleMesh:
-    return TriangleMesh.box_mesh(Box(vec3(*bounds[:3]), vec3(*bounds[3:])))
+    x0, y0, z0, x1, y1, z1 = map(float, bounds)
+    return TriangleMesh.box_mesh(Box(vec3(x0, y0, z0), vec3(x1, y1, z1)))
 
 
 def png(color: tuple[int, int, int], size: int = 4) -> bytes:
@@ -59,7 +60,9 @@ def door_link() -> Link:
         VisualRole.PART,
         PartLabel.DOOR,
     )
-    leaf = Visual("hinge_door_1_0", (surface(board(-0.305, -0.225, 0.1, -0.3, -0.2, 0.16), STEEL),), VisualRole.HARDWARE)
+    leaf = Visual(
+        "hinge_door_1_0", (surface(board(-0.305, -0.225, 0.1, -0.3, -0.2, 0.16), STEEL),), VisualRole.HARDWARE
+    )
     handle = part("handle_1", board(0.24, -0.25, 0.35, 0.26, -0.22, 0.45), STEEL, PartLabel.HANDLE)
     return Link("door_1", (glazed, handle, leaf))
 
@@ -81,7 +84,9 @@ def make_cabinet() -> ArticulatedObject:
     slide = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0))
     joints = (
         Joint("door_1_hinge", JointType.REVOLUTE, "body", "door_1", hinge, JointLimits(0.0, 1.75)),
-        Joint("drawer_1_rail", JointType.PRISMATIC, "body", "drawer_1", slide, JointLimits(0.0, 0.28), ("door_1_hinge",)),
+        Joint(
+            "drawer_1_rail", JointType.PRISMATIC, "body", "drawer_1", slide, JointLimits(0.0, 0.28), ("door_1_hinge",)
+        ),
     )
     return ArticulatedObject("cabinet", "body", (Link("body", carcass()), door_link(), drawer_link()), joints)
 

@@ -34,7 +34,8 @@ def _primitive(
         "NORMAL": buffer.add_array(_floats(to_y_up(shading.normals[normal])), VERTEX_DATA),
     }
     if surface.uv is not None:
-        flipped = np.nan_to_num(surface.uv[vertex]) * [1.0, -1.0] + [0.0, 1.0]  # glTF's origin is the top left
+        uv = np.clip(np.nan_to_num(surface.uv[vertex], posinf=0.0, neginf=0.0), -1e6, 1e6)
+        flipped = uv * [1.0, -1.0] + [0.0, 1.0]  # glTF's origin is the top left
         attributes["TEXCOORD_0"] = buffer.add_array(_floats(flipped), VERTEX_DATA)
     if surface.colors is not None:
         attributes["COLOR_0"] = buffer.add_array(np.ascontiguousarray(surface.colors[vertex]), VERTEX_DATA)

@@ -58,7 +58,7 @@ def welded(points: Points, tolerance: float = 1e-6) -> Indices:
 def _mended(normals: Points, mesh: TriangleMesh) -> Points:
     fallback = np.zeros_like(normals)
     fallback[mesh.faces.ravel()] = np.repeat(mesh.face_normals, 3, axis=0)
-    return _unit(np.nan_to_num(normals), fallback)
+    return _unit(np.nan_to_num(normals, posinf=0.0, neginf=0.0), fallback)
 
 
 def _unit(vectors: Points, fallback: Points) -> Points:
@@ -93,8 +93,8 @@ def _smooth_groups(mesh: TriangleMesh, crease_angle: float) -> tuple[int, Indice
 
 
 def _joined_corners(
-    order: Indices, low: Indices, high: Indices, lag: int, normals: Points, crease_angle: float
-) -> tuple[Indices, Indices]:
+    order: Indices, low: Indices, high: Indices, lag: int, normals: np.ndarray, crease_angle: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Returns pairs of half-edges on one edge, `lag` apart in `order`, whose faces bend by less than the angle.
 
     Lags up to 3 find every pair where four faces meet in an edge, as doubled faces do.
@@ -107,7 +107,7 @@ def _joined_corners(
     return a[smooth], b[smooth]
 
 
-def _partners(a: Indices, b: Indices, start: Indices) -> tuple[Indices, Indices]:
+def _partners(a: np.ndarray, b: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Returns the pairs of corners that lie at one position, for pairs of half-edges (named by their first corner)."""
     next_a, next_b = a - a % 3 + (a + 1) % 3, b - b % 3 + (b + 1) % 3
     opposite = start[a] != start[b]
