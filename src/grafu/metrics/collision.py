@@ -1,0 +1,95 @@
+"""Share of the poses between rest and full opening in which a moving body cuts into what stands still.
+
+The paper counts, of 50 frames from rest to full extent, those in which moving and static parts intersect, and states no
+tolerance. Touching counts there, so a door that lies flush on its carcass collides at rest: `tolerance=0` is that
+definition. With a tolerance a frame counts only where the body cuts deeper than a share of the object's largest side.
+docs/metrics.md compares the two.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.articulation.kinematics import link_poses
+from grafu.articulation.sweep import rest_to_full
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.metrics.bodies import largest_side, parts_mesh, rigid_body
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class CollisionConfig:
+    """How a collision is counted.
+
+    `tolerance` is a share of the object's largest side (0: strict). `hardware` counts hinges and rails on both sides;
+    `movers` also counts the other moving bodies, at rest or where they must be open first.
+
+    Raises:
+        ValueError: if there is no pose or the tolerance is negative.
+    """
+
+    poses: int = 50  # the paper's number
+    tolerance: float = 0.0
+    hardware: bool = False
+    movers: bool = False
+
+    def __post_init__(self) -> None:
+        if self.poses < 1 or self.tolerance < 0:
+            raise ValueError(f"a collision needs poses and a tolerance >= 0: got {self.poses}, {self.tolerance}")
+
+
+STRICT = CollisionConfig()
+# A hundredth of the largest side is what real meshes overlap at rest by carelessness, and no eye sees.
+TOLERANT = CollisionConfig(tolerance=0.01)
+
+
+def collision_shares(articulated: ArticulatedObject, config: CollisionConfig = STRICT) -> dict[str, float]:
+    """Returns for each moving joint the share (0..1) of poses in which its body collides."""
+    scene = _Scene(articulated, config)
+    return {joint.id: scene.share(joint) for joint in articulated.moving_joints}
+
+
+def mean_collision(articulated: ArticulatedObject, config: CollisionConfig = STRICT) -> float:
+    """Returns the mean share over the object's moving joints (the paper's figure per object), 0 without joints."""
+    shares = collision_shares(articulated, config)
+    return float(np.mean(list(shares.values()))) if shares else 0.0
+
+
+@final
+class _Scene:
+    """An object prepared for many queries: its static body, and the movers that count as obstacles."""
+
+    def __init__(self, articulated: ArticulatedObject, config: CollisionConfig) -> None:
+        self._articulated, self._config = articulated, config
+        self._depth = config.tolerance * largest_side(articulated)
+        movers = [joint.child for joint in articulated.moving_joints] if config.movers else []
+        meshes = {link: self._mesh(link) for link in (articulated.root, *movers)}
+        self._obstacles = {link: MeshCollider(mesh) for link, mesh in meshes.items() if len(mesh.faces)}
+
+    def share(self, joint: Joint) -> float:
+        """Returns the share of poses of one joint in which its body collides."""
+        mesh = self._mesh(joint.child)
+        if not len(mesh.faces):
+            return 0.0
+        body = MovingBody(mesh, self._depth)
+        frames = rest_to_full(self._articulated, joint.id, self._config.poses)
+        hits = [self._collides(link_poses(self._articulated, frame), joint.child, body) for frame in frames]
+        return float(np.mean(hits))
+
+    def _mesh(self, link_id: str) -> TriangleMesh:
+        links = rigid_body(self._articulated, link_id)
+        return merge_meshes([link.mesh for link in links]) if self._config.hardware else parts_mesh(links)
+
+    def _collides(self, poses: dict[str, Mat4], child: str, body: MovingBody) -> bool:
+        hit = body.penetrates if self._depth > 0 else body.touches
+        body.place(poses[child])
+        for link, obstacle in self._obstacles.items():
+            if link != child:
+                obstacle.place(poses[link])
+                if hit(obstacle):
+                    return True
+        return False
