@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import GLASS, STEEL, WOOD, png
 from glb_reader import Glb
 from gltf_validation import issues_of
+from small_cabinet import GLASS, STEEL, WOOD, png
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.sweep import cycle_tracks, values_at
