@@ -1,0 +1,117 @@
+"""Do two posed meshes intersect, how far apart are they, and is it more than a touch. It knows no parts.
+
+A BVH of triangles has no inside: a mesh that lies wholly within another does not intersect it. Furniture parts that pass
+through one another cut surfaces, which is what is asked here.
+"""
+
+from functools import cached_property
+from typing import final
+
+import fcl
+import numpy as np
+
+from grafu.geometry.arrays import Mat3, Mat4, Vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import transform_points
+
+# A mesh is never shrunk to less than this share of its side: thin hardware keeps a core.
+_CORE = 0.2
+
+
+@final
+class MeshCollider:
+    """A mesh prepared for many queries in rigid poses (a triangle BVH); not a value.
+
+    `box` is the box at rest.
+    """
+
+    def __init__(self, mesh: TriangleMesh) -> None:
+        self.box: Box = mesh.box
+        self._mesh = mesh
+        self._corners = mesh.box.corners()
+        self._posed_box = mesh.box
+
+    @cached_property
+    def _object(self) -> fcl.CollisionObject:
+        model = fcl.BVHModel()
+        model.beginModel(len(self._mesh.vertices), len(self._mesh.faces))
+        model.addSubModel(self._mesh.vertices, self._mesh.faces)
+        model.endModel()
+        return fcl.CollisionObject(model)
+
+    def place(self, T: Mat4, shift: Vec3 | None = None) -> None:
+        """Poses the mesh at T, then moved by `shift` metres."""
+        offset = T[:3, 3] if shift is None else T[:3, 3] + shift
+        self._object.setTransform(fcl.Transform(T[:3, :3], offset))
+        corners = self._corners @ T[:3, :3].T + offset
+        self._posed_box = Box(corners.min(axis=0), corners.max(axis=0))
+
+    def intersects(self, other: "MeshCollider") -> bool:
+        """Whether the two, as posed, share a point."""
+        if not self._posed_box.overlaps(other._posed_box):
+            return False
+        return bool(fcl.collide(self._object, other._object, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
+
+    def distance(self, other: "MeshCollider") -> float:
+        """Returns the distance in metres between the two as posed, 0 where they intersect."""
+        if self.intersects(other):
+            return 0.0
+        found = fcl.distance(self._object, other._object, fcl.DistanceRequest(), fcl.DistanceResult())
+        return max(float(found), 0.0)
+
+
+def shrunk(mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> TriangleMesh:
+    """Returns the mesh scaled towards its box's centre so that each side of the box moves in by `depth` metres.
+
+    `rotation` gives the axes of the box as columns (none: the object frame's). A side keeps at least a fifth.
+    """
+    R = np.eye(3) if rotation is None else rotation
+    local = mesh.vertices @ R
+    box = Box.around(local)
+    size = np.maximum(box.size, 1e-12)
+    factor = np.maximum(size - 2 * depth, _CORE * size) / size
+    T = np.eye(4)
+    T[:3, :3] = R @ np.diag(factor) @ R.T
+    center = R @ box.center
+    T[:3, 3] = center - T[:3, :3] @ center
+    return TriangleMesh(transform_points(T, mesh.vertices), mesh.faces)
+
+
+@final
+class MovingBody:
+    """A rigid moving mesh that tells a touch from a penetration deeper than `depth` metres.
+
+    It penetrates an obstacle when it still intersects it shrunk by `depth` on each side, and, at full size, after a shift
+    by `depth` along each of the six directions of its own box: faces that merely lie flush come free in one of them.
+    """
+
+    def __init__(self, mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> None:
+        self._plain = MeshCollider(mesh)
+        self._shrunk = MeshCollider(shrunk(mesh, depth, rotation))
+        self._T: Mat4 = np.eye(4)
+        axes = np.eye(3) if rotation is None else rotation
+        self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
+
+    def place(self, T: Mat4) -> None:
+        """Poses the body at T for the queries that follow."""
+        self._T = T
+        self._plain.place(T)
+
+    def touches(self, obstacle: MeshCollider) -> bool:
+        """Whether the body, as posed, shares a point with the obstacle."""
+        return self._plain.intersects(obstacle)
+
+    def penetrates(self, obstacle: MeshCollider) -> bool:
+        """Whether the body, as posed, cuts into the obstacle by more than the depth."""
+        if not self._plain.intersects(obstacle):
+            return False
+        for shift in (None, *self._shifts):
+            self._shrunk.place(self._T, shift)
+            if not self._shrunk.intersects(obstacle):
+                return False
+        return True
+
+    def distance(self, obstacle: MeshCollider) -> float:
+        """Returns the distance in metres of the body, as posed, from the obstacle; 0 where they intersect."""
+        return self._plain.distance(obstacle)

@@ -1,0 +1,198 @@
+"""Convex solids, and cutting them out of surfaces, attributes kept. It knows no parts and no reasons to cut.
+
+Closed surfaces are cut by manifold3d and stay closed. Open ones, which real furniture is full of, are clipped triangle by
+triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import manifold3d
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial import ConvexHull, QhullError
+
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import ArrayValue, Faces, Points, frozen_array
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+
+# Shorter than this is nothing: clipped slivers below it are dropped, hulls flatter than it are thickened.
+_SLIVER = 1e-7
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class ConvexSolid(ArrayValue):
+    """A convex polyhedron: its corners, its faces, and its half-spaces `normal . x <= offset` as rows (normal, offset)."""
+
+    vertices: Points
+    faces: Faces
+    planes: Float[np.ndarray, "k 4"]
+
+    @classmethod
+    def around(cls, points: Points) -> "ConvexSolid | None":
+        """Returns the convex hull of the points; None where they are flat beyond repair."""
+        try:
+            hull = ConvexHull(points)
+        except (QhullError, ValueError):
+            return None
+        planes = np.unique(np.round(hull.equations, 9), axis=0)
+        index = np.full(len(points), -1)
+        index[hull.vertices] = np.arange(len(hull.vertices))
+        corners = points[hull.simplices]
+        turned = np.einsum("ij,ij->i", _cross(corners), hull.equations[:, :3]) < 0
+        faces = index[hull.simplices]
+        faces[turned] = faces[turned][:, ::-1]
+        flipped = np.column_stack([planes[:, :3], -planes[:, 3]])
+        return cls(frozen_array(points[hull.vertices]), frozen_array(faces, np.int64), frozen_array(flipped))
+
+    @property
+    def box(self) -> Box:
+        """The axis-aligned box around the solid."""
+        return Box.around(self.vertices)
+
+    @property
+    def mesh(self) -> TriangleMesh:
+        """The closed surface of the solid."""
+        return TriangleMesh(self.vertices, self.faces)
+
+
+def subtract(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
+    """Returns the surface without what lies inside the solids; the very same surface where nothing does."""
+    near = [solid for solid in solids if solid.box.overlaps(surface.mesh.box)]
+    if not near:
+        return surface
+    if surface.mesh.is_closed:
+        cut = _subtract_closed(surface, near)
+        if cut is not None:
+            return cut
+    for solid in near:
+        surface = _clip(surface, solid)
+    return surface
+
+
+def enclosed_area(mesh: TriangleMesh, solids: Sequence[ConvexSolid]) -> float:
+    """Returns the surface area of the mesh that lies inside the solids, in square metres."""
+    return mesh.area - subtract(Surface(mesh), solids).mesh.area if len(mesh.faces) else 0.0
+
+
+def _cross(triangles: np.ndarray) -> Points:
+    return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+
+
+def _attributes(surface: Surface) -> np.ndarray:
+    """Returns position and attributes side by side, one row per vertex."""
+    columns = [surface.mesh.vertices, surface.uv, surface.normals, surface.colors]
+    return np.hstack([np.asarray(c, dtype=np.float64) for c in columns if c is not None])
+
+
+def _from_attributes(surface: Surface, rows: np.ndarray, faces: Faces) -> Surface:
+    """Returns a surface like the given one from rows as made by `_attributes`."""
+    used, index = np.unique(faces, return_inverse=True)
+    rows, at = rows[used], 3
+    uv = normals = colors = None
+    if surface.uv is not None:
+        uv, at = rows[:, at : at + 2], at + 2
+    if surface.normals is not None:
+        normals, at = rows[:, at : at + 3], at + 3
+        normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    if surface.colors is not None:
+        colors = np.clip(np.round(rows[:, at : at + 4]), 0, 255).astype(np.uint8)
+    mesh = TriangleMesh(rows[:, :3], index.reshape(faces.shape))
+    return Surface(mesh, surface.material, uv, normals, colors)
+
+
+def _subtract_closed(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface | None:
+    """Returns the boolean difference, None where manifold3d does not accept the surface."""
+    rows = _attributes(surface)
+    body_mesh = manifold3d.Mesh(rows.astype(np.float32), surface.mesh.faces.astype(np.uint32))
+    body_mesh.merge()
+    body = manifold3d.Manifold(body_mesh)
+    if body.status() != manifold3d.Error.NoError or body.is_empty() or body.volume() <= 0:
+        return None
+    for solid in solids:
+        body = body - manifold3d.Manifold(
+            manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32))
+        )
+    cut = body.to_mesh()
+    if not len(cut.tri_verts):
+        return _from_attributes(surface, rows, np.zeros((0, 3), np.int64))
+    return _from_attributes(surface, _padded(cut.vert_properties, rows.shape[1]), np.asarray(cut.tri_verts, np.int64))
+
+
+def _padded(rows: np.ndarray, width: int) -> np.ndarray:
+    """Returns rows of at least `width` columns (faces of the cut carry no attributes of their own: zeros)."""
+    rows = np.asarray(rows, dtype=np.float64)
+    return rows if rows.shape[1] >= width else np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
+
+
+def _clip(surface: Surface, solid: ConvexSolid) -> Surface:
+    """Returns an open surface without the parts of its triangles inside the solid."""
+    mesh, box = surface.mesh, solid.box
+    t = mesh.triangles
+    candidate = np.all((t.min(axis=1) <= box.high) & (t.max(axis=1) >= box.low), axis=1)
+    if not candidate.any():
+        return surface
+    rows = _attributes(surface)
+    inside, owner = rows[mesh.faces[candidate]], np.flatnonzero(candidate)
+    kept: list[np.ndarray] = []
+    kept_owner: list[np.ndarray] = []
+    for plane in solid.planes:
+        inside, owner, outside, outside_owner = _split(inside, owner, plane)
+        kept.append(outside)
+        kept_owner.append(outside_owner)
+    hit = np.zeros(len(mesh.faces), dtype=bool)
+    hit[owner[_areas(inside) > _SLIVER**2]] = True
+    if not hit.any():
+        return surface
+    pieces = np.concatenate([p[hit[o]] for p, o in zip(kept, kept_owner, strict=True)])
+    pieces = pieces[_areas(pieces) > _SLIVER**2]
+    new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
+    faces = np.vstack([mesh.faces[~hit], new_faces])
+    return _from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
+
+
+def _areas(triangles: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(_cross(triangles[:, :, :3]), axis=1) / 2
+
+
+def _split(
+    triangles: np.ndarray, owner: np.ndarray, plane: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Splits triangles (rows of corner attributes) by a plane: inside, its owners, outside, its owners."""
+    side = triangles[:, :, :3] @ plane[:3] - plane[3]
+    side = np.where(np.abs(side) < _SLIVER, 0.0, side)
+    all_in, all_out = np.all(side <= 0, axis=1), np.all(side >= 0, axis=1)
+    mixed = ~(all_in | all_out)
+    # Coplanar triangles count as outside: faces that merely lie on the solid's border stay.
+    all_in &= ~all_out
+    inside, outside = [triangles[all_in]], [triangles[all_out]]
+    in_owner, out_owner = [owner[all_in]], [owner[all_out]]
+    for positive in (True, False):
+        lone = (side > 0) if positive else (side < 0)
+        pick = mixed & (lone.sum(axis=1) == 1)
+        if not positive:
+            pick &= (side > 0).sum(axis=1) != 1
+        single, pair = _cut_corner(triangles[pick], side[pick], lone[pick])
+        lone_side, other_side = (outside, inside) if positive else (inside, outside)
+        lone_owner, other_owner = (out_owner, in_owner) if positive else (in_owner, out_owner)
+        lone_side.append(single)
+        lone_owner.append(owner[pick])
+        other_side.append(pair)
+        other_owner.append(np.concatenate([owner[pick], owner[pick]]))
+    return np.concatenate(inside), np.concatenate(in_owner), np.concatenate(outside), np.concatenate(out_owner)
+
+
+def _cut_corner(triangles: np.ndarray, side: np.ndarray, lone: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cuts the one corner marked in `lone` off each triangle: the corner piece, and the rest as two triangles."""
+    first = np.argmax(lone, axis=1)
+    order = (first[:, None] + np.arange(3)) % 3
+    t = np.take_along_axis(triangles, order[:, :, None], axis=1)
+    s = np.take_along_axis(side, order, axis=1)
+    ab = t[:, 0] + (t[:, 1] - t[:, 0]) * (s[:, 0] / (s[:, 0] - s[:, 1]))[:, None]
+    ac = t[:, 0] + (t[:, 2] - t[:, 0]) * (s[:, 0] / (s[:, 0] - s[:, 2]))[:, None]
+    single = np.stack([t[:, 0], ab, ac], axis=1)
+    pair = np.concatenate([np.stack([ab, t[:, 1], t[:, 2]], axis=1), np.stack([ab, t[:, 2], ac], axis=1)])
+    return single, pair

@@ -1,0 +1,40 @@
+"""Tolerances, sizes and counts of geometry realization. Lengths marked (unit) are shares of the object's largest side."""
+
+from dataclasses import dataclass
+from math import radians
+from typing import final
+
+
+@final
+@dataclass(frozen=True)
+class RealizationConfig:
+    """What realization may do, and how exact it is."""
+
+    depth: float = 0.0004
+    """Penetration that counts as a touch (unit): 0.4 mm on a piece of one metre; the official swing test warns at 0.5."""
+    contact: float = 0.012
+    """Widest seam across which two faces count as contacting (unit); official: 10 mm."""
+    flush: float = 0.006
+    """Largest step between two faces that count as flush (unit); official: 4 mm."""
+    anchor: float = 0.001
+    """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (unit)."""
+    bridge: float = 0.6
+    """Longest support block (unit)."""
+    door_opening: float = radians(110)
+    """How far a door may open at most; real butt hinges stop the leaf at about 110 degrees."""
+    restricted: float = 0.7
+    """An opening below this share of the reference is reported as restricted (design, section 5)."""
+    trim: bool = True
+    """Whether material may be taken away to give clearance."""
+    max_trim: float = 0.02
+    """Largest share of a side by which a moving part is made smaller (design, section 5)."""
+    max_carve: float = 0.05
+    """Largest share of a static part's volume or surface that is carved (design, section 5)."""
+    coarse_poses: int = 19
+    """Poses in which candidates are compared."""
+    fine_poses: int = 61
+    """Poses in which the chosen motion is checked; more than the 50 of the paper's metric, none of them shared but 0."""
+    rail_share: float = 0.9
+    """Length of a rail over the drawer's body (supplement: 1 - beta, beta = 0.1)."""
+    body_tolerance: float = 0.01
+    """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a share of the width."""

@@ -1,0 +1,94 @@
+"""The border frame of a door: the one place where a door's hinge side gets coordinates.
+
+X runs from the hinge border across the door, Y is where the door sets off to when it opens (its outer side), Z is the
+opening axis, right-handed. The origin lies on the hinge border's front edge at half the door's length: the door fills
+0 <= x <= width, -thickness <= y <= 0, |z| <= length / 2.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, frozen_array, vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box, yaw_of
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
+
+# An initial axis within this angle of a box axis is snapped onto it; a larger one is a deliberate slant.
+_SNAP = np.cos(np.radians(8.0))
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class BorderFrame(ArrayValue):
+    """See the module's docstring; `rotation` has X, Y, Z as columns in the object frame."""
+
+    origin: Vec3
+    rotation: Mat3
+    width: float
+    thickness: float
+    length: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "origin", frozen_array(self.origin))
+        object.__setattr__(self, "rotation", frozen_array(self.rotation))
+
+    @property
+    def T_object_border(self) -> Mat4:
+        """Maps border coordinates to the object frame."""
+        return from_rotation(self.rotation, self.origin)
+
+    def to_object(self, points: Points) -> Points:
+        """Returns points of the border frame in the object frame."""
+        return transform_points(self.T_object_border, points)
+
+    def to_border(self, points: Points) -> Points:
+        """Returns points of the object frame in the border frame."""
+        return (points - self.origin) @ self.rotation
+
+    def direction(self, x: float, y: float, z: float) -> Vec3:
+        """Returns a direction of the border frame in the object frame."""
+        return self.rotation @ vec3(x, y, z)
+
+    def axis_at(self, x: float, y: float) -> Axis:
+        """Returns the opening axis through (x, y, 0)."""
+        return Axis(self.to_object(vec3(x, y, 0.0)[None])[0], self.rotation[:, 2])
+
+
+def part_axes(mesh: TriangleMesh) -> Mat3:
+    """Returns the axes of a part's own box as columns: the object frame's, turned about Z where the part is turned."""
+    return rotation_matrix(vec3(0.0, 0.0, 1.0), yaw_of(mesh.vertices))
+
+
+def border_frame(mesh: TriangleMesh, axis: Axis) -> BorderFrame:
+    """Returns the frame of the border that an initial opening axis runs along (paper: a border of the part's box).
+
+    Of the two sides across the axis, the longer one decides which border is nearest.
+    """
+    axes = part_axes(mesh)
+    along = int(np.argmax(np.abs(axes.T @ axis.direction)))
+    if abs(float(axes[:, along] @ axis.direction)) < _SNAP:
+        return _slanted(mesh, axis)
+    z = axes[:, along] * np.sign(float(axes[:, along] @ axis.direction))
+    local = Box.around(mesh.vertices @ axes)
+    across = [k for k in range(3) if k != along]
+    wide = max(across, key=lambda k: float(local.size[k]))
+    side = float(axis.point @ axes[:, wide]) - float(local.center[wide])
+    x = axes[:, wide] * (-1.0 if side > 0 else 1.0)
+    return _framed(mesh, x, z)
+
+
+def _slanted(mesh: TriangleMesh, axis: Axis) -> BorderFrame:
+    """Returns the frame about an axis that follows no side of the part's box."""
+    to_center = mesh.box.center - axis.closest_point(mesh.box.center)
+    return _framed(mesh, to_center / np.linalg.norm(to_center), np.asarray(axis.direction))
+
+
+def _framed(mesh: TriangleMesh, x: Vec3, z: Vec3) -> BorderFrame:
+    rotation = np.column_stack([x, np.cross(z, x), z])
+    local = Box.around(mesh.vertices @ rotation)
+    origin = vec3(float(local.low[0]), float(local.high[1]), float(local.center[2]))
+    width, thickness, length = (float(s) for s in local.size)
+    return BorderFrame(rotation @ origin, rotation, width, thickness, length)

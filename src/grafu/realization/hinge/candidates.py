@@ -1,0 +1,139 @@
+"""Where a door may turn: hinge class by hinge class, the pins that the surroundings allow. It sweeps nothing.
+
+Each class is a row of `_RULES` (paper, figure Hinge Configurations). `roll` turns the template about its pin: 0 mounts it
+from the door's front, 90 degrees from the side (the seam behind an overlay door).
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import pi
+from typing import final
+
+import numpy as np
+
+from grafu.realization.hinge.border import BorderFrame
+from grafu.realization.hinge.survey import Surroundings
+from grafu.vocabulary import MechanismClass
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PinCandidate:
+    """A pin at (x, y) of the border frame with the class that would carry it.
+
+    `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces; `preference`
+    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `let_in` says that the static leaf
+    is carried on through the seam into what stands behind the door.
+    """
+
+    mechanism: MechanismClass
+    roll: float
+    x: float
+    y: float
+    leaf_room: float
+    preference: int
+    let_in: bool = False
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """Metres: widest seam that counts as contact, largest step that counts as flush, barrel radius of the hinge."""
+
+    contact: float
+    flush: float
+    radius: float
+
+
+_Rule = Callable[[BorderFrame, Surroundings, Tolerances], PinCandidate | None]
+
+
+def _contact_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """C beside an inset door: the leaves lie in the seam, the barrel in front of it."""
+    if not (s.side_gap <= tol.contact and s.side_top <= 0.6 * tol.radius):
+        return None
+    depth = min(frame.thickness, s.side_depth) if s.side_depth > 0 else frame.thickness
+    room = tol.radius + 0.95 * depth
+    return PinCandidate(MechanismClass.C, 0.0, -max(s.side_gap, 0.0) / 2, tol.radius, room, 0)
+
+
+def _contact_behind(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """C behind an overlay door: the leaves lie between its back and the carcass, the barrel beside both."""
+    strip = max(0.0, -s.side_face)
+    if not (s.back_gap <= tol.contact and strip <= 3 * tol.contact):
+        return None
+    room = tol.radius + strip + max(0.95 * s.back_width, 2 * tol.radius)
+    y = -frame.thickness - max(s.back_gap, 0.0) / 2
+    return PinCandidate(MechanismClass.C, pi / 2, -strip - tol.radius, y, room, 0)
+
+
+def _flush_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """F across the seam of an inset door: both leaves on the fronts."""
+    if not (s.side_gap <= tol.contact and abs(s.side_top) <= tol.flush):
+        return None
+    y = max(0.0, s.side_top) + tol.radius
+    return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, 0.3 * frame.width, 1)
+
+
+def _flush_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """F across the seam behind an overlay door: both leaves on the outer sides."""
+    if not (s.back_gap <= tol.contact and abs(s.side_face) <= tol.flush):
+        return None
+    x = min(0.0, s.side_face) - tol.radius
+    y = -frame.thickness - max(s.back_gap, 0.0) / 2
+    return PinCandidate(MechanismClass.F, pi / 2, x, y, max(0.95 * frame.thickness, 2 * tol.radius), 1)
+
+
+def _corner_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """P in the corner between an inset door's front and a side that stands out beyond it."""
+    if not (s.side_gap <= tol.contact and s.side_top >= 2 * tol.radius):
+        return None
+    room = min(s.side_top, 0.3 * frame.width)
+    return PinCandidate(MechanismClass.P, 0.0, tol.radius - max(s.side_gap, 0.0), tol.radius, room, 2)
+
+
+def _corner_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """P in the corner between an overlay door's edge and the frame that it lies on."""
+    strip = -s.side_face
+    if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= 3 * tol.radius):
+        return None
+    y = -frame.thickness - max(s.back_gap, 0.0) + tol.radius
+    room = min(strip - tol.radius, frame.thickness)
+    return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), 2)
+
+
+def _let_in_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """C at a door's front edge, its static leaf let into what stands behind: for doors that meet over one divider."""
+    if not np.isfinite(s.back_gap):
+        return None
+    room = tol.radius + 0.95 * frame.thickness
+    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, 3, let_in=True)
+
+
+_RULES: tuple[_Rule, ...] = (
+    _contact_front,
+    _contact_behind,
+    _flush_front,
+    _flush_side,
+    _corner_front,
+    _corner_side,
+    _let_in_front,
+)
+
+
+def pin_candidates(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list[PinCandidate]:
+    """Returns every class that the surroundings allow, best first, then makeshift pins around the border."""
+    ruled = [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
+    return [*ruled, *_makeshift(frame, tol)]
+
+
+def _makeshift(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate]:
+    """Yields pins at the corners of the border and around them; support blocks will have to reach the body."""
+    step = max(tol.radius, 0.25 * frame.thickness)
+    room = max(4 * tol.radius, min(0.1 * frame.width, 8 * tol.radius))
+    for x in (0.0, step, -step, 2 * step, 4 * step, -2 * step):
+        for y in (tol.radius, step + tol.radius, 2 * step + tol.radius):
+            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, 4)
+    for x in (-tol.radius, -step - tol.radius):
+        for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
+            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, 5)

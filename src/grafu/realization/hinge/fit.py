@@ -1,0 +1,86 @@
+"""Fits hinges of one template to one pin: size, count, heights, and the hardware in the object frame.
+
+It builds; whether the hardware is in anything's way is judged by `place`.
+"""
+
+from dataclasses import dataclass
+from math import ceil
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.realization.hinge.border import BorderFrame
+from grafu.realization.hinge.candidates import PinCandidate
+from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
+from grafu.vocabulary import MechanismClass, PartLabel
+
+# A hinge never exceeds this share of its door (official 7.3: 12 % of the door's axial length per hinge).
+_LENGTH_SHARE = 0.12
+_RADIUS_SHARE = 0.22
+_SMALLEST = 0.001
+
+
+@final
+@dataclass(frozen=True)
+class FittedHinge:
+    """One hinge in the object frame: the template as built, its pose, and the two ends as visuals."""
+
+    template: HingeTemplate
+    T_object_template: Mat4
+    static: Visual
+    dynamic: Visual
+
+
+def barrel_radius(model_radius: float, frame: BorderFrame) -> float:
+    """Returns the barrel radius that suits a door, metres."""
+    return max(_SMALLEST, min(model_radius, _RADIUS_SHARE * frame.thickness))
+
+
+def hinge_count(length: float) -> int:
+    """Returns how many hinges a border of this length takes: two, and one more per 0.6 m beyond the first 0.9.
+
+    Cabinet makers put 2 up to 0.9 m, 3 up to 1.5, 4 up to 2.1.
+    """
+    return 2 + max(0, ceil((length - 0.9) / 0.6 - 1e-9))
+
+
+def hinge_heights(length: float, count: int) -> np.ndarray:
+    """Returns the z of each hinge: the i-th of N at i / (N + 1) of the height (supplement, Search and Snap)."""
+    return (np.arange(1, count + 1) / (count + 1) - 0.5) * length
+
+
+def hinge_size(model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int) -> HingeSize | None:
+    """Returns the size at which a model fits a pin; None where its leaves would be no wider than its barrel."""
+    radius = barrel_radius(model.natural.radius, frame)
+    length = min(model.natural.length, _LENGTH_SHARE * frame.length, 0.8 * frame.length / (count + 1))
+    leaf = min(model.natural.leaf, pin.leaf_room)
+    thickness = min(model.natural.thickness, 0.6 * radius)
+    if leaf < 1.5 * radius or length < 2 * radius:
+        return None
+    return HingeSize(length, leaf, thickness, radius)
+
+
+def fit_hinge(model: HingeModel, size: HingeSize, frame: BorderFrame, pin: PinCandidate, z: float) -> FittedHinge:
+    """Returns one hinge of `model` at height z of a pin; names are given by `named`."""
+    template = model.build(size)
+    T = frame.T_object_border @ from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), pin.roll), vec3(pin.x, pin.y, z))
+    static = Visual("hinge_static", template.static.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
+    dynamic = Visual("hinge_dynamic", template.dynamic.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
+    return FittedHinge(template, T, static, dynamic)
+
+
+def mount_directions(pin: PinCandidate) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the snap normals of the static and the dynamic end in the border frame."""
+    static, dynamic = _NORMALS[pin.mechanism]
+    R = rotation_matrix(vec3(0.0, 0.0, 1.0), pin.roll)
+    return R @ static, R @ dynamic
+
+
+_NORMALS = {
+    MechanismClass.C: (vec3(-1.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)),
+    MechanismClass.F: (vec3(0.0, -1.0, 0.0), vec3(0.0, -1.0, 0.0)),
+    MechanismClass.P: (vec3(-1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)),
+}

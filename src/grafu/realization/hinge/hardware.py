@@ -1,0 +1,144 @@
+"""Is a fitted hinge in anything's way, and does it hold on to both of its parts. It moves nothing and chooses nothing."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual
+from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.realization.hinge.border import BorderFrame
+from grafu.realization.hinge.candidates import PinCandidate
+from grafu.realization.hinge.fit import FittedHinge
+from grafu.realization.limits import Motion, in_the_way, is_free, swept_box
+from grafu.realization.scene import Obstacle
+from grafu.realization.support_block import METAL, Footing, block, shortest_bridge
+from grafu.templates.template import SnapPlane
+
+_POSES = 11
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Site:
+    """What hinge hardware is judged against: the door, what is static, the other movers at rest, the motion."""
+
+    frame: BorderFrame
+    door: TriangleMesh
+    door_body: MovingBody
+    static_near: TriangleMesh
+    obstacles: tuple[Obstacle, ...]
+    neighbours: tuple[Obstacle, ...]
+    motion: Motion
+    upper: float
+    depth: float
+    anchor: float
+    reach: float
+
+
+@final
+@dataclass(frozen=True)
+class InstalledHinge:
+    """One hinge with its support blocks, found to hold on both sides and to be in nothing's way."""
+
+    fitted: FittedHinge
+    static: tuple[Visual, ...]
+    dynamic: tuple[Visual, ...]
+
+
+def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge | None:
+    """Returns the hinge anchored on both sides; None where it finds no hold or gets in the way."""
+    static, dynamic = _anchored_static(hinge, pin, site), _anchored_dynamic(hinge, site)
+    if static is None or dynamic is None:
+        return None
+    if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
+        return None
+    return InstalledHinge(hinge, static, dynamic)
+
+
+def _static_in_the_way(static: tuple[Visual, ...], site: Site) -> bool:
+    """Whether the door, or another mover at rest, cuts into the static hardware."""
+    collider = MeshCollider(merge_meshes([v.mesh for v in static]))
+    if not is_free(site.door_body, site.motion, site.upper, [Obstacle("hinge", collider)], 2 * _POSES):
+        return True
+    body = MovingBody(merge_meshes([v.mesh for v in static]), site.depth)
+    body.place(np.eye(4))
+    return any(body.penetrates(o.collider) for o in site.neighbours)
+
+
+def _dynamic_in_the_way(dynamic: tuple[Visual, ...], site: Site) -> bool:
+    """Whether the moving hardware cuts into static parts somewhere, or into other movers at rest."""
+    mesh = merge_meshes([v.mesh for v in dynamic])
+    body = MovingBody(mesh, site.depth)
+    near = in_the_way(site.obstacles, swept_box(mesh.box, site.motion, site.upper))
+    if not is_free(body, site.motion, site.upper, near, _POSES):
+        return True
+    body.place(np.eye(4))
+    return any(body.penetrates(o.collider) for o in site.neighbours)
+
+
+def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
+    """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
+    body = MeshCollider(site.static_near)
+    if pin.let_in:
+        tongue = _tongue(hinge, pin, site.frame)
+        return (hinge.static, tongue) if MeshCollider(tongue.mesh).distance(body) <= site.anchor else None
+    if MeshCollider(hinge.static.mesh).distance(body) <= site.anchor:
+        return (hinge.static,)
+    snap = hinge.template.static.snap.transformed(hinge.T_object_template)
+    return _bridged(hinge.static, snap, RayCaster(site.static_near), site)
+
+
+def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | None:
+    """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
+    if MeshCollider(hinge.dynamic.mesh).distance(MeshCollider(site.door)) <= site.anchor:
+        return (hinge.dynamic,)
+    snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
+    return _bridged(hinge.dynamic, snap, RayCaster(site.door), replace_reach(site, 0.5 * site.frame.width))
+
+
+def replace_reach(site: Site, reach: float) -> Site:
+    """Returns the site with another longest support block."""
+    return replace(site, reach=min(reach, site.reach))
+
+
+def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:
+    """Returns an end with the shortest support block that reaches the target."""
+    bridge = shortest_bridge(_footings(end, snap, site.frame), target, site.reach)
+    if bridge is None:
+        return None
+    footing, length = bridge
+    return (end, block("support_hinge", footing, length, METAL))
+
+
+def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame) -> Iterator[Footing]:
+    """Yields the snap rectangle looking along its normal, then the leaf's own sides looking inwards and sideways."""
+    yield Footing(np.asarray(snap.center), np.asarray(snap.normal), 0.9 * snap.u, 0.9 * snap.v)
+    local = frame.to_border(end.mesh.vertices)
+    low, high = local.min(axis=0), local.max(axis=0)
+    half = (high - low) / 2 * 0.8
+    center = (low + high) / 2
+    for direction in (vec3(0.0, -1.0, 0.0), vec3(-1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -1.0)):
+        k = int(np.argmax(np.abs(direction)))
+        i, j = [a for a in range(3) if a != k]
+        start = frame.to_object((center + direction * half[k])[None])[0]
+        yield Footing(start, frame.rotation @ direction, _extent(frame, i, half), _extent(frame, j, half))
+
+
+def _extent(frame: BorderFrame, axis: int, half: np.ndarray) -> Vec3:
+    return frame.rotation[:, axis] * max(float(half[axis]), 5e-4)
+
+
+def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame) -> Visual:
+    """Returns the strip that carries a let-in leaf on through the seam into what stands behind the door."""
+    size = hinge.template.size
+    z = float(frame.to_border(hinge.T_object_template[None, :3, 3])[0, 2])
+    start = vec3(pin.x - size.thickness / 2, -0.4 * frame.thickness, z)
+    u = frame.direction(0.0, 0.0, 0.4 * size.length)
+    v = frame.direction(0.4 * size.thickness, 0.0, 0.0)
+    footing = Footing(frame.to_object(start[None])[0], frame.direction(0.0, -1.0, 0.0), u, v)
+    return block("support_hinge", footing, 0.6 * frame.thickness + 0.02, METAL)

@@ -1,0 +1,89 @@
+"""The widest opening free of collision, found by sweeping real meshes. It knows no hinges and no rails."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MovingBody
+from grafu.geometry.transform import transform_points
+from grafu.realization.scene import Obstacle
+from grafu.vocabulary import JointType
+
+Motion = Callable[[float], Mat4]
+
+
+def motion_about(axis: Axis, joint_type: JointType) -> Motion:
+    """Returns joint value -> 4x4 motion from rest, for a revolute or prismatic joint on this axis."""
+    return axis.rotation if joint_type is JointType.REVOLUTE else axis.shift
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SweepVerdict:
+    """How far a body moves freely: the free opening, the share of poses that collide, and what it ran into first."""
+
+    free: float
+    share: float
+    blockers: tuple[str, ...]
+
+
+def swept_box(box: Box, motion: Motion, reach: float, poses: int = 9) -> Box:
+    """Returns a box around a box's whole way from 0 to `reach` (slightly grown for what lies between poses)."""
+    corners = np.vstack([transform_points(motion(v), box.corners()) for v in np.linspace(0.0, reach, poses)])
+    return Box.around(corners).grown(0.02 * float(box.size.max()))
+
+
+def in_the_way(obstacles: Sequence[Obstacle], box: Box) -> list[Obstacle]:
+    """Returns the obstacles whose boxes meet a box."""
+    return [o for o in obstacles if o.collider.box.overlaps(box)]
+
+
+def sweep(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> SweepVerdict:
+    """Returns the verdict over evenly spaced poses from 0 to `reach`; the first blocked pose ends the free opening.
+
+    A part that already collides at rest has a free opening of 0, and `share` tells whether that passes.
+    """
+    values = np.linspace(0.0, reach, poses)
+    blocked = [_blockers(body, motion(v), obstacles) for v in values]
+    hits = [k for k, names in enumerate(blocked) if names]
+    free = reach if not hits else float(values[hits[0] - 1]) if hits[0] else 0.0
+    names = tuple(sorted({name for found in blocked for name in found}))
+    return SweepVerdict(free, len(hits) / poses, names)
+
+
+def is_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
+    """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
+    return not any(_first_blocker(body, motion(v), obstacles) for v in np.linspace(0.0, reach, poses)[::-1])
+
+
+def widest_free(
+    body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> float:
+    """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection."""
+    values = np.linspace(0.0, reach, poses)
+    for before, after in zip(values[:-1], values[1:], strict=True):
+        if _first_blocker(body, motion(after), obstacles) is None:
+            continue
+        for _ in range(6):
+            middle = (before + after) / 2
+            if _first_blocker(body, motion(middle), obstacles) is None:
+                before = middle
+            else:
+                after = middle
+        return float(before)
+    return float(reach)
+
+
+def _first_blocker(body: MovingBody, T: Mat4, obstacles: Sequence[Obstacle]) -> str | None:
+    body.place(T)
+    return next((o.id for o in obstacles if body.penetrates(o.collider)), None)
+
+
+def _blockers(body: MovingBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
+    body.place(T)
+    return [o.id for o in obstacles if body.penetrates(o.collider)]
