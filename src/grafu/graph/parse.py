@@ -18,6 +18,10 @@ from grafu.geometry.sampling import sample_surface
 from grafu.graph.edges import Contact
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 
+# So many of a part's largest triangles are tried before all of them: on real furniture 50 to 100 are quickest, four times
+# as quick as none.
+_FEW = 100
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -83,19 +87,42 @@ def _node(part: Part, config: ParsingConfig) -> PartNode:
 
 
 def _touching_pairs(asset: Asset, pairs: list[tuple[int, int]], tolerance: float) -> list[tuple[int, int]]:
-    meshes = [part.mesh for part in asset.parts]
-    return [(a, b) for a, b in pairs if _touch(meshes[a], meshes[b], tolerance)]
+    parts = [_Triangles(part.mesh) for part in asset.parts]
+    return [(a, b) for a, b in pairs if _touch(parts[a], parts[b], tolerance)]
 
 
-def _touch(a: TriangleMesh, b: TriangleMesh, tolerance: float) -> bool:
-    """Whether two meshes come within `tolerance`; only faces that are near the other's box are looked at."""
-    near_a, near_b = _faces_near(a, b.box, tolerance), _faces_near(b, a.box, tolerance)
-    if not (len(near_a.faces) and len(near_b.faces)):
+@final
+class _Triangles:
+    """A mesh as loose triangles, with what is asked of them for every pair; not a value."""
+
+    def __init__(self, mesh: TriangleMesh) -> None:
+        self.box = mesh.box
+        largest_first = np.argsort(-mesh.face_areas, kind="stable")
+        self.corners = mesh.triangles[largest_first]
+        self._low, self._high = self.corners.min(axis=1), self.corners.max(axis=1)
+
+    def near(self, box: Box, margin: float) -> np.ndarray:
+        """Returns the corners of the triangles that come near a box, the largest triangles first."""
+        return self.corners[np.all((self._low <= box.high + margin) & (self._high >= box.low - margin), axis=1)]
+
+
+def _touch(a: _Triangles, b: _Triangles, tolerance: float) -> bool:
+    """Whether two meshes come within `tolerance`; only triangles near the other's box are looked at.
+
+    Building the trees costs most, and parts mostly touch with their large faces: these are tried first.
+    """
+    near_a, near_b = a.near(b.box, tolerance), b.near(a.box, tolerance)
+    if not (len(near_a) and len(near_b)):
         return False
-    return MeshCollider(near_a).distance(MeshCollider(near_b)) <= tolerance
+    if max(len(near_a), len(near_b)) > _FEW and _distance(near_a[:_FEW], near_b[:_FEW]) <= tolerance:
+        return True
+    return _distance(near_a, near_b) <= tolerance
 
 
-def _faces_near(mesh: TriangleMesh, box: Box, margin: float) -> TriangleMesh:
-    low, high = mesh.triangles.min(axis=1), mesh.triangles.max(axis=1)
-    near = np.all((low <= box.high + margin) & (high >= box.low - margin), axis=1)
-    return mesh if near.all() else mesh.with_faces(near)
+def _distance(a: np.ndarray, b: np.ndarray) -> float:
+    return _collider(a).distance(_collider(b))
+
+
+def _collider(corners: np.ndarray) -> MeshCollider:
+    faces = np.arange(3 * len(corners)).reshape(-1, 3)
+    return MeshCollider(TriangleMesh(corners.reshape(-1, 3), faces))
