@@ -1,0 +1,163 @@
+"""What a picture is taken of: all triangles with their looks in flat arrays, and rays against them (Embree).
+
+It knows neither camera nor light. Everything is 32-bit: pictures need no more and twice as much would be slow.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any, final
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh as EmbreeMesh
+from embreex.rtcore_scene import EmbreeScene
+from jaxtyping import Bool, Float32, Int
+from PIL import Image
+
+from grafu.articulation.articulated_object import Visual
+from grafu.geometry.appearance import Material, Surface, Texture
+
+Rays = Float32[np.ndarray, "n 3"]
+Values = Float32[np.ndarray, " n"]
+_TEXTURE_LIMIT = 512  # pixels a side: a picture of a whole piece of furniture shows no more
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Hits:
+    """Where rays met surfaces, one row per ray that did.
+
+    `ray` is the row of the ray, `visual` the index of the visual, `normal` the shading normal towards the viewer,
+    `color` linear RGB without light, `alpha` opacity.
+    """
+
+    ray: Int[np.ndarray, " n"]
+    distance: Values
+    visual: Int[np.ndarray, " n"]
+    normal: Rays
+    flat_normal: Rays
+    color: Rays
+    alpha: Values
+    metallic: Values
+    roughness: Values
+
+
+@final
+class RayScene:
+    """Triangles ready for rays. Built once per pose; it never changes after."""
+
+    def __init__(self, visuals: Sequence[Visual]) -> None:
+        rows = [(k, s) for k, v in enumerate(visuals) for s in v.surfaces if not s.is_empty]
+        self._materials: list[Material] = list(dict.fromkeys(s.material for _, s in rows))
+        index = {m: k for k, m in enumerate(self._materials)}
+        counts = [len(s.mesh.faces) for _, s in rows]
+        self._visual = np.repeat([k for k, _ in rows], counts).astype(np.int64)
+        self._material = np.repeat([index[s.material] for _, s in rows], counts).astype(np.int64)
+        surfaces = [s for _, s in rows]
+        self.triangles: np.ndarray = _stacked([s.mesh.triangles for s in surfaces], (3, 3))
+        self._flat: np.ndarray = np.concatenate([np.zeros((0, 3)), *(s.mesh.face_normals for s in surfaces)]).astype(
+            "f4"
+        )
+        self._normals: np.ndarray = _stacked([_corner_normals(s) for s in surfaces], (3, 3))
+        self._colors: np.ndarray = _stacked([_corner_colors(s) for s in surfaces], (3, 4))
+        self._colored = any(s.colors is not None for s in surfaces)
+        self._uvs: np.ndarray = _stacked([_corner_uvs(s) for s in surfaces], (3, 2))
+        self._table = _material_table(self._materials)
+        self._images = {k: _decode(m.base_color_texture) for k, m in enumerate(self._materials) if m.base_color_texture}
+        self._embree: Any = EmbreeScene()
+        EmbreeMesh(self._embree, self.triangles if len(self.triangles) else np.zeros((1, 3, 3), np.float32))
+
+    def cast(self, origins: Rays, directions: Rays) -> Hits:
+        """Returns what each ray meets first; directions are unit vectors."""
+        found = self._embree.run(origins, directions, query="INTERSECT", output=True)
+        ray = np.flatnonzero(found["primID"] >= 0) if len(self.triangles) else np.zeros(0, np.int64)
+        face = found["primID"][ray]
+        u, v = found["u"][ray], found["v"][ray]
+        weights = np.stack([1 - u - v, u, v], axis=1)
+        flat = _toward(-directions[ray], self._flat[face])
+        normal = _unit(_toward(flat, _blend(weights, self._normals[face])))
+        rgba = self._rgba(face, weights)
+        table = self._table[self._material[face]]
+        parts = (flat, rgba[:, :3], rgba[:, 3], table[:, 4], table[:, 5])
+        return Hits(ray, found["tfar"][ray], self._visual[face], normal, *parts)
+
+    def blocked(self, origins: Rays, directions: Rays, reach: float) -> Bool[np.ndarray, " n"]:
+        """Whether something lies on each ray within `reach` times its direction's length."""
+        if not len(self.triangles):
+            return np.zeros(len(origins), bool)
+        limit = np.full(len(origins), reach, np.float32)
+        return self._embree.run(origins, directions, limit, query="OCCLUDED") == 0
+
+    def _rgba(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        material = self._material[face]
+        rgba = self._table[material, :4]
+        if self._colored:
+            rgba *= _blend(weights, self._colors[face])
+        for k, image in self._images.items():
+            rows = np.flatnonzero(material == k)
+            rgba[rows] *= _sample(image, _blend(weights[rows], self._uvs[face[rows]]))
+        cutoff = self._table[material, 6]
+        rgba[:, 3] = np.where(cutoff >= 0, rgba[:, 3] >= cutoff, rgba[:, 3])
+        return rgba
+
+
+def _stacked(blocks: list[np.ndarray], tail: tuple[int, int]) -> np.ndarray:
+    return np.concatenate([np.zeros((0, *tail)), *blocks]).astype(np.float32)
+
+
+def _corner_normals(surface: Surface) -> np.ndarray:
+    if surface.normals is None:
+        return np.repeat(surface.mesh.face_normals[:, None], 3, axis=1)
+    return surface.normals[surface.mesh.faces]
+
+
+def _corner_colors(surface: Surface) -> np.ndarray:
+    if surface.colors is None:
+        return np.ones((len(surface.mesh.faces), 3, 4))
+    return surface.colors[surface.mesh.faces] / 255.0
+
+
+def _corner_uvs(surface: Surface) -> np.ndarray:
+    if surface.uv is None:
+        return np.zeros((len(surface.mesh.faces), 3, 2))
+    return surface.uv[surface.mesh.faces]
+
+
+def _material_table(materials: list[Material]) -> np.ndarray:
+    """Returns per material: RGBA, metallic, roughness, alpha cutoff (-1: alpha is blended, 0: it is opaque)."""
+    rows = []
+    for m in materials:
+        cutoff = {"OPAQUE": 0.0, "MASK": m.alpha_cutoff, "BLEND": -1.0}[m.alpha_mode]
+        rows.append([*m.base_color, m.metallic, m.roughness, cutoff])
+    return np.array(rows, dtype=np.float32).reshape(-1, 7)
+
+
+def _decode(texture: Texture) -> np.ndarray:
+    """Returns an image as linear RGBA in 0..1, at most `_TEXTURE_LIMIT` pixels a side."""
+    with Image.open(BytesIO(texture.data)) as image:
+        rgba = image.convert("RGBA")
+    rgba.thumbnail((_TEXTURE_LIMIT, _TEXTURE_LIMIT))
+    values = np.asarray(rgba, dtype=np.float32) / 255.0
+    return np.concatenate([values[..., :3] ** 2.2, values[..., 3:]], axis=-1).astype(np.float32)
+
+
+def _sample(image: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """Returns the nearest texel; coordinates repeat, and v = 0 is the image's bottom."""
+    height, width = image.shape[:2]
+    column = np.floor(np.mod(uv[:, 0], 1.0) * width).astype(int).clip(0, width - 1)
+    row = np.floor(np.mod(-uv[:, 1], 1.0) * height).astype(int).clip(0, height - 1)
+    return image[row, column]
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return vectors / np.sqrt(np.maximum(np.einsum("nk,nk->n", vectors, vectors), 1e-30))[:, None]
+
+
+def _toward(reference: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Returns the vectors, turned round where they point away from the reference."""
+    return vectors * np.where(np.einsum("nk,nk->n", vectors, reference) < 0, np.float32(-1), np.float32(1))[:, None]
+
+
+def _blend(weights: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Returns the barycentric mean of corner values, (n, 3 corners, k)."""
+    return sum(weights[:, c, None] * corners[:, c] for c in range(3))
