@@ -49,6 +49,11 @@ def make_cabinet(spec: Cabinet) -> Asset:
     Raises:
         ValueError: if the layout leaves some cell no room.
     """
+    return assemble(spec.name, cabinet_pieces(spec))
+
+
+def cabinet_pieces(spec: Cabinet) -> list[Piece]:
+    """Returns the pieces of a cabinet: its case is centred in x and y and stands on z = 0."""
     setting = spec.setting
     pieces = list(case_pieces(spec.case, spec.finish, setting.front))
     for item in divide(spec.layout, spec.case.opening, spec.case.edges, spec.case.border):
@@ -56,7 +61,7 @@ def make_cabinet(spec: Cabinet) -> Asset:
             pieces += _partition(item, spec)
         else:
             pieces += front_pieces(item, setting)
-    return assemble(spec.name, pieces)
+    return pieces
 
 
 def _partition(item: Partition, spec: Cabinet) -> list[Piece]:

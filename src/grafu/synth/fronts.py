@@ -6,6 +6,7 @@ thickness squared over twice its width, the far side of an inset opening. Fronts
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from math import pi
 from typing import Literal, final
 
 from grafu.geometry.appearance import Surface
@@ -100,7 +101,8 @@ def _reach(edge: Edge, setting: Setting) -> float:
 def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     door = cell.leaf
     assert isinstance(door, Door)
-    yield _door(door, front_rect(cell, setting), setting)
+    limited = replace(door, opening=_opening(door, cell.edges))
+    yield _door(limited, front_rect(cell, setting), setting)
     yield from _shelves(door.shelves, cell, setting)
     if door.behind is not None:
         yield from _behind(door.behind, cell, setting)
@@ -186,6 +188,11 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
     motion = Motion(JointType.REVOLUTE, Axis(*pins[door.hinge]), door.opening)
     handle = door_handle(door.handle, rect, y, door.hinge, setting.finish.metal)
     return Piece(PartLabel.DOOR, "door", leaf_surfaces(door.leaf, rect, setting), motion, handle)
+
+
+def _opening(door: Door, edges: Edges) -> float:
+    """Returns how far a door opens, radians: at most square where something juts out beside its pin."""
+    return min(door.opening, pi / 2) if getattr(edges, door.hinge) is Edge.STOP else door.opening
 
 
 def _muntin(rect: Rect, setting: Setting) -> Piece:

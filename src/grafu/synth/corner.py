@@ -1,0 +1,94 @@
+"""Corner cabinets: a five-sided case in a room's corner, its door turned about Z by any angle."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, hypot
+from typing import final
+
+from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.synth.assembly import Piece, assemble
+from grafu.synth.finish import PLAIN, Finish, surface_of
+from grafu.synth.fronts import Mount, Setting, front_pieces
+from grafu.synth.layout import Cell, Door, Edges, Rect
+from grafu.synth.shapes import board, framed_opening, prism
+from grafu.vocabulary import PartLabel
+
+ONE_DOOR = Door()
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class CornerCabinet:
+    """A corner cabinet, metres: it stands `along_x` and `along_y` against two walls, its ends `depth` deep.
+
+    The front runs between the ends, yawed by atan2(along_y - depth, along_x - depth): 45 degrees where both walls are
+    alike. The door hangs in a face frame of width `frame`.
+
+    Raises:
+        ValueError: if the ends leave no room for a front.
+    """
+
+    name: str = "corner_cabinet"
+    along_x: float = 0.9
+    along_y: float = 0.9
+    depth: float = 0.35
+    height: float = 0.8
+    panel: float = 0.018
+    frame: float = 0.04
+    door: Door = ONE_DOOR
+    mount: Mount = "overlay"
+    finish: Finish = PLAIN
+
+    def __post_init__(self) -> None:
+        if min(self.along_x, self.along_y) <= self.depth or self.front_width <= 4 * self.frame:
+            size = f"{self.along_x} x {self.along_y} m, ends {self.depth} m, frame {self.frame} m"
+            raise ValueError(f"`CornerCabinet` needs walls longer than its ends, with room for a door: got {size}")
+
+    @property
+    def front_width(self) -> float:
+        """The length of the angled front."""
+        return hypot(self.along_x - self.depth, self.along_y - self.depth)
+
+    @property
+    def yaw(self) -> float:
+        """How far the front is turned about Z, radians: 0 faces -Y, pi / 2 faces +X."""
+        return atan2(self.along_y - self.depth, self.along_x - self.depth)
+
+
+def make_corner_cabinet(spec: CornerCabinet) -> Asset:
+    """Returns the corner cabinet with its door's true joint."""
+    middle = vec3((spec.depth + spec.along_x) / 2, (spec.along_y - spec.depth) / 2, 0.0)
+    T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), spec.yaw), middle)
+    return assemble(spec.name, [*_case(spec), *(piece.transformed(T) for piece in _front(spec))])
+
+
+def _front(spec: CornerCabinet) -> Iterator[Piece]:
+    """Yields the frame and the door before they are turned: the plane y = 0, facing -Y, centred in x."""
+    half, thick, b = spec.front_width / 2, spec.panel, spec.frame
+    setting = Setting(0.0, spec.depth, spec.mount, lap=0.6 * b, panel=b, finish=spec.finish)
+    frame = framed_opening(Box(vec3(-half, 0.0, 0.0), vec3(half, thick, spec.height)), b)
+    yield Piece(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, spec.finish.case) for mesh in frame))
+    yield from front_pieces(Cell(spec.door, Rect(b - half, half - b, b, spec.height - b), Edges()), setting)
+
+
+def _case(spec: CornerCabinet) -> Iterator[Piece]:
+    x, y, d, t, h, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.height, spec.finish.case
+    nook = t / max(abs(vec3(x - d, y - d, 0.0)) / spec.front_width)  # how far ends stand back behind the frame
+    boards = {
+        "side_panel_left": ((t, 0.0, 0.0), (d - nook, t, h)),
+        "side_panel_right": ((x - t, y - d + nook, 0.0), (x, y - t, h)),
+    }
+    for stem, (low, high) in boards.items():
+        yield Piece(PartLabel.SIDE_PANEL, stem, (surface_of(board(low, high), wood),))
+    yield Piece(PartLabel.BACK_PANEL, "back_panel_left", (surface_of(board((0.0, 0.0, 0.0), (t, y - t, h)), wood),))
+    yield Piece(PartLabel.BACK_PANEL, "back_panel_right", (surface_of(board((0.0, y - t, 0.0), (x, y, h)), wood),))
+    outline = ((t, t), (d - nook, t), (x - t, y - d + nook), (x - t, y - t), (t, y - t))
+    for label, stem, z in (
+        (PartLabel.BOTTOM_PANEL, "bottom_panel", 0.0),
+        (PartLabel.SHELF, "shelf", h / 2 - t / 2),
+        (PartLabel.TOP_PANEL, "top_panel", h - t),
+    ):
+        yield Piece(label, stem, (surface_of(prism(outline, z, z + t), wood),))

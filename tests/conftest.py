@@ -1,0 +1,12 @@
+"""Settings for all tests; it also makes tests/ importable, so that every test can use `strategies` and `sweeping`."""
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+settings.register_profile("grafu", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("grafu")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # The shape checks sample long tuples with `random`, also inside strategies; Hypothesis seeds it, so tests repeat
+    config.addinivalue_line("filterwarnings", "ignore:Do not use the `random` module inside strategies")

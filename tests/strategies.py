@@ -1,0 +1,68 @@
+"""Hypothesis strategies that several tests share: specs of made furniture of every kind.
+
+Draw a spec and call `made(spec)` in the test: a failure then shows the spec, and not thousands of vertices.
+"""
+
+from math import pi
+
+from hypothesis import strategies as st
+
+from grafu.asset.part import Asset
+from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.case import Case
+from grafu.synth.chest import Chest, make_chest
+from grafu.synth.corner import CornerCabinet, make_corner_cabinet
+from grafu.synth.desk import Desk, Table, make_desk, make_table
+from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
+
+handles = st.sampled_from(["bar", "knob", "none"])
+leaf_styles = st.sampled_from(["slab", "chamfered", "rounded", "bowed", "shaker", "glass"])
+drawer_boxes = st.sampled_from(["whole", "no bottom", "shell", "front only"])
+hinge_sides = st.sampled_from(["left", "right", "top", "bottom"])
+yaws = st.floats(-pi, pi).map(lambda angle: round(angle, 3))
+small_counts = st.integers(0, 2)
+
+doors = st.builds(Door, hinge_sides, leaf_styles, handles, shelves=small_counts)
+drawers = st.builds(Drawer, drawer_boxes, leaf_styles, handles)
+pairs = st.builds(Pair, leaf_styles, handles, shelves=small_counts, muntin=st.sampled_from([0.0, 0.03]))
+leaves = st.one_of(doors, drawers, pairs, st.builds(Bay, small_counts))
+betweens = st.sampled_from(["panel", "rail", "nothing"])
+
+
+def _cells(children: st.SearchStrategy[Layout]) -> st.SearchStrategy[Layout]:
+    several = st.lists(children, min_size=2, max_size=3).map(tuple)
+    return st.one_of(st.builds(Row, several, between=betweens), st.builds(Stack, several, between=betweens))
+
+
+layouts = st.one_of(leaves, _cells(leaves))
+cases = st.builds(
+    Case,
+    width=st.floats(0.6, 1.6),
+    height=st.floats(0.6, 2.0),
+    depth=st.floats(0.3, 0.6),
+    panel=st.sampled_from([0.008, 0.018, 0.03]),
+    base=st.sampled_from(["none", "plinth", "legs"]),
+    top=st.sampled_from(["between", "over", "none"]),
+    overhang=st.sampled_from([0.0, 0.02]),
+    frame=st.sampled_from([0.0, 0.04]),
+)
+mounts = st.sampled_from(["overlay", "inset"])
+cabinet_specs = st.builds(Cabinet, case=cases, layout=layouts, mount=mounts, gap=st.sampled_from([0.002, 0.003]))
+table_specs = st.builds(Table, has_aprons=st.booleans(), two_sided=st.booleans())
+desk_specs = st.builds(Desk, left=st.one_of(st.none(), doors))
+chest_specs = st.builds(Chest, overhang=st.floats(0.0, 0.03))
+corner_specs = st.builds(CornerCabinet, along_x=st.floats(0.8, 1.3), mount=mounts)
+furniture_specs = st.one_of(cabinet_specs, cabinet_specs, table_specs, desk_specs, chest_specs, corner_specs)
+
+_MAKERS = {
+    Cabinet: make_cabinet,
+    Table: make_table,
+    Desk: make_desk,
+    Chest: make_chest,
+    CornerCabinet: make_corner_cabinet,
+}
+
+
+def made(spec: Cabinet | Table | Desk | Chest | CornerCabinet) -> Asset:
+    """Returns the furniture of a drawn spec."""
+    return _MAKERS[type(spec)](spec)
