@@ -1,0 +1,170 @@
+"""Annotated inputs: rigid bodies with visuals and joints to parts. It reads no files and moves nothing.
+
+Within a moving body the handle visuals become `handle` parts that ride on it, and the rest is one door or drawer.
+Wheels, casters, knobs and buttons that the input lets turn are `misc` and stay where they are.
+"""
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.asset.labels import is_control, is_piece, label_of
+from grafu.asset.names import unique_ids
+from grafu.asset.part import AnnotatedJoint, Part, PartSource
+from grafu.geometry.appearance import Surface
+from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import merge_meshes
+from grafu.vocabulary import JointType, PartLabel
+
+
+@final
+@dataclass(frozen=True)
+class Visual:
+    """One named piece of a body, in the input's coordinates with every joint as drawn."""
+
+    name: str
+    surfaces: tuple[Surface, ...]
+    link: str = ""
+    file: str = ""
+
+
+@final
+@dataclass(frozen=True)
+class Motion:
+    """How a body moves against its parent: limits as stated, radians or input units."""
+
+    type: JointType
+    axis: Axis
+    lower: float
+    upper: float
+    limited: bool = True
+
+
+@final
+@dataclass(frozen=True)
+class Body:
+    """Links that hang together rigidly. `parent` is the link name of the body that carries it; `motion` None: static."""
+
+    name: str
+    link: str
+    visuals: tuple[Visual, ...]
+    motion: Motion | None = None
+    parent: str | None = None
+
+
+@final
+@dataclass(frozen=True)
+class _Draft:
+    """A part before it has an id; `carrier` is the link of the moving body that it belongs to or rides on."""
+
+    name: str
+    label: PartLabel
+    labelled_by: str
+    visuals: tuple[Visual, ...]
+    carrier: str | None = None
+    motion: Motion | None = None
+
+
+def parts_of_bodies(bodies: list[Body], up: int) -> tuple[tuple[Part, ...], tuple[AnnotatedJoint, ...], list[str]]:
+    """Returns the parts and joints of the bodies, and notes on what was decided.
+
+    Args:
+        bodies: every rigid body of the input.
+        up: the index of the vertical axis in the input's coordinates.
+    """
+    notes: list[str] = []
+    movers = {body.link for body in bodies if _is_mover(body, notes)}
+    by_link = {body.link: body for body in bodies}
+    drafts: list[_Draft] = []
+    for body in bodies:
+        carrier = _carrier(body, by_link, movers)
+        drafts += _moving(body, carrier, up) if body.link in movers else _static(body, carrier, bool(movers), notes)
+    drafts = [d for d in drafts if any(not s.is_empty for v in d.visuals for s in v.surfaces)]
+    ids = unique_ids((d.name, d.label is PartLabel.HANDLE) for d in drafts)
+    mover_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.motion}
+    body_of = {v.link: body.link for body in bodies for v in body.visuals}
+    by_body = {body_of[link]: i for link, i in mover_ids.items()}
+    parts = tuple(_part(d, i, by_body) for d, i in zip(drafts, ids, strict=True))
+    joints = tuple(_joint(d.motion, i) for d, i in zip(drafts, ids, strict=True) if d.motion)
+    return parts, joints, notes
+
+
+def _is_mover(body: Body, notes: list[str]) -> bool:
+    if body.motion is None or not body.visuals:
+        return False
+    names = [body.name, *(v.name for v in body.visuals)]
+    if all(is_control(n) or label_of(n) is PartLabel.HANDLE for n in names) or is_control(body.name):
+        notes.append(f"{body.name} ({body.link}) is annotated to move, but is no door or drawer: kept in place")
+        return False
+    return any(label_of(v.name) is not PartLabel.HANDLE for v in body.visuals) or body.parent is None
+
+
+def _carrier(body: Body, by_link: dict[str, Body], movers: set[str]) -> str | None:
+    seen = {body.link}
+    parent = body.parent
+    while parent is not None and parent not in seen and parent in by_link:
+        if parent in movers:
+            return parent
+        seen.add(parent)
+        parent = by_link[parent].parent
+    return None
+
+
+def _moving(body: Body, carrier: str | None, up: int) -> list[_Draft]:
+    handles = [v for v in body.visuals if label_of(v.name) is PartLabel.HANDLE]
+    rest = tuple(v for v in body.visuals if v not in handles) or body.visuals
+    label = _mover_label(body, rest, up)
+    drafts = [_Draft(body.name, label, "annotation", rest, carrier, body.motion)]
+    if len(rest) + len(handles) == len(body.visuals):
+        drafts += [_Draft(v.name, PartLabel.HANDLE, "name", (v,), body.link) for v in handles]
+    return drafts
+
+
+def _mover_label(body: Body, rest: tuple[Visual, ...], up: int) -> PartLabel:
+    if body.motion is not None and body.motion.type is JointType.REVOLUTE:
+        return PartLabel.DOOR
+    spoken = Counter(label_of(name) for name in (body.name, *(v.name for v in rest)))
+    if spoken[PartLabel.DOOR] or spoken[PartLabel.DRAWER]:
+        return PartLabel.DOOR if spoken[PartLabel.DOOR] > spoken[PartLabel.DRAWER] else PartLabel.DRAWER
+    return (
+        PartLabel.DOOR if body.motion is not None and _slides_in_its_plane(rest, body.motion, up) else PartLabel.DRAWER
+    )
+
+
+def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: Motion, up: int) -> bool:
+    """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray."""
+    size = merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size
+    along = int(np.argmax(np.abs(motion.axis.direction)))
+    thin = int(np.argmin(size))
+    return along != up and thin not in (up, along) and size[thin] < 0.35 * np.delete(size, thin).min()
+
+
+def _static(body: Body, carrier: str | None, annotated: bool, notes: list[str]) -> list[_Draft]:
+    drafts = []
+    for visual in body.visuals:
+        label = label_of(visual.name)
+        if body.motion is not None and label is not PartLabel.HANDLE:
+            label = PartLabel.MISC
+        elif annotated and label is PartLabel.DRAWER and is_piece(visual.name):
+            # A front that the annotator left in place is a blind front: it closes the carcass like a frame.
+            front = "front" in visual.name.lower()
+            label = PartLabel.FACE_FRAME if front else PartLabel.MISC
+            notes.append(f"{visual.name} is annotated as fixed: labelled {label.value}, not drawer")
+        by = "none" if label is PartLabel.UNKNOWN else "name"
+        drafts.append(_Draft(visual.name, label, by, (visual,), carrier))
+    return drafts
+
+
+def _part(draft: _Draft, part_id: str, by_body: dict[str, str]) -> Part:
+    surfaces = tuple(s for v in draft.visuals for s in v.surfaces)
+    files = sorted({v.file for v in draft.visuals if v.file})
+    source = PartSource(draft.name, files[0] if len(files) == 1 else "", draft.visuals[0].link)
+    carrier = by_body.get(draft.carrier) if draft.carrier is not None else None
+    return Part(part_id, draft.label, surfaces, source, draft.labelled_by, carrier)  # type: ignore[arg-type]
+
+
+def _joint(motion: Motion, part_id: str) -> AnnotatedJoint:
+    low, high = sorted((motion.lower, motion.upper))
+    return AnnotatedJoint(part_id, motion.type, motion.axis, low, high, motion.limited)

@@ -1,0 +1,87 @@
+"""Unannotated inputs: named pieces to parts. Pieces that share a group become one door or drawer.
+
+It reads no files. A piece belongs to a group where the input's hierarchy says so, or where its name is a piece's name
+after a common, numbered beginning (`drawer_1_front`, `drawer_1_side`).
+"""
+
+import re
+from dataclasses import dataclass
+from typing import final
+
+from grafu.asset.labels import is_piece, label_of
+from grafu.asset.names import unique_ids
+from grafu.asset.part import Part, PartSource
+from grafu.geometry.appearance import Surface
+from grafu.vocabulary import PartLabel
+
+# The beginning of a piece's name up to its number: `drawer_1` of `drawer_1_front`, `Door02` of `Door02Panel`.
+_NUMBERED = re.compile(r"^(.*?(?:door|drawer)s?[ _.-]*\d+)[ _.-]*[A-Za-z]", re.IGNORECASE)
+
+
+@final
+@dataclass(frozen=True)
+class PartDraft:
+    """A named piece. `group` is a key shared by the pieces of one door or drawer, `group_name` its name.
+
+    `label_name` is the name that the label is read from, where it is not the piece's own.
+    """
+
+    name: str
+    surfaces: tuple[Surface, ...]
+    group: str = ""
+    group_name: str = ""
+    label_name: str = ""
+    file: str = ""
+
+
+@final
+@dataclass(frozen=True)
+class _Grouped:
+    name: str
+    label: PartLabel
+    drafts: tuple[PartDraft, ...]
+    carrier: str = ""
+
+
+def parts_of_drafts(drafts: list[PartDraft]) -> tuple[Part, ...]:
+    """Returns one part per group or single piece, in order; handles stay parts of their own and ride on their group."""
+    grouped: dict[str, _Grouped] = {}
+    for index, draft in enumerate(_with_name_groups(drafts)):
+        label = label_of(draft.label_name or draft.name)
+        alone = not draft.group or label is PartLabel.HANDLE
+        key = f"piece {index}" if alone else f"group {draft.group}"
+        if key in grouped:
+            before = grouped[key]
+            grouped[key] = _Grouped(before.name, before.label, (*before.drafts, draft))
+        elif alone:
+            grouped[key] = _Grouped(draft.name, label, (draft,), f"group {draft.group}" if draft.group else "")
+        else:
+            grouped[key] = _Grouped(draft.group_name, label_of(draft.group_name), (draft,))
+    ids = unique_ids((g.name, g.label is PartLabel.HANDLE) for g in grouped.values())
+    by_key = dict(zip(grouped, ids, strict=True))
+    return tuple(_part(g, by_key[key], by_key.get(g.carrier)) for key, g in grouped.items())
+
+
+def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:
+    surfaces = tuple(s for d in grouped.drafts for s in d.surfaces)
+    source = PartSource(grouped.name, grouped.drafts[0].file)
+    by = "none" if grouped.label is PartLabel.UNKNOWN else "name"
+    return Part(part_id, grouped.label, surfaces, source, by, carrier)  # type: ignore[arg-type]
+
+
+def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
+    """Returns the drafts with groups added where numbered names share a beginning and one of them is a piece."""
+    beginnings: dict[str, list[int]] = {}
+    for index, draft in enumerate(drafts):
+        match = _NUMBERED.match(draft.name)
+        if match and not draft.group and (is_piece(draft.name) or label_of(draft.name) is PartLabel.HANDLE):
+            beginnings.setdefault(match[1], []).append(index)
+    out = list(drafts)
+    for beginning, members in beginnings.items():
+        pieces = [i for i in members if label_of(drafts[i].name) is not PartLabel.HANDLE]
+        if len(pieces) < 2 and len(members) < 2 or not pieces:
+            continue
+        for i in members:
+            d = drafts[i]
+            out[i] = PartDraft(d.name, d.surfaces, f"name {beginning}", beginning, d.label_name, d.file)
+    return out

@@ -1,0 +1,143 @@
+"""`load_asset`: from a path to an asset in the object frame. It knows which reader reads what, and no format.
+
+What the input is, is told by its content: PartNet-Mobility's files, a `<robot>` element, glTF's JSON or magic bytes.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from grafu.asset.clean import cleaned
+from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.frame import settle_frame
+from grafu.asset.gltf import read_gltf
+from grafu.asset.mesh_files import MESH_SUFFIXES
+from grafu.asset.options import LoadOptions
+from grafu.asset.part import AnnotatedJoint, Asset, Frame, Part
+from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
+from grafu.asset.reading import Reading
+from grafu.asset.riders import with_riders
+from grafu.asset.urdf import read_urdf
+from grafu.errors import AssetTooLarge, UnreadableAsset, UnsegmentedAsset
+from grafu.vocabulary import JointType, PartLabel
+
+Reader = Callable[[Path, LoadOptions], Reading]
+
+READERS: Final[dict[str, Reader]] = {
+    "partnet-mobility": read_partnet_mobility,
+    "urdf": read_urdf,
+    "gltf": read_gltf,
+    "mesh folder": read_mesh_folder,
+    "mesh file": read_mesh,
+}
+_EXPECTED = "a PartNet-Mobility folder, a URDF, a GLB or glTF scene, an OBJ with groups, or a folder of meshes"
+
+
+def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
+    """Returns the asset at `path`, in metres, Z up, front -Y, standing on z = 0.
+
+    Args:
+        path: a file or a folder.
+        options: what the user states about the frame, the scale, the labels and the limits.
+
+    Raises:
+        UnreadableAsset: if there is nothing at the path that can be read, or it is damaged.
+        UnsegmentedAsset: if it is one piece where parts were expected.
+        AssetTooLarge: if it exceeds a limit.
+        AssetError: if an option contradicts the input.
+    """
+    path = Path(path)
+    kind, place = detect(path)
+    reading = cleaned(READERS[kind](place, options))
+    _check_parts(reading, path, options)
+    frame = settle_frame(_without_labels(reading) if options.labels == "none" else reading, options)
+    parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))
+    if options.labels == "none":
+        parts = tuple(_unlabelled(p) for p in parts)
+    joints = tuple(_placed_joint(j, frame) for j in reading.joints)
+    name = (path.resolve().name if path.is_dir() else path.stem) or "model"
+    return Asset(name, str(path), reading.kind, parts, frame, joints, reading.notes)
+
+
+def detect(path: Path) -> tuple[str, Path]:
+    """Returns which reader reads what is at `path`, and the file or folder to give it.
+
+    Raises:
+        UnreadableAsset: if there is nothing, or nothing that is read.
+    """
+    if not path.exists():
+        raise UnreadableAsset(f"{path} does not exist: expected {_EXPECTED}")
+    return _detect_folder(path) if path.is_dir() else _detect_file(path)
+
+
+def _detect_file(path: Path) -> tuple[str, Path]:
+    suffix = path.suffix.lower()
+    if path.name in ("mobility.urdf", "mobility_v2.json") and is_partnet_mobility(path.parent):
+        return "partnet-mobility", path.parent
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(4096)
+    except OSError as error:
+        raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {_EXPECTED}") from None
+    if suffix == ".urdf" or b"<robot" in head:
+        return "urdf", path
+    if suffix in (".glb", ".gltf") or head[:4] == b"glTF":
+        return "gltf", path
+    if suffix in MESH_SUFFIXES:
+        return "mesh file", path
+    raise UnreadableAsset(f"{path} is not a kind of file that is read: expected {_EXPECTED}")
+
+
+def _detect_folder(folder: Path) -> tuple[str, Path]:
+    if is_partnet_mobility(folder):
+        return "partnet-mobility", folder
+    for kind, suffixes in (("urdf", (".urdf",)), ("gltf", (".glb", ".gltf"))):
+        found = _files(folder, suffixes)
+        if len(found) == 1:
+            return kind, found[0]
+        if len(found) > 1:
+            names = ", ".join(p.name for p in found[:3])
+            raise UnreadableAsset(f"{folder} holds {len(found)} {suffixes[0]} files ({names}): name one of them")
+    if mesh_files_in(folder):
+        return "mesh folder", folder
+    state = "is empty" if not any(folder.iterdir()) else "holds nothing that is read"
+    raise UnreadableAsset(f"{folder} {state}: expected {_EXPECTED}")
+
+
+def _files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
+    """Returns the files of a kind in the folder, or else one level below it."""
+    here = sorted(p for p in folder.iterdir() if p.suffix.lower() in suffixes and p.is_file())
+    return here or sorted(p for p in folder.glob("*/*") if p.suffix.lower() in suffixes and p.is_file())
+
+
+def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
+    count, most = len(reading.parts), options.limits.max_parts
+    if count > most:
+        raise AssetTooLarge(f"{path} has {count:,} parts: at most {most:,} are read; merge or leave out some")
+    if count == 0:
+        raise UnreadableAsset(f"{path} holds no part with faces: expected {_EXPECTED}")
+    if count == 1:
+        only = reading.parts[0].source.name
+        raise UnsegmentedAsset(f"{path} is one part ({only}): expected several; segment it into parts first")
+
+
+def _without_labels(reading: Reading) -> Reading:
+    return replace(reading, parts=tuple(_unlabelled(p) for p in reading.parts), furniture=None)
+
+
+def _unlabelled(part: Part) -> Part:
+    return replace(part, label=PartLabel.UNKNOWN, labelled_by="none")
+
+
+def _placed_part(part: Part, frame: Frame) -> Part:
+    return replace(part, surfaces=tuple(s.transformed(np.asarray(frame.input_to_output)) for s in part.surfaces))
+
+
+def _placed_joint(joint: AnnotatedJoint, frame: Frame) -> AnnotatedJoint:
+    T = np.asarray(frame.input_to_output)
+    axis = joint.axis.transformed(T, rotational=joint.type is JointType.REVOLUTE)
+    metres = frame.scale if joint.type is JointType.PRISMATIC else 1.0
+    return replace(joint, axis=axis, lower=joint.lower * metres, upper=joint.upper * metres)

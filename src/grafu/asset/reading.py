@@ -1,0 +1,41 @@
+"""What a reader hands on: parts as the input has them, before the frame is settled. It decides nothing."""
+
+from dataclasses import dataclass, field
+from typing import Literal, final
+
+from grafu.asset.part import AnnotatedJoint, AssetKind, Part
+
+Furniture = Literal["storage", "table"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Convention:
+    """What the format or the dataset says about its coordinates; None where it says nothing.
+
+    `unit` is metres per input unit. `normalised` says that the unit has no meaning, because the dataset scales every
+    model to one size. `origin` names who says so, in words for the report.
+    """
+
+    origin: str
+    up: str | None = None
+    front: str | None = None
+    unit: float | None = None
+    normalised: bool = False
+    usual_up: str = "+Y"
+
+
+@final
+@dataclass(frozen=True)
+class Reading:
+    """An input in its own coordinates: every `Part` and joint here is still to be mapped to the object frame.
+
+    `fronts` are hints on where the front is, as directions of opening in input coordinates, found in the annotation.
+    """
+
+    kind: AssetKind
+    parts: tuple[Part, ...]
+    convention: Convention
+    joints: tuple[AnnotatedJoint, ...] = ()
+    furniture: Furniture | None = None
+    notes: tuple[str, ...] = field(default=())

@@ -1,0 +1,127 @@
+"""The metric size of furniture from its shape and labels. The estimate ignores the input's unit, yaw and handedness.
+
+Each measure that is found (depth, door width, drawer height, ...) says how large the unit is, within a spread; the
+estimate is their weighted mean on a logarithmic scale, so scaling the input scales nothing but the result's inverse.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.asset.reading import Furniture
+from grafu.geometry.box import Box
+from grafu.vocabulary import PartLabel
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Habit:
+    """How large something usually is, in metres, and the spread of its logarithm."""
+
+    metres: float
+    spread: float
+
+
+# Sizes of European and American household furniture as sold; spreads are wide where kinds differ (a sideboard and a
+# wardrobe differ in height by three, in depth hardly).
+STORAGE: Final[dict[str, Habit]] = {
+    "height": Habit(1.05, 0.6),
+    "width": Habit(0.95, 0.6),
+    "depth": Habit(0.45, 0.25),
+    "door width": Habit(0.42, 0.3),
+    "door height": Habit(0.80, 0.5),
+    "drawer width": Habit(0.50, 0.4),
+    "drawer height": Habit(0.18, 0.35),
+    "handle length": Habit(0.13, 0.6),
+    "panel thickness": Habit(0.020, 0.5),
+}
+TABLE: Final[dict[str, Habit]] = {
+    "height": Habit(0.74, 0.15),
+    "width": Habit(1.30, 0.4),
+    "depth": Habit(0.65, 0.3),
+    "drawer width": Habit(0.45, 0.4),
+    "drawer height": Habit(0.13, 0.4),
+    "panel thickness": Habit(0.025, 0.5),
+}
+# A unit in common use, in metres.
+UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
+_PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
+
+
+@final
+@dataclass(frozen=True)
+class Estimate:
+    """Metres per input unit, and the measures that it rests on, the weightiest first."""
+
+    scale: float
+    kind: Furniture
+    measures: tuple[str, ...]
+
+
+def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furniture | None) -> Estimate:
+    """Returns the likely metric scale of a piece of furniture.
+
+    Args:
+        parts: labelled parts in input coordinates.
+        whole: the box around them.
+        up: the index of the vertical axis.
+        furniture: what kind it is, where the input says so.
+    """
+    kind = furniture or _kind(parts, whole, up)
+    habits = TABLE if kind == "table" else STORAGE
+    found = {k: v for k, v in _measures(parts, whole, up).items() if v > 0}
+    known = sorted(set(found) & set(habits), key=lambda k: (habits[k].spread, k))
+    weights = np.array([habits[k].spread ** -2 for k in known])
+    logs = np.array([math.log(habits[k].metres / found[k]) for k in known])
+    return Estimate(float(np.exp(weights @ logs / weights.sum())), kind, tuple(known))
+
+
+def likely_unit(size: float, estimate: Estimate, spread: float = 4.0) -> tuple[str, float] | None:
+    """Returns the unit in common use that makes the object plausible, or None.
+
+    A unit is plausible where it is within a factor `spread` of the estimate and the largest side `size` (input units) comes out
+    between 10 cm and 6 m; of several the nearest to the estimate is taken, inches only where nothing else fits.
+    """
+    fits = {}
+    for name, unit in UNITS.items():
+        off = abs(math.log(unit / estimate.scale))
+        if off < math.log(spread) and 0.1 <= size * unit <= 6.0:
+            fits[name] = off + (math.log(2.0) if name == "inches" else 0.0)
+    if not fits:
+        return None
+    best = min(fits, key=lambda name: fits[name])
+    return best, UNITS[best]
+
+
+def is_normalised(whole: Box) -> bool:
+    """Whether a box looks scaled by a data set: largest side or diagonal 1 or 2 units to a thousandth."""
+    lengths = (float(whole.size.max()), float(whole.diagonal))
+    return any(abs(length - unit) < 1e-3 * unit for length in lengths for unit in (1.0, 2.0))
+
+
+def _kind(parts: tuple[Part, ...], whole: Box, up: int) -> Furniture:
+    labels = {p.label for p in parts}
+    if PartLabel.TOP_PANEL not in labels or PartLabel.LEG not in labels and PartLabel.SIDE_PANEL not in labels:
+        return "storage"
+    legs = [p.box.size[up] for p in parts if p.label is PartLabel.LEG]
+    return "table" if legs and max(legs) > 0.5 * whole.size[up] else "storage"
+
+
+def _measures(parts: tuple[Part, ...], whole: Box, up: int) -> dict[str, float]:
+    across = np.delete(whole.size, up)
+    found = {"height": float(whole.size[up]), "width": float(across.max()), "depth": float(across.min())}
+    for label, noun in ((PartLabel.DOOR, "door"), (PartLabel.DRAWER, "drawer")):
+        boxes = [p.box.size for p in parts if p.label is label]
+        if boxes:
+            found[f"{noun} height"] = float(np.median([s[up] for s in boxes]))
+            found[f"{noun} width"] = float(np.median([np.delete(s, up).max() for s in boxes]))
+    handles = [p.box.size.max() for p in parts if p.label is PartLabel.HANDLE]
+    if handles:
+        found["handle length"] = float(np.median(handles))
+    panels = [p.box.size.min() for p in parts if p.label in _PANELS]
+    if panels:
+        found["panel thickness"] = float(np.median(panels))
+    return found

@@ -1,0 +1,245 @@
+"""URDF files to rigid bodies with visuals: links, joints, meshes and primitives. Collision shapes are ignored.
+
+Everything comes out in the coordinates of the root link, every joint at zero. It settles no frame.
+"""
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+
+from grafu.asset.bodies import Body, Motion, Visual, parts_of_bodies
+from grafu.asset.labels import label_of
+from grafu.asset.options import LoadOptions
+from grafu.asset.reading import Convention, Reading
+from grafu.asset.urdf_shapes import ShapeReader
+from grafu.asset.xml_files import read_xml
+from grafu.errors import UnreadableAsset
+from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.transform import from_rotation, invert, rotation_matrix
+from grafu.vocabulary import JointType, PartLabel
+
+CONVENTION = Convention("the format (URDF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
+_MOVING = {
+    "revolute": JointType.REVOLUTE,
+    "continuous": JointType.REVOLUTE,
+    "prismatic": JointType.PRISMATIC,
+}
+
+
+@final
+@dataclass(frozen=True)
+class UrdfBodies:
+    """The bodies of a URDF and notes on what was left out."""
+
+    bodies: tuple[Body, ...]
+    notes: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class _JointElement:
+    name: str
+    kind: str
+    parent: str
+    child: str
+    origin: Mat4
+    axis: tuple[float, ...]
+    lower: float
+    upper: float
+    limited: bool
+
+
+@final
+@dataclass(frozen=True)
+class _Tree:
+    """The links with their visuals' elements, the joint above each link, and the pose of each link at zero."""
+
+    path: Path
+    robot: Any
+    links: dict[str, Any]
+    above: dict[str, _JointElement]
+    roots: tuple[str, ...]
+    T_root_link: dict[str, Mat4] = field(default_factory=dict)
+
+
+def read_urdf(path: Path, options: LoadOptions) -> Reading:
+    """Returns the model in the coordinates of its root link.
+
+    Raises:
+        UnreadableAsset: if the file is no URDF, its joints do not form a tree, or no shape could be read.
+    """
+    found = read_bodies(path, options)
+    parts, joints, said = parts_of_bodies(list(found.bodies), up=2)
+    return Reading("urdf", parts, CONVENTION, joints, notes=tuple(dict.fromkeys((*found.notes, *said))))
+
+
+def read_bodies(path: Path, options: LoadOptions, mesh_frame: bool = False) -> UrdfBodies:
+    """Returns the bodies of a URDF file.
+
+    Args:
+        path: the file.
+        options: limits on bytes and faces.
+        mesh_frame: give coordinates of the first static link that has visuals instead of the root link's.
+    """
+    tree = _read_tree(path, options)
+    heads = {link: _head(tree, link) for link in tree.links}
+    base = _base_link(tree, heads) if mesh_frame else tree.roots[0]
+    T_base_root = invert(tree.T_root_link[base])
+    shapes = ShapeReader(path, options.limits, _materials(tree.robot))
+    visuals: dict[str, list[Visual]] = {}
+    for link in tree.links:
+        found = _link_visuals(tree, link, shapes, T_base_root)
+        visuals.setdefault(heads[link], []).extend(found)
+    bodies = tuple(
+        _body(tree, head, tuple(visuals.get(head, ())), T_base_root) for head in dict.fromkeys(heads.values())
+    )
+    if not any(body.visuals for body in bodies):
+        missing = f" ({shapes.notes[0]})" if shapes.notes else ""
+        raise UnreadableAsset(f"{path} has no visual shape that can be read{missing}: expected visuals with meshes")
+    return UrdfBodies(bodies, (*shapes.notes, *_kind_notes(tree)))
+
+
+def _read_tree(path: Path, options: LoadOptions) -> _Tree:
+    robot = read_xml(path, options.limits)
+    if robot.tag != "robot":
+        raise UnreadableAsset(
+            f"{path} has the root <{robot.tag}>: expected <robot>, a URDF (xacro must be expanded first)"
+        )
+    links = {link.get("name", ""): link for link in robot.findall("link")}
+    joints = [_joint_element(element, path) for element in robot.findall("joint")]
+    above: dict[str, _JointElement] = {}
+    for joint in joints:
+        for end in (joint.parent, joint.child):
+            if end not in links:
+                raise UnreadableAsset(
+                    f"{path}: joint {joint.name!r} names the link {end!r}, which is not there; add it"
+                )
+        if joint.child in above:
+            raise UnreadableAsset(f"{path}: link {joint.child!r} has two parent joints; expected a tree; remove one")
+        above[joint.child] = joint
+    roots = tuple(name for name in links if name not in above)
+    tree = _Tree(path, robot, links, above, roots)
+    for link in links:
+        tree.T_root_link[link] = _pose(tree, link)
+    return tree
+
+
+def _pose(tree: _Tree, link: str) -> Mat4:
+    chain = []
+    while link in tree.above:
+        chain.append(tree.above[link])
+        link = chain[-1].parent
+        if len(chain) > len(tree.links):
+            raise UnreadableAsset(f"{tree.path}: the joints form a cycle through link {link!r}; expected a tree")
+    T = np.eye(4)
+    for joint in reversed(chain):
+        T = T @ joint.origin
+    return T
+
+
+def _joint_element(element: Any, path: Path) -> _JointElement:
+    name, kind = element.get("name", ""), element.get("type", "fixed")
+    ends = [element.find(tag) for tag in ("parent", "child")]
+    if any(end is None for end in ends):
+        raise UnreadableAsset(f"{path}: joint {name!r} lacks a parent or a child; expected both")
+    limit, axis = element.find("limit"), element.find("axis")
+    lower, upper = (_number(limit, key, path) for key in ("lower", "upper"))
+    direction = numbers(axis.get("xyz") if axis is not None else None, (1.0, 0.0, 0.0), path)
+    limited = kind != "continuous" and limit is not None and lower != upper
+    parent, child = (end.get("link", "") for end in ends)
+    return _JointElement(name, kind, parent, child, origin_of(element, path), direction, lower, upper, limited)
+
+
+def _number(element: Any, key: str, path: Path) -> float:
+    return numbers(element.get(key) if element is not None else None, (0.0,), path)[0]
+
+
+def numbers(text: str | None, default: tuple[float, ...], path: Path) -> tuple[float, ...]:
+    """Returns as many finite numbers as the default has, or the default where there is no text.
+
+    Raises:
+        UnreadableAsset: if the text holds something else.
+    """
+    if text is None:
+        return default
+    try:
+        values = tuple(float(v) for v in text.split())
+    except ValueError:
+        values = ()
+    if len(values) != len(default) or not all(math.isfinite(v) for v in values):
+        raise UnreadableAsset(f"{path}: expected {len(default)} finite numbers, got {text!r}; mend the URDF")
+    return values
+
+
+def origin_of(element: Any, path: Path) -> Mat4:
+    """Returns the transform of an element's `<origin>` (identity where there is none): fixed-axis roll, pitch, yaw."""
+    origin = element.find("origin")
+    if origin is None:
+        return np.eye(4)
+    roll, pitch, yaw = numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path)
+    x, y, z = (vec3(*row) for row in np.eye(3))
+    R = rotation_matrix(z, yaw) @ rotation_matrix(y, pitch) @ rotation_matrix(x, roll)
+    return from_rotation(R, np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
+
+
+def _moves(joint: _JointElement) -> bool:
+    return joint.kind in _MOVING and any(joint.axis)
+
+
+def _head(tree: _Tree, link: str) -> str:
+    """Returns the topmost link that this one is rigidly fixed to."""
+    while link in tree.above and not _moves(tree.above[link]):
+        link = tree.above[link].parent
+    return link
+
+
+def _base_link(tree: _Tree, heads: dict[str, str]) -> str:
+    static = [link for link in tree.links if heads[link] == tree.roots[0]]
+    return next((link for link in static if tree.links[link].find("visual") is not None), tree.roots[0])
+
+
+def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4) -> list[Visual]:
+    made = []
+    T_base_link = T_base_root @ tree.T_root_link[link]
+    for element in tree.links[link].findall("visual"):
+        shape = shapes.read(element)
+        if shape is None:
+            continue
+        T = T_base_link @ origin_of(element, tree.path)
+        name = _visual_name(element.get("name") or "", link, Path(shape.file).stem)
+        made.append(Visual(name, tuple(s.transformed(T) for s in shape.surfaces), link, shape.file))
+    return made
+
+
+def _visual_name(visual: str, link: str, stem: str) -> str:
+    if label_of(link) is PartLabel.HANDLE:
+        return link
+    known = (name for name in (visual, link, stem) if name and label_of(name) is not PartLabel.UNKNOWN)
+    return next(known, visual or link or stem)
+
+
+def _body(tree: _Tree, head: str, visuals: tuple[Visual, ...], T_base_root: Mat4) -> Body:
+    joint = tree.above.get(head)
+    if joint is None:
+        return Body(head, visuals[0].link if visuals else head, visuals)
+    parent = _head(tree, joint.parent)
+    T = T_base_root @ tree.T_root_link[head]
+    axis = Axis(T[:3, 3], T[:3, :3] @ np.array(joint.axis))
+    motion = Motion(_MOVING[joint.kind], axis, joint.lower, joint.upper, joint.limited)
+    return Body(head, head, visuals, motion, parent if parent in tree.above else None)
+
+
+def _materials(robot: Any) -> dict[str, Any]:
+    return {m.get("name", ""): m for m in robot.findall("material")}
+
+
+def _kind_notes(tree: _Tree) -> list[str]:
+    odd = [j for j in tree.above.values() if j.kind not in _MOVING and j.kind != "fixed"]
+    zero = [j for j in tree.above.values() if j.kind in _MOVING and not any(j.axis)]
+    extra = [f"link {name} hangs on no joint and is kept in place" for name in tree.roots[1:]]
+    said = [f"joint {j.name} is {j.kind}, which is not built: {j.child} is kept in place" for j in odd]
+    return said + [f"joint {j.name} has a zero axis: {j.child} is kept in place" for j in zero] + extra
