@@ -1,0 +1,54 @@
+# What a person runs, and what CI runs. Only Python 3.11+ and make are needed; everything goes into .venv.
+#   make demo    install, and make the sample furniture work
+#   make test    install the development tools, and run the tests
+#   make check   formatting, lint, types, layers
+#   make bench   speed, memory, growth
+#   make clean   remove what these made
+
+PYTHON ?= python3
+BIN := .venv/bin
+SAMPLE := samples/kitchen_base.glb
+
+.PHONY: demo test check format bench clean help
+.DEFAULT_GOAL := help
+
+help:
+	@sed -n 's/^#   //p' Makefile
+
+.venv/made:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "Python 3.11 or newer is needed: $$($(PYTHON) --version 2>&1); say make PYTHON=python3.12" >&2; exit 1; }
+	$(PYTHON) -m venv .venv
+	@touch $@
+
+.venv/installed: .venv/made pyproject.toml
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+.venv/installed-dev: .venv/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
+
+demo: .venv/installed
+	$(BIN)/grafu functionalize $(SAMPLE) --out out --overwrite
+	@echo "look: out/kitchen_base/model.glb (animated: any glTF viewer), model.urdf (any robot simulator), report.json"
+
+test: .venv/installed-dev
+	$(BIN)/pytest -n auto
+
+check: .venv/installed-dev
+	$(BIN)/ruff check src tests scripts
+	$(BIN)/ruff format --check src tests scripts
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: .venv/installed-dev
+	$(BIN)/ruff check --fix src tests scripts
+	$(BIN)/ruff format src tests scripts
+
+bench: .venv/installed-dev
+	$(BIN)/python scripts/bench.py
+
+clean:
+	rm -rf .venv out bench build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find src tests scripts -name __pycache__ -type d -prune -exec rm -rf {} +

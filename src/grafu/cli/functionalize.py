@@ -1,0 +1,133 @@
+"""The verb `functionalize`: inputs and options in, one folder of results per input out."""
+
+import argparse
+import os
+from collections import defaultdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grafu.cli.gallery import open_gallery
+from grafu.cli.input_options import add_input_options, load_options, output_name, positive_count
+from grafu.cli.messages import complain
+from grafu.errors import AssetError
+from grafu.pipeline.motion_source import MotionSource
+
+if TYPE_CHECKING:
+    from grafu.cli.job import Job, JobOptions, JobResult
+
+_DESCRIPTION = """\
+Reads part-segmented furniture (GLB, glTF, URDF, OBJ, a folder of meshes, a PartNet-Mobility folder) and writes for
+each input DIR/<name>/ with model.glb (animated), model.urdf with meshes/, graph.json and report.json.
+"""
+_EXAMPLES = """\
+examples:
+  grafu functionalize cabinet.glb --out results
+  grafu functionalize models/* --motion annotation --jobs 4 --out results
+  grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
+"""
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
+    """Adds the verb and returns its parser."""
+    parser = verbs.add_parser(
+        "functionalize", help="make furniture work: hinges, rails, limits", description=_DESCRIPTION, epilog=_EXAMPLES
+    )
+    parser.add_argument("inputs", nargs="+", type=Path, metavar="INPUT", help="a model: file or folder")
+    parser.add_argument("--out", required=True, type=Path, metavar="DIR", help="where the results go: DIR/<name>/")
+    parser.add_argument(
+        "--motion",
+        type=MotionSource,
+        choices=tuple(MotionSource),
+        default=MotionSource.AUTO,
+        metavar="SOURCE",
+        help="where motions come from: annotation (the input's own joints), rule (labels, boxes and handles), "
+        "or auto: the annotation where there is one, else the rule (default: auto)",
+    )
+    parser.add_argument(
+        "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"
+    )
+    parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
+    parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges and rails")
+    parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
+    parser.add_argument("--overwrite", action="store_true", help="replace results that are there already")
+    add_input_options(parser)
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Functionalizes every input and prints the summary; returns the exit code.
+
+    Raises:
+        FunctionalizationError: if the options are wrong; nothing has been written then.
+    """
+    from grafu.cli.summary import print_results
+
+    jobs = _jobs(options)
+    results = [_run_one(jobs[0])] if len(jobs) == 1 else _run_several(jobs, options.jobs or os.cpu_count() or 1)
+    print_results(results)
+    return _exit_code(results)
+
+
+def _jobs(options: argparse.Namespace) -> "list[Job]":
+    from grafu.cli.job import Job
+
+    shared = _job_options(options)
+    inputs = list({path.resolve(): path for path in options.inputs}.values())
+    named: dict[str, list[Path]] = defaultdict(list)
+    for path in inputs:
+        named[output_name(path).casefold()].append(path)
+    for paths in named.values():
+        if len(paths) > 1:
+            raise AssetError(
+                f"inputs must have different names, for results go to DIR/<name>: got {paths[0]} and {paths[1]}; "
+                "give their folders where these differ, or run them into different --out"
+            )
+    return [Job(path, output_name(path), shared) for path in inputs]
+
+
+def _job_options(options: argparse.Namespace) -> "JobOptions":
+    """Returns the shared options; what is wrong with them is said here, before any input is read."""
+    from grafu.cli.job import JobOptions
+    from grafu.export.formats import exporter
+
+    formats = tuple(dict.fromkeys(name.strip().lower() for name in options.formats.split(",") if name.strip()))
+    for name in formats:
+        exporter(name)
+    open_gallery(options.templates)
+    return JobOptions(
+        out=options.out,
+        motion=options.motion,
+        load=load_options(options),
+        formats=formats,
+        templates=options.templates,
+        trim=not options.no_trim,
+        overwrite=options.overwrite,
+        debug=options.debug,
+    )
+
+
+def _run_one(job: "Job") -> "JobResult":
+    from grafu.cli.job import run_job
+
+    return run_job(job)
+
+
+def _run_several(jobs: "list[Job]", workers: int) -> "list[JobResult]":
+    from grafu.cli.pool import run_jobs
+    from grafu.cli.progress import with_progress
+
+    order = {job.name: i for i, job in enumerate(jobs)}
+    return sorted(with_progress(run_jobs(jobs, workers), len(jobs)), key=lambda result: order[result.job.name])
+
+
+def _exit_code(results: "list[JobResult]") -> int:
+    """Returns 0 where all is done, 2 where the one input is bad, 1 where some of several failed or we are at fault."""
+    from grafu.cli.job import Failed
+
+    failed = [result for result in results if isinstance(result, Failed)]
+    for failure in failed:
+        complain(failure.why if len(results) == 1 else f"{failure.job.input}: {failure.why}")
+    if not failed:
+        return 0
+    return 2 if len(results) == 1 and failed[0].users_fault else 1

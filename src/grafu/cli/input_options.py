@@ -1,0 +1,73 @@
+"""The options that say how an input is read, shared by every verb that reads one. It reads nothing itself."""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from grafu.asset.options import LoadOptions
+
+LABELS = ("input", "none")
+
+
+def add_input_options(parser: argparse.ArgumentParser) -> None:
+    """Adds --labels, --up, --front, --scale and --height."""
+    group = parser.add_argument_group("how the input is read (by default it is detected, and the report says how)")
+    group.add_argument(
+        "--labels",
+        choices=LABELS,
+        default="input",
+        help="take part categories from the input's names, or ignore them (default: input)",
+    )
+    group.add_argument("--up", metavar="AXIS", help="the input's axis that points up, say +Z")
+    group.add_argument("--front", metavar="AXIS", help="the input's axis that points out of the front, say -Y")
+    group.add_argument("--scale", type=_number, metavar="S", help="metres per unit of the input, say 0.01")
+    group.add_argument(
+        "--height", type=_number, metavar="M", help="the real height in metres, say 0.72 (wins over --scale)"
+    )
+
+
+def load_options(options: argparse.Namespace) -> LoadOptions:
+    """Returns the reader's options that the arguments state.
+
+    Raises:
+        AssetError: if a direction is not an axis or a size is not positive.
+    """
+    return LoadOptions(
+        up=options.up, front=options.front, scale=options.scale, height=options.height, labels=options.labels
+    )
+
+
+def join_directions(arguments: Sequence[str]) -> list[str]:
+    """Returns the arguments with `--front -Y` written as `--front=-Y`: argparse takes a lone `-Y` for an option."""
+    joined: list[str] = []
+    for argument in arguments:
+        if (
+            joined
+            and joined[-1] in ("--up", "--front")
+            and argument[:1] == "-"
+            and argument[1:].upper() in ("X", "Y", "Z")
+        ):
+            joined[-1] += f"={argument}"
+        else:
+            joined.append(argument)
+    return joined
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number: got {text!r}") from None
+
+
+def positive_count(text: str) -> int:
+    """Returns the number; raises argparse's error unless it is a whole number above 0."""
+    if not (text.isascii() and text.isdigit() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"must be a whole number above 0: got {text!r}")
+    return int(text)
+
+
+def output_name(path: Path) -> str:
+    """Returns the name that an input's results carry: the file's stem, or the folder's name."""
+    resolved = path.resolve()
+    return resolved.name if resolved.is_dir() else resolved.stem

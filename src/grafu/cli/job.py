@@ -1,0 +1,146 @@
+"""One input from file to files: read, functionalize, export, write. It prints nothing and may run in another process.
+
+What goes wrong comes back as a value, so that one bad input never stops the others.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, final
+
+from grafu.asset.options import LoadOptions
+from grafu.cli.gallery import open_gallery
+from grafu.cli.messages import internal_fault, one_line
+from grafu.errors import ExportError, FunctionalizationError
+from grafu.pipeline.motion_source import MotionSource
+
+if TYPE_CHECKING:
+    from grafu.export.files import ExportFiles
+    from grafu.pipeline.functionalize import Functionalized
+    from grafu.pipeline.report_schema import Report
+
+
+@final
+@dataclass(frozen=True)
+class JobOptions:
+    """What all inputs of one call share. `templates` is a folder of the user's own, or None."""
+
+    out: Path
+    motion: MotionSource = MotionSource.AUTO
+    load: LoadOptions = LoadOptions()
+    formats: tuple[str, ...] = ("glb", "urdf")
+    templates: Path | None = None
+    trim: bool = True
+    overwrite: bool = False
+    debug: bool = False
+
+
+@final
+@dataclass(frozen=True)
+class Job:
+    """One input and the name of its results."""
+
+    input: Path
+    name: str
+    options: JobOptions
+
+    @property
+    def folder(self) -> Path:
+        """Where the results go."""
+        return self.options.out / self.name
+
+
+@final
+@dataclass(frozen=True)
+class Succeeded:
+    """The report of a job that is done, and how long it took from reading to writing, in seconds."""
+
+    job: Job
+    report: "Report"
+    seconds: float
+
+
+@final
+@dataclass(frozen=True)
+class Failed:
+    """A job that wrote nothing: why, in one line, and whether the input (or else we) is at fault."""
+
+    job: Job
+    why: str
+    users_fault: bool
+
+
+JobResult = Succeeded | Failed
+
+
+def run_job(job: Job) -> JobResult:
+    """Returns what came of a job; a failure is a value, but for an interruption."""
+    try:
+        started = perf_counter()
+        report = _functionalize(job)
+        return Succeeded(job, report, perf_counter() - started)
+    except FunctionalizationError as error:
+        return Failed(job, one_line(str(error)), users_fault=True)
+    except MemoryError:
+        return Failed(job, "out of memory: simplify the input or run fewer --jobs at once", users_fault=True)
+    except Exception as error:  # isolation is this module's task: the next input must still run
+        return Failed(job, internal_fault(error, f"`{job.input}`", job.options.debug), users_fault=False)
+
+
+def _functionalize(job: Job) -> "Report":
+    from grafu.asset.load import load_asset
+    from grafu.export.files import write_files
+    from grafu.pipeline.functionalize import PipelineConfig, functionalize
+    from grafu.pipeline.report import report_of
+    from grafu.realization.config import RealizationConfig
+
+    options = job.options
+    _require_absent(job)
+    clock = _Stopwatch()
+    asset = load_asset(job.input, options.load)
+    clock.lap("load")
+    config = PipelineConfig(realization=RealizationConfig(trim=options.trim))
+    result = functionalize(asset, options.motion, open_gallery(options.templates), config)
+    clock.lap("functionalize")
+    files = _model_files(result, options.formats)
+    clock.lap("export")
+    outside = {name: seconds for name, seconds in clock.seconds.items() if name != "functionalize"}
+    report = report_of(result, job.name, outside)
+    write_files(files.joined(_json_files(result, report)), job.folder, options.overwrite)
+    return report
+
+
+class _Stopwatch:
+    """Seconds between laps, by name."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._last = perf_counter()
+
+    def lap(self, name: str) -> None:
+        now = perf_counter()
+        self.seconds[name], self._last = now - self._last, now
+
+
+def _require_absent(job: Job) -> None:
+    """Refuses an existing output before any work is done; `write_files` refuses it again at the end."""
+    if not job.options.overwrite and job.folder.is_dir() and any(job.folder.iterdir()):
+        raise ExportError(f"the output `{job.folder}` exists already: choose another --out, or give --overwrite")
+
+
+def _model_files(result: "Functionalized", formats: tuple[str, ...]) -> "ExportFiles":
+    from grafu.export.files import ExportFiles
+    from grafu.export.formats import exporter
+
+    files = ExportFiles({})
+    for name in formats:
+        files = files.joined(exporter(name)(result.object))
+    return files
+
+
+def _json_files(result: "Functionalized", report: "Report") -> "ExportFiles":
+    from grafu.export.files import ExportFiles
+    from grafu.graph.serialize import completion_to_json, dump_json
+
+    graph = dump_json(completion_to_json(result.completion))
+    return ExportFiles({"graph.json": graph.encode(), "report.json": dump_json(report.to_json()).encode()})

@@ -1,0 +1,71 @@
+"""The verb `templates`: lists the gallery, and writes each mechanism as an animated GLB with a contact sheet."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from grafu.templates.template import Gallery, HingeModel, RailModel
+
+_DESCRIPTION = """\
+Lists the hinges and rails that can be installed. With --out it writes each as DIR/<id>.glb, which opens and closes, and
+DIR/contact_sheet.png, a page of pictures closed and open.
+"""
+_EXAMPLES = """\
+examples:
+  grafu templates
+  grafu templates --out gallery
+  grafu templates --templates my_hinges --out gallery
+"""
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
+    """Adds the verb and returns its parser."""
+    parser = verbs.add_parser(
+        "templates", help="list and render hinges and rails", description=_DESCRIPTION, epilog=_EXAMPLES
+    )
+    parser.add_argument("--out", type=Path, metavar="DIR", help="write GLB files and a contact sheet here")
+    parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own, listed first")
+    parser.add_argument("--overwrite", action="store_true", help="replace an earlier gallery in DIR")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Lists the gallery and, with --out, writes it; returns 0.
+
+    Raises:
+        FunctionalizationError: if the user's templates are at fault or the output cannot be written.
+    """
+    from grafu.cli.gallery import open_gallery
+
+    gallery = open_gallery(options.templates)
+    _print_gallery(gallery)
+    if options.out is not None:
+        _write(gallery, options.out, options.overwrite)
+        print(f"written to {options.out}")
+    return 0
+
+
+def _print_gallery(gallery: "Gallery") -> None:
+    from rich.markup import escape
+
+    from grafu.cli.tables import plain_table, wide_console
+
+    table = plain_table("id", "title", "class", "natural size (mm)", "range")
+    models: list[HingeModel | RailModel] = [*gallery.hinges, *gallery.rails]
+    for model in models:
+        table.add_row(*(escape(cell) for cell in (model.id, model.title, model.mechanism, *_size_and_range(model))))
+    wide_console().print(table)
+
+
+def _size_and_range(model: "HingeModel | RailModel") -> tuple[str, str]:
+    from math import degrees
+
+    from grafu.templates.template import HingeModel
+
+    if isinstance(model, HingeModel):
+        size = f"{model.natural.length * 1000:.0f} long, leaves {model.natural.leaf * 1000:.0f}"
+        return size, f"{degrees(model.build(model.natural).range):.0f}°"
+    size = f"{model.natural.length * 1000:.0f} long, {model.natural.height * 1000:.0f} high"
+    return size, f"{model.build(model.natural).range * 100:.0f} cm"

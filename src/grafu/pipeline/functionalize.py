@@ -1,0 +1,114 @@
+"""The paper's pipeline as one function: graph, completion, plan, realization. It reads and writes no files."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TypeVar, final
+
+from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.asset.part import Asset
+from grafu.completion.rule import complete_by_rule
+from grafu.errors import AssetError
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.pipeline.annotation import complete_by_annotation
+from grafu.pipeline.motion_source import MotionSource
+from grafu.realization.config import RealizationConfig
+from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
+from grafu.realization.plan import RealizationPlan
+from grafu.realization.realize import realize
+from grafu.realization.report import RealizationReport
+from grafu.templates.template import Gallery
+
+T = TypeVar("T")
+
+
+@final
+@dataclass(frozen=True)
+class PipelineConfig:
+    """The configurations of the stages."""
+
+    parsing: ParsingConfig = ParsingConfig()
+    realization: RealizationConfig = RealizationConfig()
+
+
+@final
+@dataclass(frozen=True)
+class Functionalized:
+    """Everything that came of one asset.
+
+    `source` is the motion source that was used (never `auto`); `timings` are seconds per stage, in order.
+    """
+
+    asset: Asset
+    source: MotionSource
+    completion: GraphCompletion
+    plan: RealizationPlan
+    object: ArticulatedObject
+    report: RealizationReport
+    timings: tuple[tuple[str, float], ...] = ()
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """How one source of motions completes a graph and plans what to build."""
+
+    complete: Callable[[Asset, FunctionalGraph], GraphCompletion]
+    plan: Callable[[Asset, GraphCompletion], RealizationPlan]
+
+
+MOTIONS: dict[MotionSource, Motion] = {
+    MotionSource.ANNOTATION: Motion(complete_by_annotation, lambda asset, _: plan_from_annotation(asset)),
+    MotionSource.RULE: Motion(
+        lambda _, graph: complete_by_rule(graph), lambda asset, completion: plan_from_completion(completion, asset)
+    ),
+}
+
+
+def functionalize(
+    asset: Asset,
+    source: MotionSource,
+    gallery: Gallery,
+    config: PipelineConfig = PipelineConfig(),
+) -> Functionalized:
+    """Returns the asset as an object that works, and how it came about.
+
+    Raises:
+        AssetError: if the motions are to come from an annotation that the asset does not have.
+    """
+    clock = _Clock()
+    chosen = choose_source(asset, source)
+    motion = MOTIONS[chosen]
+    graph = clock.timed("parse", lambda: parse_graph(asset, config.parsing))  # contacts only
+    completion = clock.timed("complete", lambda: motion.complete(asset, graph))  # who moves, and how
+    plan = clock.timed("plan", lambda: motion.plan(asset, completion))  # initial axes
+    realized = clock.timed("realize", lambda: realize(plan, asset, gallery, config.realization))  # hardware, limits
+    return Functionalized(asset, chosen, completion, plan, realized.object, realized.report, tuple(clock.laps))
+
+
+def choose_source(asset: Asset, source: MotionSource) -> MotionSource:
+    """Returns the source to use: `auto` takes the annotation where the asset has one.
+
+    Raises:
+        AssetError: if the annotation is asked for and there is none.
+    """
+    if source is MotionSource.AUTO:
+        return MotionSource.ANNOTATION if asset.joints else MotionSource.RULE
+    if source is MotionSource.ANNOTATION and not asset.joints:
+        raise AssetError(f"`{asset.path or asset.name}` states no joints of its own: use --motion rule or auto")
+    return source
+
+
+class _Clock:
+    """Seconds per stage, in order."""
+
+    def __init__(self) -> None:
+        self.laps: list[tuple[str, float]] = []
+
+    def timed(self, name: str, stage: Callable[[], T]) -> T:
+        started = perf_counter()
+        result = stage()
+        self.laps.append((name, perf_counter() - started))
+        return result

@@ -1,0 +1,165 @@
+"""The form of `report.json`, version `grafu.report/1`, as checked values. docs/report.md is drawn from this file.
+
+Lengths are metres, angles radians, points and directions in the output's frame (Z up, front -Y) unless said otherwise.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
+
+from grafu.pipeline.deficiencies import DeficiencyKind
+from grafu.pipeline.motion_source import MotionSource
+from grafu.realization.report import SkipReason
+from grafu.vocabulary import JointType, MechanismClass, PartLabel
+
+Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
+Share = Annotated[float, Field(ge=0, le=1)]
+Grasp = Literal["handle", "recess", "edge", "none"]
+
+
+class ReportRecord(BaseModel):
+    """Abstract base: frozen, and strict about unknown fields."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+def schema_field(name: str) -> Any:
+    """Returns the field `schema_`, whose value is `name`; it is called `schema` in JSON, a word that pydantic keeps."""
+    alias = AliasChoices("schema", "schema_")
+    return Field(default=name, validation_alias=alias, serialization_alias="schema", description="the form's name")
+
+
+class InputRecord(ReportRecord):
+    """What was read."""
+
+    name: str = Field(description="the name of the results: the file's stem, or the folder's name")
+    path: str = Field(description="the input as it was given")
+    kind: str = Field(description="how it was read: partnet-mobility, urdf, glb, mesh folder, mesh file")
+    parts: int = Field(description="the number of parts")
+    notes: tuple[str, ...] = Field(description="what the reader left out or mended")
+
+
+class FrameRecord(ReportRecord):
+    """How the input's coordinates became the output's."""
+
+    input_to_output: tuple[Row, Row, Row, Row] = Field(
+        description="4x4, row-major; from the mesh files' coordinates (for a URDF: its static root link's)"
+    )
+    up: str = Field(description="the input's axis that points up")
+    front: str = Field(description="the input's axis that points out of the front")
+    scale: float = Field(description="metres per unit of the input")
+    assumed: tuple[str, ...] = Field(description="what was decided, and why")
+
+
+class SourceRecord(ReportRecord):
+    """Where a part came from."""
+
+    name: str = Field(description="its name in the input")
+    file: str = Field(description="the mesh file, or empty")
+    link: str = Field(description="the link, or empty")
+
+
+class PartRecord(ReportRecord):
+    """One part of the input."""
+
+    id: str = Field(description="its id: the visual's name in model.urdf, the node's in model.glb and graph.json")
+    source: SourceRecord = Field(description="where it came from")
+    category: PartLabel = Field(description="its category, as completed")
+    labelled_by: str = Field(description="what the category rests on: name, annotation, user, prediction, none")
+    link: str = Field(description="the link of model.urdf that holds it")
+
+
+class DeficiencyRecord(ReportRecord):
+    """One thing that the input lacked."""
+
+    kind: DeficiencyKind = Field(description="what was missing")
+    part: str = Field(description="at which part; empty: the object as a whole")
+    detail: str = Field(description="what was looked for")
+
+
+class AxisRecord(ReportRecord):
+    """A line in space."""
+
+    origin: Vector = Field(description="a point on it")
+    direction: Vector = Field(description="its unit direction; positive motion opens, by the right-hand rule")
+
+
+class ClearanceRecord(ReportRecord):
+    """Material that was taken away so that a part can move."""
+
+    part: str = Field(description="what was cut")
+    kind: str = Field(description="trimmed or scaled (the moving part), carved (a static part)")
+    amount: float = Field(description="the largest depth")
+    share: Share = Field(description="the share of the part's surface or volume that went")
+    why: str = Field(description="what it was in the way of")
+
+
+class JointRecord(ReportRecord):
+    """One joint that was built, with what was measured on it."""
+
+    id: str = Field(description="the joint's name in model.urdf")
+    part: str = Field(description="the moving part, which is also the link's name")
+    type: JointType = Field(description="revolute or prismatic")
+    axis: Vector = Field(description="the rectified axis: unit direction, positive opens")
+    origin: Vector = Field(description="a point on the rectified axis")
+    lower: float = Field(description="the lower limit; 0 is closed")
+    upper: float = Field(description="the upper limit, rectified")
+    mount: str = Field(description="the static part that carries it")
+    mechanism: MechanismClass = Field(description="the class of mechanism")
+    template: str = Field(description="the template that was installed")
+    count: int = Field(description="how many hinges or rails")
+    motion_source: str = Field(description="who stated the motion")
+    initial_axis: AxisRecord = Field(description="the axis as it was stated")
+    rectified_axis: AxisRecord = Field(description="the axis as it was built")
+    opening: float = Field(description="the range of the joint")
+    reference: float | None = Field(description="the opening that was asked for; null: as far as it goes")
+    restricted: bool = Field(description="whether the opening is under 70 % of the reference")
+    collision_share: Share = Field(description="share of poses in which it still cuts into something")
+    largest_gap: float = Field(description="the widest gap between the link and what carries it, over the motion")
+    after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
+    grasp: Grasp = Field(description="how it can be grasped")
+    clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
+    notes: tuple[str, ...] = Field(description="anything else worth knowing")
+
+
+class AddedRecord(ReportRecord):
+    """A part that was added."""
+
+    part: str = Field(description="its id")
+    category: PartLabel = Field(description="its category")
+    why: str = Field(description="what it is for")
+
+
+class SkippedRecord(ReportRecord):
+    """A request that was not built."""
+
+    request: str = Field(description="the part that was to move")
+    reason: SkipReason = Field(description="why, from a closed list")
+    detail: str = Field(description="why, in words")
+
+
+class MotionRecord(ReportRecord):
+    """Where the motions came from."""
+
+    source: MotionSource = Field(description="annotation or rule")
+
+
+class Report(ReportRecord):
+    """The whole report."""
+
+    schema_: Literal["grafu.report/1"] = schema_field("grafu.report/1")
+    version: str = Field(description="the version of grafu")
+    input: InputRecord = Field(description="what was read")
+    frame: FrameRecord = Field(description="how coordinates were mapped")
+    motion: MotionRecord = Field(description="where the motions came from")
+    parts: tuple[PartRecord, ...] = Field(description="every part of the input")
+    deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what the input lacked")
+    joints: tuple[JointRecord, ...] = Field(description="what moves now")
+    added: tuple[AddedRecord, ...] = Field(description="parts that were added")
+    skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
+    timings: dict[str, float] = Field(description="seconds per stage")
+
+    def to_json(self) -> dict[str, object]:
+        """Returns the JSON-ready dict."""
+        return self.model_dump(mode="json", by_alias=True)

@@ -1,0 +1,117 @@
+"""What the house promises: names, sizes, docs, a light and fast start, nothing of one machine in the files."""
+
+import ast
+import re
+import subprocess
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import grafu
+from grafu.version import __version__
+
+ROOT = Path(__file__).parent.parent
+SOURCES = sorted((ROOT / "src").rglob("*.py"))
+SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
+# Spelled in pieces, so that this file does not hold what it forbids.
+ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")
+
+
+def tracked_texts() -> list[tuple[str, str]]:
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False)
+    if listed.returncode:
+        pytest.skip("not a git checkout")
+    names = [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]
+    contents = [(name, (ROOT / name).read_bytes()) for name in names]
+    return [(name, data.decode()) for name, data in contents if b"\0" not in data]
+
+
+def python(code: str) -> str:
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+
+
+def test_no_module_has_a_name_that_says_nothing() -> None:
+    assert [p for p in SOURCES if SAYS_NOTHING.search(p.stem) or SAYS_NOTHING.search(p.parent.name)] == []
+
+
+def test_files_stay_under_300_lines() -> None:
+    lengths = {str(p.relative_to(ROOT)): len(p.read_text().splitlines()) for p in SOURCES}
+    assert {name: lines for name, lines in lengths.items() if lines > 300} == {}
+
+
+def test_every_module_says_what_it_does() -> None:
+    assert [p for p in SOURCES if not ast.get_docstring(ast.parse(p.read_text()))] == []
+
+
+def functions() -> list[tuple[Path, ast.FunctionDef]]:
+    nodes = ((p, node) for p in SOURCES for node in ast.walk(ast.parse(p.read_text())))
+    return [(p, node) for p, node in nodes if isinstance(node, ast.FunctionDef)]
+
+
+def test_functions_stay_short() -> None:
+    def code_lines(node: ast.FunctionDef) -> int:
+        doc = node.body[0] if ast.get_docstring(node) else None
+        return (node.end_lineno or 0) - node.lineno + 1 - ((doc.end_lineno or 0) - doc.lineno + 1 if doc else 0)
+
+    lengths = sorted(code_lines(node) for _, node in functions())
+    assert lengths[-1] <= 60
+    assert lengths[len(lengths) // 2] <= 10
+
+
+def test_readme_names_only_targets_that_exist() -> None:
+    targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    named = set(re.findall(r"\bmake ([a-z]+)", (ROOT / "README.md").read_text()))
+    assert {"demo", "test"} <= named <= targets
+
+
+def test_readme_links_lead_somewhere() -> None:
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")]
+    links = [(page, link) for page in pages for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text())]
+    assert [(page.name, link) for page, link in links if not (page.parent / link).exists()] == []
+
+
+def test_the_changelog_knows_this_version() -> None:
+    assert f"## [{__version__}]" in (ROOT / "CHANGELOG.md").read_text()
+    assert grafu.__version__ == __version__
+
+
+def test_ci_runs_what_the_readme_says() -> None:
+    script = (ROOT / ".ci" / "run").read_text()
+    assert all(f"make {target}" in script for target in ("demo", "check", "test"))
+
+
+def test_no_file_names_a_place_on_one_machine() -> None:
+    found = [(name, line) for name, text in tracked_texts() for line in text.splitlines() if ONE_MACHINE.search(line)]
+    assert found == []
+
+
+def test_the_base_install_has_neither_torch_nor_blender() -> None:
+    stated = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    assert not [name for name in stated if re.match(r"(torch|bpy)\b", name)]
+
+
+def test_the_pipeline_imports_neither_torch_nor_blender() -> None:
+    code = "import sys, grafu.pipeline.functionalize; print(sorted({'torch', 'bpy'} & set(sys.modules)))"
+    assert python(code).strip() == "[]"
+
+
+def test_help_loads_nothing_heavy() -> None:
+    code = (
+        "import sys\nfrom grafu.cli.main import build_parser\nbuild_parser().format_help()\n"
+        "print(sorted({'numpy', 'trimesh', 'scipy', 'pydantic', 'rich'} & set(sys.modules)))"
+    )
+    assert python(code).strip() == "[]"
+
+
+def test_help_answers_at_once() -> None:
+    command = [sys.executable, "-m", "grafu.cli.main", "--help"]
+
+    def seconds() -> float:
+        started = time.perf_counter()
+        subprocess.run(command, check=True, capture_output=True)
+        return time.perf_counter() - started
+
+    assert min(seconds() for _ in range(4)) <= 0.5
