@@ -1,9 +1,7 @@
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from grafu.export.shading import corner_normals, welded
+from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
@@ -64,16 +62,6 @@ def test_faces_without_area_get_a_unit_normal():
     flat = TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), np.array([[0, 1, 2], [0, 0, 1]]))
 
     assert np.allclose(np.linalg.norm(corner_normals(Surface(flat)).normals, axis=1), 1)
-
-
-@given(st.lists(st.tuples(*[st.integers(-50, 50)] * 3), min_size=1, max_size=30))
-def test_points_are_welded_by_position_alone(cells):
-    points = np.array(cells, dtype=float) / 7
-
-    number = welded(points)
-
-    same = np.all(points[:, None] == points[None], axis=2)
-    assert np.array_equal(number[:, None] == number[None], same)
 
 
 def test_a_sphere_is_smooth():

@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, Scalars
+from grafu.geometry.components import welded
 from grafu.geometry.mesh import TriangleMesh
 
 CREASE_ANGLE = float(np.radians(30.0))  # Blender's "shade auto smooth" default: panels stay flat, round knobs smooth
@@ -42,17 +43,6 @@ def corner_normals(surface: Surface, crease_angle: float = CREASE_ANGLE) -> Corn
     fallback = np.zeros((groups, 3))
     fallback[corner_group] = np.repeat(mesh.face_normals, 3, axis=0)
     return CornerNormals(_unit(summed, fallback), corner_group.reshape(-1, 3))
-
-
-def welded(points: Points, tolerance: float = 1e-6) -> Indices:
-    """Returns for each point the number of its position; points within about `tolerance` metres share one.
-
-    Numbers run from 0 in no particular order.
-    """
-    grid = np.round(points / tolerance).astype(np.int64)
-    # one 64-bit key per position: odd multipliers of no pattern make two positions of one key practically impossible
-    key = grid @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
-    return np.unique(key, return_inverse=True)[1].reshape(-1)
 
 
 def _mended(normals: Points, mesh: TriangleMesh) -> Points:

@@ -1,0 +1,130 @@
+"""Untidy triangles sorted into connected patches: doubled faces once, closed or open, turned one way. No materials.
+
+Real furniture is modelled with vertices split at seams, every face drawn twice, and normals at random; what bounds a
+solid must be found from positions alone.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Int
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, frozen_array
+from grafu.geometry.mesh import TriangleMesh
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Patches(ArrayValue):
+    """Every distinct face of a mesh and its patch; `closed` tells for each patch whether it bounds a solid.
+
+    Faces of one patch are connected across edges that exactly two faces share, and turned one way; a closed patch's
+    normals point outwards. `faces` index the mesh's own vertices.
+    """
+
+    faces: Faces
+    patch: Int[np.ndarray, " m"]
+    closed: Bool[np.ndarray, " k"]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "faces", frozen_array(self.faces, np.int64))
+        object.__setattr__(self, "patch", frozen_array(self.patch, np.int64))
+        object.__setattr__(self, "closed", frozen_array(self.closed, np.bool_))
+
+
+def welded(points: Points, tolerance: float = 1e-6) -> Indices:
+    """Returns for each point the number of its position; points within about `tolerance` metres share one.
+
+    Numbers run from 0 in no particular order.
+    """
+    grid = np.round(points / tolerance).astype(np.int64)
+    # one 64-bit key per position: odd multipliers of no pattern make two positions of one key practically impossible
+    key = grid @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
+    return np.unique(key, return_inverse=True)[1].reshape(-1)
+
+
+def patches_of(mesh: TriangleMesh) -> Patches:
+    """Returns the distinct faces of a mesh, sorted into patches.
+
+    Faces with two corners at one position are left out; of faces with the same three corners one is kept.
+    """
+    position = welded(mesh.vertices)[mesh.faces] if len(mesh.faces) else np.zeros((0, 3), np.int64)
+    keep = _distinct(position)
+    position, faces = position[keep], mesh.faces[keep]
+    if not len(faces):
+        return Patches(np.zeros((0, 3), np.int64), np.zeros(0, np.int64), np.zeros(0, np.bool_))
+    edges = _edge_numbers(position)
+    patch, turned, orientable = _oriented_patches(position, edges)
+    faces = np.where(turned[:, None], faces[:, ::-1], faces)
+    closed = orientable & _without_border(edges, patch, len(orientable))
+    volume = np.bincount(patch, _tetrahedra(mesh.vertices[faces]), len(closed))
+    inverted = (closed & (volume < 0))[patch]
+    return Patches(np.where(inverted[:, None], faces[:, ::-1], faces), patch, closed)
+
+
+def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
+    """Returns the pieces of a mesh that share no position with one another, in order of their first face."""
+    if not len(mesh.faces):
+        return []
+    position = welded(mesh.vertices)[mesh.faces]
+    count = int(position.max()) + 1
+    ends = (np.concatenate([position[:, 0], position[:, 1]]), np.concatenate([position[:, 1], position[:, 2]]))
+    graph = coo_matrix((np.ones(len(ends[0]), np.int8), ends), (count, count))
+    label = connected_components(graph, directed=False)[1][position[:, 0]]
+    order = dict.fromkeys(label.tolist())
+    return [mesh] if len(order) == 1 else [mesh.with_faces(label == number) for number in order]
+
+
+def _distinct(position: Faces) -> Indices:
+    """Returns the indices of faces with three different corners, one for each set of corners, in order."""
+    a, b, c = np.sort(position, axis=1).T
+    whole = np.flatnonzero((a != b) & (b != c))
+    _, first = np.unique(np.column_stack([a, b, c])[whole], axis=0, return_index=True)
+    return whole[np.sort(first)]
+
+
+def _edge_numbers(position: Faces) -> np.ndarray:
+    """Returns the number of the undirected edge that starts at each corner, (faces, 3)."""
+    end = np.roll(position, -1, axis=1)
+    low, high = np.minimum(position, end), np.maximum(position, end)
+    return np.unique((low * (int(high.max()) + 1) + high).ravel(), return_inverse=True)[1].reshape(position.shape)
+
+
+def _oriented_patches(position: Faces, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns each face's patch, whether it must be turned to agree with its patch, and which patches can be oriented.
+
+    Each face stands in the graph twice, as it is and turned. Neighbours that agree are joined like with like, others
+    crosswise; a patch can be oriented where its two copies stay apart.
+    """
+    count, flat = len(position), edges.ravel()
+    order = np.argsort(flat, kind="stable")
+    shared_twice = np.bincount(flat)[flat[order]] == 2
+    first, second = order[shared_twice].reshape(-1, 2).T
+    start = position.ravel()
+    agree = start[first] != start[second]
+    f, g = first // 3, second // 3
+    crossed = np.where(agree, 0, count)
+    rows, columns = np.concatenate([f, f + count]), np.concatenate([g + crossed, g + count - crossed])
+    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), (2 * count, 2 * count))
+    label = connected_components(graph, directed=False)[1].reshape(2, count)
+    patch = np.unique(label.min(axis=0), return_inverse=True)[1].reshape(-1)
+    orientable = np.ones(int(patch.max()) + 1, dtype=bool)
+    orientable[patch[label[0] == label[1]]] = False
+    return patch, label[0] > label[1], orientable
+
+
+def _without_border(edges: np.ndarray, patch: np.ndarray, patches: int) -> np.ndarray:
+    """Returns for each patch whether its own faces meet in pairs along every edge."""
+    owner = np.repeat(patch, 3)
+    keys, counts = np.unique(edges.ravel() * patches + owner, return_counts=True)
+    whole = np.ones(patches, dtype=bool)
+    whole[keys[counts % 2 == 1] % patches] = False
+    return whole
+
+
+def _tetrahedra(triangles: np.ndarray) -> Scalars:
+    """Returns the signed volume between the origin and each triangle."""
+    return np.einsum("nd,nd->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.0

@@ -1,0 +1,97 @@
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.components import connected_parts, patches_of, welded
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+
+CUBE = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0)))
+
+
+def soup(mesh: TriangleMesh) -> TriangleMesh:
+    """The same faces, no vertex shared."""
+    return TriangleMesh(mesh.triangles.reshape(-1, 3), np.arange(3 * len(mesh.faces)).reshape(-1, 3))
+
+
+def volume(mesh: TriangleMesh, faces: np.ndarray) -> float:
+    return float(np.linalg.det(mesh.vertices[faces]).sum() / 6)
+
+
+@given(st.lists(st.tuples(*[st.integers(-50, 50)] * 3), min_size=1, max_size=30))
+def test_points_are_welded_by_position_alone(cells):
+    points = np.array(cells, dtype=float) / 7
+
+    number = welded(points)
+
+    same = np.all(points[:, None] == points[None], axis=2)
+    assert np.array_equal(number[:, None] == number[None], same)
+
+
+@given(st.lists(st.booleans(), min_size=12, max_size=12))
+def test_a_cube_with_faces_turned_at_random_is_closed_and_faces_outwards(turned):
+    faces = np.where(np.array(turned)[:, None], CUBE.faces[:, ::-1], CUBE.faces)
+
+    patches = patches_of(soup(TriangleMesh(CUBE.vertices, faces)))
+
+    assert patches.closed.tolist() == [True]
+    assert np.isclose(volume(soup(TriangleMesh(CUBE.vertices, faces)), patches.faces), 1)
+
+
+def test_a_face_drawn_twice_counts_once():
+    doubled = merge_meshes([CUBE, TriangleMesh(CUBE.vertices, CUBE.faces[:, ::-1])])
+
+    patches = patches_of(doubled)
+
+    assert len(patches.faces) == 12
+    assert patches.closed.tolist() == [True]
+
+
+def test_a_cube_without_a_side_is_open():
+    assert patches_of(CUBE.with_faces(np.arange(10))).closed.tolist() == [False]
+
+
+def test_cubes_that_share_an_edge_are_two_solids():
+    both = merge_meshes([CUBE, CUBE.translated(vec3(1.0, 1.0, 0.0))])
+
+    assert patches_of(both).closed.tolist() == [True, True]
+
+
+def test_cubes_that_share_a_side_are_two_solids_still():
+    patches = patches_of(merge_meshes([CUBE, CUBE.translated(vec3(1.0, 0.0, 0.0))]))
+
+    assert len(patches.faces) == 22  # the common side is the same faces drawn twice
+
+
+def test_a_moebius_strip_bounds_nothing():
+    t = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+    rim = [
+        np.c_[(2 + s * np.cos(t / 2)) * np.cos(t), (2 + s * np.cos(t / 2)) * np.sin(t), s * np.sin(t / 2)]
+        for s in (1, -1)
+    ]
+    k, after = np.arange(12), (np.arange(12) + 1) % 12
+    a, b = np.where(after == 0, 12, after), np.where(after == 0, 0, after + 12)
+    band = TriangleMesh(np.vstack(rim), np.vstack([np.c_[k, a, k + 12], np.c_[a, b, k + 12]]))
+
+    assert patches_of(band).closed.tolist() == [False]
+
+
+def test_faces_without_three_corners_are_left_out():
+    flat = TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2], [0, 0, 1]]))
+
+    assert len(patches_of(flat).faces) == 0
+
+
+def test_pieces_come_apart_where_no_position_is_shared():
+    apart = merge_meshes([soup(CUBE), CUBE.translated(vec3(3.0, 0.0, 0.0))])
+
+    first, second = connected_parts(apart)
+
+    assert np.allclose(first.box.high, [1, 1, 1])
+    assert np.allclose(second.box.low, [3, 0, 0])
+
+
+def test_a_mesh_in_one_piece_is_itself():
+    assert connected_parts(CUBE) == [CUBE]
+    assert connected_parts(merge_meshes([])) == []
