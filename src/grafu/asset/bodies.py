@@ -11,7 +11,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.labels import is_control, is_piece, label_of
-from grafu.asset.names import unique_ids
+from grafu.asset.names import unique_ids, words
 from grafu.asset.part import AnnotatedJoint, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
@@ -45,7 +45,7 @@ class Motion:
 @final
 @dataclass(frozen=True)
 class Body:
-    """Links that hang together rigidly. `parent` is the link name of the body that carries it; `motion` None: static."""
+    """Links that hang together rigidly; `parent` is the link of the body that carries it, `motion` None means static."""
 
     name: str
     link: str
@@ -128,6 +128,8 @@ def _mover_label(body: Body, rest: tuple[Visual, ...], up: int) -> PartLabel:
     spoken = Counter(label_of(name) for name in (body.name, *(v.name for v in rest)))
     if spoken[PartLabel.DOOR] or spoken[PartLabel.DRAWER]:
         return PartLabel.DOOR if spoken[PartLabel.DOOR] > spoken[PartLabel.DRAWER] else PartLabel.DRAWER
+    if {"slide", "sliding"} & {w for n in (body.name, *(v.name for v in rest)) for w in words(n)}:
+        return PartLabel.DOOR
     return (
         PartLabel.DOOR if body.motion is not None and _slides_in_its_plane(rest, body.motion, up) else PartLabel.DRAWER
     )
@@ -160,7 +162,7 @@ def _static(body: Body, carrier: str | None, annotated: bool, notes: list[str]) 
 def _part(draft: _Draft, part_id: str, by_body: dict[str, str]) -> Part:
     surfaces = tuple(s for v in draft.visuals for s in v.surfaces)
     files = sorted({v.file for v in draft.visuals if v.file})
-    source = PartSource(draft.name, files[0] if len(files) == 1 else "", draft.visuals[0].link)
+    source = PartSource(draft.name, ", ".join(files), draft.visuals[0].link)
     carrier = by_body.get(draft.carrier) if draft.carrier is not None else None
     return Part(part_id, draft.label, surfaces, source, draft.labelled_by, carrier)  # type: ignore[arg-type]
 

@@ -79,7 +79,7 @@ def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
     out = list(drafts)
     for beginning, members in beginnings.items():
         pieces = [i for i in members if label_of(drafts[i].name) is not PartLabel.HANDLE]
-        if len(pieces) < 2 and len(members) < 2 or not pieces:
+        if len(members) < 2 or not pieces:
             continue
         for i in members:
             d = drafts[i]

@@ -43,7 +43,9 @@ def read_mesh_folder(folder: Path, options: LoadOptions) -> Reading:
         raise AssetTooLarge(
             f"{folder} holds {len(files):,} meshes: at most {options.limits.max_parts:,} parts are read; merge some"
         )
-    drafts, notes, faces = [], [], 0
+    drafts: list[PartDraft] = []
+    notes: list[str] = []
+    faces = 0
     for path in files:
         found = read_mesh_file(path, options.limits, split=False)
         drafts.append(PartDraft(path.stem, found.surfaces, file=path.name))

@@ -173,8 +173,8 @@ def _buffers(path: Path, document: dict[str, Any], binary: bytes | None, limits:
         if uri is None:
             data = binary if index == 0 and binary is not None else b""
         else:
-            data = _data_uri(uri)
-            data = read_bytes(path.parent / unquote(uri), limits) if data is None else data
+            inline = _data_uri(uri)
+            data = read_bytes(path.parent / unquote(uri), limits) if inline is None else inline
         if len(data) < int(buffer.get("byteLength", 0)):
             raise UnreadableAsset(
                 f"{path} is truncated: buffer {index} holds {len(data)} of {buffer['byteLength']} bytes"

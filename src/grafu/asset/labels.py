@@ -16,8 +16,8 @@ from grafu.vocabulary import PartLabel
 TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
     (PartLabel.DRAWER, "pull out, pullout, slide out tray"),
     (PartLabel.HANDLE, "handle, doorhandle, knob, nob, doorknob, grip, handgrip, pull, grasp"),
-    (PartLabel.MISC, "tabletop connector, drawer rail, drawer slider, drawer slide, drawer runner, hinge, lock, keyhole, screw, nail, bolt"),
-    (PartLabel.MISC, "wheel, caster, castor, button, switch, lever, dial, spout, faucet, tap"),
+    (PartLabel.MISC, "tabletop connector, drawer rail, drawer slider, drawer slide, drawer runner, hinge, lock"),
+    (PartLabel.MISC, "keyhole, screw, nail, bolt, wheel, caster, castor, button, switch, lever, dial, faucet, tap"),
     (PartLabel.DRAWER, "drawer, keyboard tray, tray surface, =tray, sliding tray"),
     (PartLabel.FACE_FRAME, "face frame, faceframe, front frame, stile, mullion, top rail, bottom rail, mid rail"),
     (PartLabel.DOOR, "door, cabinetdoor, flap, lid, shutter, hatch, tambour"),
@@ -26,19 +26,19 @@ TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
     (PartLabel.DIVIDER, "divider, partition, separator, middle panel, mid panel, centre panel, center panel"),
     (PartLabel.BAR, "bar, stretcher, rod, crossbar, beam, rung, slat, apron, strut, brace, batten, crosspiece"),
     (PartLabel.BACK_PANEL, "back panel, backpanel, backboard, back board, back plate, rear panel, back side"),
-    (PartLabel.TOP_PANEL, "top panel, toppanel, tabletop, table top, countertop, counter top, counter, worktop, desktop"),
-    (PartLabel.TOP_PANEL, "desk top, tabletop surface, top board, top plate, top surface, board top, bench top, =board"),
-    (PartLabel.BOTTOM_PANEL, "bottom panel, bottompanel, bottom board, bottom plate, base panel, floor panel, base plate"),
-    (PartLabel.SIDE_PANEL, "side panel, sidepanel, side board, side plate, side wall, gable, toe kick, plinth, kickboard"),
-    (PartLabel.SIDE_PANEL, "baseboard, skirting, end panel, left panel, right panel"),
+    (PartLabel.TOP_PANEL, "top panel, toppanel, tabletop, table top, countertop, counter top, counter, worktop"),
+    (PartLabel.TOP_PANEL, "desktop, desk top, top board, top plate, top surface, board top, bench top, =board"),
+    (PartLabel.BOTTOM_PANEL, "bottom panel, bottompanel, bottom board, bottom plate, base panel, floor panel"),
+    (PartLabel.BOTTOM_PANEL, "base plate, cabinet bottom, carcass bottom, =bottom"),
+    (PartLabel.SIDE_PANEL, "side panel, sidepanel, side board, side plate, side wall, gable, toe kick, plinth"),
+    (PartLabel.SIDE_PANEL, "kickboard, baseboard, skirting, end panel, left panel, right panel"),
+    (PartLabel.SIDE_PANEL, "left side, right side, cabinet side, carcass side, =side, =left, =right"),
     (PartLabel.FACE_FRAME, "front panel, fixed front, false front, cabinet frame, =frame, =front"),
-    (PartLabel.BACK_PANEL, "=back, =rear, cabinet back, carcass back"),
-    (PartLabel.TOP_PANEL, "=top, cabinet top, carcass top"),
-    (PartLabel.BOTTOM_PANEL, "=bottom, cabinet bottom, carcass bottom"),
-    (PartLabel.SIDE_PANEL, "=side, =left, =right, left side, right side, cabinet side, carcass side"),
-    (PartLabel.MISC, "misc, connector, glass, mirror, lamp, light, led, sink, basin, cushion, pillow, book, decoration"),
-    (PartLabel.MISC, "cord, cable, hook, key, clock, vase, rail, runner, slider, cloth"),
-)  # fmt: skip
+    (PartLabel.BACK_PANEL, "cabinet back, carcass back, =back, =rear"),
+    (PartLabel.TOP_PANEL, "cabinet top, carcass top, =top"),
+    (PartLabel.MISC, "misc, connector, glass, mirror, lamp, light, led, sink, basin, cushion, pillow, book, clock"),
+    (PartLabel.MISC, "decoration, cord, cable, hook, key, vase, rail, runner, slider, cloth"),
+)
 
 # Things that furniture annotations give joints to although no hinge or rail carries them.
 _CONTROLS = frozenset({"wheel", "caster", "castor", "knob", "nob", "button", "switch", "lever", "dial", "lock", "key"})

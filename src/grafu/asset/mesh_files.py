@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -150,14 +150,15 @@ def _read_with_trimesh(path: Path, data: bytes, limits: Limits) -> MeshFile:
     mesh = loaded if isinstance(loaded, trimesh.Trimesh) else None
     if mesh is None or not np.isfinite(mesh.vertices).all():
         raise UnreadableAsset(f"{path} holds no triangle mesh with finite coordinates; re-export it")
-    colors = np.asarray(mesh.visual.vertex_colors) if mesh.visual.kind == "vertex" else None
+    visual: Any = mesh.visual
+    colors = np.asarray(visual.vertex_colors) if visual.kind == "vertex" else None
     surface = Surface(TriangleMesh.from_trimesh(mesh), colors=colors)
     return MeshFile((MeshPiece("", () if surface.is_empty else (surface,)),))
 
 
 def _check_declared(data: bytes, kind: str, path: Path, limits: Limits) -> None:
     """Refuses a file whose header declares more than the limit or than the file holds, before memory is taken."""
-    if kind == "stl" and not data[:5].lower() == b"solid" and len(data) >= 84:
+    if kind == "stl" and data[:5].lower() != b"solid" and len(data) >= 84:
         declared = int.from_bytes(data[80:84], "little")
         check_faces(declared, str(path), limits)
         if 84 + declared * 50 > len(data):

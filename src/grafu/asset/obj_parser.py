@@ -2,7 +2,7 @@
 
 import warnings
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -119,9 +119,7 @@ def _corners(rows: list[bytes], where: str) -> tuple[np.ndarray, np.ndarray]:
     raw = np.frombuffer(text + b"\n", np.uint8)
     gap = (raw == 32) | (raw == 10)
     begins = np.flatnonzero(~gap & np.concatenate([[True], gap[:-1]]))
-    slashes = np.cumsum(np.concatenate([[0], raw == 47]))
-    ends = np.concatenate([begins[1:], [len(raw)]])
-    per_corner = slashes[ends] - slashes[begins]
+    per_corner = np.diff(np.searchsorted(np.flatnonzero(raw == 47), np.append(begins, len(raw))))
     row_ends = np.flatnonzero(raw == 10)
     starts = np.concatenate([[0], np.searchsorted(begins, row_ends)])
     corners = _uniform_corners(text, per_corner, where)
@@ -169,7 +167,7 @@ def _runs(lines: list[bytes], face_rows: list[int]) -> tuple[tuple[ObjRun, ...],
     libraries: list[str] = []
     first = 0
     states = [(i, line) for i, line in enumerate(lines) if line[:2] in (b"o ", b"g ", b"us", b"mt")]
-    at = np.searchsorted(face_rows, [i for i, _ in states]) if states else []
+    at: Any = np.searchsorted(face_rows, [i for i, _ in states]) if states else []
     for (_, line), face in zip(states, at, strict=True):
         key, _, value = line.decode("utf-8", "replace").partition(" ")
         if key == "mtllib":

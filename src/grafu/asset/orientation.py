@@ -11,6 +11,8 @@ from grafu.vocabulary import JointType, PartLabel
 _LYING = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)
 _STANDING = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.DOOR, PartLabel.DIVIDER)
 
+# Movers smaller than this share of the object (a tap, a lever) do not tell where its front is.
+_TELLING = 0.2
 # Evidence overrules a convention only where it is nearly unanimous.
 _UNANIMOUS, _NEGLIGIBLE = 0.7, 0.1
 
@@ -58,6 +60,9 @@ def front_votes(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], who
     opens = {j.part: _opening(j) for j in joints if j.type is JointType.PRISMATIC}
     for part in parts:
         if part.label in (PartLabel.DOOR, PartLabel.DRAWER):
+            slides_sideways = part.label is PartLabel.DOOR and part.id in opens
+            if slides_sideways or part.box.size.max() < _TELLING * whole.size.max():
+                continue
             facing = _along(opens[part.id], votes) if part.id in opens and part.label is PartLabel.DRAWER else None
             _add(votes, facing or _side(part, whole, votes), 1.0)
         elif part.label is PartLabel.HANDLE:

@@ -99,7 +99,9 @@ class _Meshes:
     """Reads the OBJ files of one model; a file that is missing is a note."""
 
     def __init__(self, folder: Path, options: LoadOptions) -> None:
-        self.folder, self.options, self.notes, self.faces = folder, options, [], 0  # type: list[str]
+        self.folder, self.options = folder, options
+        self.notes: list[str] = []
+        self.faces = 0
 
     def read(self, stem: str) -> tuple[Surface, ...]:
         path = self.folder / "textured_objs" / f"{stem}.obj"

@@ -61,6 +61,6 @@ def surface_gap(points: np.ndarray, mesh: TriangleMesh, region: Box) -> float:
     least = np.inf
     for chunk in np.array_split(points, max(1, len(points) * len(faces) // 200_000)):
         pairs = np.repeat(faces, len(chunk), axis=0), np.tile(chunk, (len(faces), 1))
-        found = trimesh.triangles.closest_point(*pairs)
+        found = trimesh.triangles.closest_point(*pairs)  # type: ignore[no-untyped-call]
         least = min(least, float(np.linalg.norm(found - pairs[1], axis=1).min()))
     return least

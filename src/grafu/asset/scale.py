@@ -82,8 +82,9 @@ def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furn
 def likely_unit(size: float, estimate: Estimate, spread: float = 4.0) -> tuple[str, float] | None:
     """Returns the unit in common use that makes the object plausible, or None.
 
-    A unit is plausible where it is within a factor `spread` of the estimate and the largest side `size` (input units) comes out
-    between 10 cm and 6 m; of several the nearest to the estimate is taken, inches only where nothing else fits.
+    A unit is plausible where it is within a factor `spread` of the estimate and the largest side `size` (input
+    units) comes out between 10 cm and 6 m; of several the nearest to the estimate is taken, inches
+    only where nothing else fits.
     """
     fits = {}
     for name, unit in UNITS.items():
@@ -104,7 +105,7 @@ def is_normalised(whole: Box) -> bool:
 
 def _kind(parts: tuple[Part, ...], whole: Box, up: int) -> Furniture:
     labels = {p.label for p in parts}
-    if PartLabel.TOP_PANEL not in labels or PartLabel.LEG not in labels and PartLabel.SIDE_PANEL not in labels:
+    if PartLabel.TOP_PANEL not in labels or PartLabel.LEG not in labels:
         return "storage"
     legs = [p.box.size[up] for p in parts if p.label is PartLabel.LEG]
     return "table" if legs and max(legs) > 0.5 * whole.size[up] else "storage"
