@@ -18,8 +18,8 @@ from grafu.geometry.sampling import sample_surface
 from grafu.graph.edges import Contact
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 
-# So many of a part's largest triangles are tried before all of them: on real furniture 50 to 100 are quickest, four times
-# as quick as none.
+# So many of a part's largest triangles are tried before all of them: on real furniture 50 to 100 are quickest, four
+# times as quick as none.
 _FEW = 100
 
 
