@@ -1,0 +1,154 @@
+"""One picture being taken: the camera's rays, what they meet, the light from there, outlines, a shadow on the floor.
+
+Everything here is per sample, linear and premultiplied; `picture` averages samples to pixels and develops them.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Literal, final
+
+import numpy as np
+from jaxtyping import Float32
+
+from grafu.export.camera import Camera
+from grafu.export.light import key_direction, key_share, shade, sky_share
+from grafu.export.ray_scene import Hits, RayScene
+
+Samples = Float32[np.ndarray, "h w 4"]
+
+_LAYERS = 4  # panes of glass that are seen through
+_CREASE = float(np.cos(np.radians(38.0)))
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PictureStyle:
+    """How a picture is drawn: its background, whether parts are coloured by category, outlines, a shadow below."""
+
+    background: Literal["white", "transparent"] = "white"
+    by_category: bool = False
+    outlines: bool = True
+    shadow: bool = True
+
+
+@final
+class Exposure:
+    """One picture being taken: the camera's rays, what they meet, and the light from there."""
+
+    def __init__(self, scene: RayScene, camera: Camera, size: tuple[int, int], style: PictureStyle) -> None:
+        self.scene, self.style, self.size, self.toward = scene, style, size, key_direction(camera)
+        width, height = size
+        self.origins = np.tile(camera.eye.astype(np.float32), (width * height, 1))
+        self.directions = camera.rays(width, height)
+        rows, columns = np.divmod(np.arange(width * height), width)
+        self.pattern = (rows % 4) * 4 + columns % 4
+        corners = scene.triangles.reshape(-1, 3)
+        self.low: np.ndarray = corners.min(axis=0) if len(corners) else np.zeros(3)
+        self.high: np.ndarray = corners.max(axis=0) if len(corners) else np.ones(3)
+        self.reach = float(0.35 * np.linalg.norm(self.high - self.low))
+
+    def samples(self) -> Samples:
+        """Returns premultiplied linear RGBA per sample, (height, width, 4)."""
+        color = np.zeros((len(self.directions), 4), np.float32)
+        through = np.ones(len(self.directions), np.float32)
+        rays, start = np.arange(len(self.directions)), self.origins
+        for layer in range(_LAYERS):
+            hits = self.scene.cast(start[rays], self.directions[rays])
+            self._add(color, through, rays[hits.ray], hits, start, outlined=layer == 0)
+            glass = hits.alpha < 0.99
+            if not glass.any() or layer == _LAYERS - 1:
+                break
+            start = start.copy()
+            behind = rays[hits.ray][glass]
+            start[behind] += self.directions[behind] * (hits.distance[glass, None] + 1e-4 * self.reach)
+            rays = behind
+        if self.style.shadow:
+            color[:, 3] += through * self._shadow(through)
+        return color.reshape(self.size[1], self.size[0], 4)
+
+    def _add(
+        self, color: np.ndarray, through: np.ndarray, rays: np.ndarray, hits: Hits, start: np.ndarray, outlined: bool
+    ) -> None:
+        points = start[rays] + self.directions[rays] * hits.distance[:, None]
+        lifted = points + hits.flat_normal * (3e-4 * self.reach)
+        sky = sky_share(self.scene, lifted, hits.normal, self.pattern[rays], self.reach)
+        key = key_share(self.scene, lifted, self.pattern[rays], self.toward)
+        near = replace(hits, ray=rays)
+        if outlined:
+            sky, key = (self._smoothed(values, near) for values in (sky, key))
+        light = shade(near, self.directions, sky, key, self.toward)
+        if outlined and self.style.outlines:
+            light *= self._ink(near, points)[:, None]
+        weight = through[rays] * hits.alpha
+        color[rays, :3] += light * weight[:, None]
+        color[rays, 3] += weight
+        through[rays] -= weight
+
+    def _grid(self, rays: np.ndarray, values: np.ndarray, empty: float) -> np.ndarray:
+        grid = np.full((self.size[0] * self.size[1], *values.shape[1:]), empty, values.dtype)
+        grid[rays] = values
+        return grid.reshape(self.size[1], self.size[0], *values.shape[1:])
+
+    def _smoothed(self, values: np.ndarray, hits: Hits) -> np.ndarray:
+        """Returns the mean over the 4x4 samples around each, of those on the same visual that face the same way."""
+        facing = np.argmax(np.abs(hits.flat_normal), axis=1) * 2 + (hits.flat_normal.sum(axis=1) > 0)
+        surface = self._grid(hits.ray, hits.visual * 8 + facing, -1)
+        grid = self._grid(hits.ray, values, 0.0)
+        total, count = grid.copy(), np.ones_like(grid)
+        for dy in range(-2, 2):
+            for dx in range(-2, 2):
+                if dx or dy:
+                    _accumulate(total, count, grid, surface, dy, dx)
+        return (total / count).reshape(-1)[hits.ray]
+
+    def _ink(self, hits: Hits, points: np.ndarray) -> np.ndarray:
+        """Returns a factor per hit that darkens borders of parts, creases and silhouettes."""
+        visual = self._grid(hits.ray, hits.visual, -1)
+        normal = self._grid(hits.ray, hits.normal, 0.0)
+        point = self._grid(hits.ray, points, 0.0)
+        ink = np.ones((self.size[1], self.size[0]), np.float32)
+        for axis in (0, 1):
+            a, b = (slice(None, -1), slice(None)), (slice(1, None), slice(None))
+            if axis:
+                a, b = (slice(None), slice(None, -1)), (slice(None), slice(1, None))
+            border = visual[a] != visual[b]
+            turn = np.einsum("hwk,hwk->hw", normal[a], normal[b])
+            step = np.abs(np.einsum("hwk,hwk->hw", point[b] - point[a], normal[a] + normal[b]))
+            strength = np.where(turn < _CREASE, 0.66, 1.0)
+            strength = np.where((step > 0.02 * self.reach) | border, 0.42, strength)
+            for side in (a, b):
+                ink[side] = np.minimum(ink[side], strength)
+        return ink.reshape(-1)[hits.ray]
+
+    def _shadow(self, through: np.ndarray) -> np.ndarray:
+        """Returns how dark the floor is behind each ray, 0..1."""
+        dark = np.zeros(len(through), np.float32)
+        fall = np.minimum(self.directions[:, 2], -1e-6)
+        distance = (self.low[2] - self.origins[:, 2]) / fall
+        points = self.origins + self.directions * distance[:, None]
+        margin = 1.2 * (self.high[2] - self.low[2]) + self.reach
+        inside = np.all((points[:, :2] > self.low[:2] - margin) & (points[:, :2] < self.high[:2] + margin), axis=1)
+        rays = np.flatnonzero((through > 0.01) & (self.directions[:, 2] < -1e-6) & inside)
+        lifted = (points[rays] + np.array([0, 0, 1e-4 * self.reach])).astype(np.float32)
+        up = np.tile(np.array([0, 0, 1], np.float32), (len(rays), 1))
+        sky = sky_share(self.scene, lifted, up, self.pattern[rays], 1.6 * self.reach)
+        key = key_share(self.scene, lifted, self.pattern[rays], self.toward)
+        dark[rays] = 1 - (1 - 0.24 * (1 - key)) * (1 - 0.42 * (1 - sky))
+        return _box_mean(dark.reshape(self.size[1], self.size[0])).reshape(-1)
+
+
+def _accumulate(total: np.ndarray, count: np.ndarray, grid: np.ndarray, surface: np.ndarray, dy: int, dx: int) -> None:
+    """Adds to each sample its neighbour at (dy, dx), where both are on the same surface."""
+    h, w = grid.shape
+    here = (slice(max(0, -dy), h - max(0, dy)), slice(max(0, -dx), w - max(0, dx)))
+    there = (slice(max(0, dy), h - max(0, -dy)), slice(max(0, dx), w - max(0, -dx)))
+    same = surface[here] == surface[there]
+    total[here] += np.where(same, grid[there], 0.0)
+    count[here] += same
+
+
+def _box_mean(grid: np.ndarray) -> np.ndarray:
+    """Returns the mean over the 4x4 samples around each."""
+    padded = np.pad(grid, ((2, 1), (2, 1)), mode="edge")
+    h, w = grid.shape
+    rows = sum(padded[dy : dy + h] for dy in range(4))
+    return np.asarray(sum(rows[:, dx : dx + w] for dx in range(4)) / 16)  # type: ignore[index, misc]
