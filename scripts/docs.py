@@ -30,7 +30,7 @@ ERRORS_HEAD = """\
 <!-- drawn by scripts/docs.py from src/grafu/errors.py -->
 
 Everything that grafu raises on purpose is one of these. The message is one line: what was given, what was expected, how
-to fix it. The command prints it on stderr and exits with 2; with several inputs the others go on, and the exit code is 1.
+to fix it. The command prints it on stderr and exits with 2; with several inputs the others go on, and it exits with 1.
 """
 REASONS_HEAD = """\
 ## Reasons, not errors

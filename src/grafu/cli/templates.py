@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 _DESCRIPTION = """\
 Lists the hinges and rails that can be installed. With --out it writes each as DIR/<id>.glb, which opens and closes, and
-DIR/contact_sheet.png, a page of pictures closed and open.
+DIR/templates.png, a page of pictures closed and open.
 """
 _EXAMPLES = """\
 examples:
@@ -42,7 +42,10 @@ def run(options: argparse.Namespace) -> int:
     gallery = open_gallery(options.templates)
     _print_gallery(gallery)
     if options.out is not None:
-        _write(gallery, options.out, options.overwrite)
+        from grafu.export.files import write_files
+        from grafu.export.gallery import gallery_files
+
+        write_files(gallery_files(gallery), options.out, options.overwrite)
         print(f"written to {options.out}")
     return 0
 

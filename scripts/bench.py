@@ -1,0 +1,194 @@
+"""Measures speed, growth, start and memory; prints a table and writes bench/bench.json and bench/bench.md.
+
+    python scripts/bench.py [MODELS ...] [--repeats 3] [--out bench]
+
+MODELS are inputs with annotated joints; without any, those in the folder that GRAFU_MODELS names, else in
+../shared/models. Every model runs in a fresh process on one core, once to warm up and then `--repeats` times, from
+reading to writing.
+"""
+
+import argparse
+import json
+import multiprocessing
+import os
+import platform
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+ROOT = Path(__file__).parent.parent
+SIZES = (10, 20, 40, 80, 120, 200)
+BARS = {"median_s": 1.5, "p95_s": 5.0, "growth_exponent": 1.3, "help_s": 0.5, "peak_mb": 600.0}
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One model: seconds of each run and of its stages (the median run's), parts, peak memory of its process."""
+
+    name: str
+    parts: int
+    runs: list[float]
+    stages: dict[str, float]
+    peak_mb: float
+
+    @property
+    def seconds(self) -> float:
+        """The median run."""
+        return median(self.runs)
+
+
+def main() -> int:
+    """Runs the bench; returns the exit code."""
+    options = parse_arguments()
+    inputs = options.models or development_models()
+    models = [in_fresh_process(time_model, str(path), options.repeats) for path in inputs]
+    walls = [in_fresh_process(time_wall, str(parts), options.repeats) for parts in SIZES]
+    figures = summary(models, walls)
+    options.out.mkdir(parents=True, exist_ok=True)
+    rows = {"figures": figures, "models": [asdict(m) for m in models], "growth": [asdict(w) for w in walls]}
+    (options.out / "bench.json").write_text(json.dumps(rows, indent=1) + "\n")
+    text = page(figures, models, walls)
+    (options.out / "bench.md").write_text(text)
+    print(text)
+    return 0
+
+
+def parse_arguments() -> argparse.Namespace:
+    """Returns the options of the command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("models", nargs="*", type=Path, metavar="MODELS")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--out", type=Path, default=ROOT / "bench")
+    return parser.parse_args()
+
+
+def development_models() -> list[Path]:
+    """Returns the annotated models at hand; none, where there is no such folder."""
+    folder = Path(os.environ.get("GRAFU_MODELS", ROOT.parent / "shared" / "models")) / "pnm"
+    return sorted(p for p in folder.glob("*") if p.is_dir())
+
+
+def in_fresh_process(job: Callable[[str, int], Timing], what: str, repeats: int) -> Timing:
+    """Returns the timing of a job in a new process on one core, so that its peak memory is its own."""
+    print(f"  {what}", file=sys.stderr)
+    for name in THREADS:
+        os.environ[name] = "1"
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=on_one_core) as pool:
+        return pool.submit(job, what, repeats).result()
+
+
+def on_one_core() -> None:
+    """Keeps this process on one core, where the system can."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+
+
+def time_model(path: str, repeats: int) -> Timing:
+    """Returns the timing of one input, from reading to writing."""
+    from grafu.cli.job import Failed, Job, JobOptions, run_job
+
+    def run() -> tuple[float, int, dict[str, float]]:
+        with tempfile.TemporaryDirectory() as folder:
+            started = time.perf_counter()
+            result = run_job(Job(Path(path), "model", JobOptions(out=Path(folder))))
+            seconds = time.perf_counter() - started
+        if isinstance(result, Failed):
+            raise SystemExit(f"{path}: {result.why}")
+        return seconds, result.report.input.parts, result.report.timings
+
+    return repeated(Path(path).name, run, repeats)
+
+
+def time_wall(parts: str, repeats: int) -> Timing:
+    """Returns the timing of a made wall of doors and drawers, pipeline and exports, without files."""
+    from grafu.export.formats import exporter
+
+    from grafu.pipeline.functionalize import functionalize
+    from grafu.pipeline.motion_source import MotionSource
+    from grafu.synth.scaling import furniture_of
+    from grafu.templates.gallery import builtin_gallery
+
+    asset = furniture_of(int(parts))
+
+    def run() -> tuple[float, int, dict[str, float]]:
+        started = time.perf_counter()
+        result = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
+        exporting = time.perf_counter()
+        for name in ("glb", "urdf"):
+            exporter(name)(result.object)
+        ended = time.perf_counter()
+        return ended - started, len(asset.parts), dict(result.timings) | {"export": ended - exporting}
+
+    return repeated(asset.name, run, repeats)
+
+
+def repeated(name: str, run: Callable[[], tuple[float, int, dict[str, float]]], repeats: int) -> Timing:
+    """Returns the timing of `repeats` runs after one that only warms up."""
+    run()
+    runs = sorted((run() for _ in range(repeats)), key=lambda r: r[0])
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
+    middle = runs[len(runs) // 2]
+    return Timing(name, middle[1], [round(r[0], 4) for r in runs], middle[2], round(peak, 1))
+
+
+def summary(models: list[Timing], walls: list[Timing]) -> dict[str, float]:
+    """Returns the figures that have a bar; those of the models are left out where there are none."""
+    seconds = [m.seconds for m in models]
+    logs = np.log([w.parts for w in walls]), np.log([w.seconds for w in walls])
+    figures = {"growth_exponent": float(np.polyfit(*logs, 1)[0]), "help_s": help_seconds()}
+    if seconds:
+        figures |= {"median_s": median(seconds), "p95_s": float(np.percentile(seconds, 95))}
+    figures["peak_mb"] = max(t.peak_mb for t in (*models, *walls))
+    return {name: round(value, 3) for name, value in figures.items()}
+
+
+def help_seconds() -> float:
+    """Returns the median time of `grafu --help`, in seconds."""
+
+    def run() -> float:
+        started = time.perf_counter()
+        subprocess.run([sys.executable, "-m", "grafu.cli.main", "--help"], check=True, capture_output=True)
+        return time.perf_counter() - started
+
+    return median(run() for _ in range(7))
+
+
+def page(figures: dict[str, float], models: list[Timing], walls: list[Timing]) -> str:
+    """Returns the tables as Markdown."""
+    verdicts = [
+        f"| {name} | {value:g} | {BARS[name]:g} | {'yes' if value <= BARS[name] else 'NO'} |"
+        for name, value in figures.items()
+    ]
+    head = f"Python {platform.python_version()}, one core of {platform.processor() or platform.machine()}\n"
+    bars = "| figure | measured | bar | met |\n|---|---|---|---|\n" + "\n".join(verdicts) + "\n"
+    return "\n".join(["# Bench\n", head, bars, table("Models", models), table("Growth", walls)])
+
+
+def table(title: str, timings: list[Timing]) -> str:
+    """Returns one table: the median of the runs, their spread, and where the time went."""
+    rows = [
+        f"| {t.name} | {t.parts} | {t.seconds:.2f} | {t.runs[0]:.2f} .. {t.runs[-1]:.2f} | {t.peak_mb:.0f} "
+        f"| {stages(t)} |"
+        for t in timings
+    ]
+    head = f"## {title}\n\n| name | parts | seconds | spread | peak MB | stages |\n|---|---|---|---|---|---|\n"
+    return head + "\n".join(rows) + "\n"
+
+
+def stages(timing: Timing) -> str:
+    """Returns the stages' seconds in words."""
+    return ", ".join(f"{name} {seconds:.2f}" for name, seconds in timing.stages.items() if seconds >= 0.005)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
