@@ -16,13 +16,16 @@ from grafu.synth.desk import Desk, Table, make_desk, make_table
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
 
 handles = st.sampled_from(["bar", "knob", "none"])
-leaf_styles = st.sampled_from(["slab", "chamfered", "rounded", "bowed", "shaker", "glass"])
+flat_styles = st.sampled_from(["slab", "chamfered", "rounded", "shaker", "glass"])
+leaf_styles = st.one_of(flat_styles, st.just("bowed"))
 drawer_boxes = st.sampled_from(["whole", "no bottom", "shell", "front only"])
-hinge_sides = st.sampled_from(["left", "right", "top", "bottom"])
 yaws = st.floats(-pi, pi).map(lambda angle: round(angle, 3))
 small_counts = st.integers(0, 2)
 
-doors = st.builds(Door, hinge_sides, leaf_styles, handles, shelves=small_counts)
+doors = st.one_of(
+    st.builds(Door, st.sampled_from(["left", "right"]), leaf_styles, handles, shelves=small_counts),
+    st.builds(Door, st.sampled_from(["top", "bottom"]), flat_styles, handles, shelves=small_counts),
+)
 drawers = st.builds(Drawer, drawer_boxes, leaf_styles, handles)
 pairs = st.builds(Pair, leaf_styles, handles, shelves=small_counts, muntin=st.sampled_from([0.0, 0.03]))
 leaves = st.one_of(doors, drawers, pairs, st.builds(Bay, small_counts))

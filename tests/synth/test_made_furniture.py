@@ -127,7 +127,7 @@ def test_a_face_frame_narrows_the_opening_and_carries_a_bar_before_each_partitio
     layout = Row((Door(), Drawer()))
     asset = make_cabinet(Cabinet(case=Case(frame=0.04), layout=layout, mount="inset"))
     assert asset.part("face_frame").label is PartLabel.FACE_FRAME
-    assert asset.part("frame_bar").box.size[0] == pytest.approx(0.04)
+    assert asset.part("face_frame_bar").box.size[0] == pytest.approx(0.04)
     assert asset.part("divider").box.size[0] == pytest.approx(0.018)
     assert asset.part("divider").box.low[2] == pytest.approx(asset.part("bottom_panel").box.high[2])
 

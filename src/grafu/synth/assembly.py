@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.asset.edit import centred
-from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
+from grafu.asset.part import IDENTITY_FRAME, AnnotatedJoint, Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
@@ -61,7 +61,7 @@ def assemble(name: str, pieces: Sequence[Piece]) -> Asset:
         for i, (piece, _) in zip(ids, entries, strict=True)
         if piece.motion
     )
-    return centred(Asset(name, "", "made", parts, joints=joints))
+    return replace(centred(Asset(name, "", "made", parts, joints=joints)), frame=IDENTITY_FRAME)
 
 
 def _with_carriers(pieces: Sequence[Piece]) -> Iterator[tuple[Piece, int | None]]:

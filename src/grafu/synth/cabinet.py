@@ -71,7 +71,7 @@ def _partition(item: Partition, spec: Cabinet) -> list[Piece]:
         return [partition_piece(item, setting)]
     r, spare = item.rect, setting.wall / 2
     bar = board((r.x0, case.front, r.z0), (r.x1, -case.depth / 2, r.z1))
-    pieces = [Piece(PartLabel.FACE_FRAME, "frame_bar", (surface_of(bar, spec.finish.case),))]
+    pieces = [Piece(PartLabel.FACE_FRAME, "face_frame_bar", (surface_of(bar, spec.finish.case),))]
     if item.kind == "panel":
         thin = (
             replace(r, x0=r.x0 + spare, x1=r.x1 - spare)

@@ -217,7 +217,7 @@ def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[Piece]:
     rect = replace(o, x0=o.x0 + side, x1=o.x1 - side)
     for low, high in zip(inner_span(cell, setting), (rect.x0, rect.x1), strict=True):
         mesh = board((min(low, high), plane, o.z0), (max(low, high), setting.back, o.z1))
-        yield Piece(PartLabel.DIVIDER, "filler", (surface_of(mesh, setting.finish.inside),))
+        yield Piece(PartLabel.DIVIDER, "divider", (surface_of(mesh, setting.finish.inside),))
     inner = replace(setting, plane=plane, mount="inset", wall=0.0)
     for item in divide(layout, rect, Edges(), setting.panel):
         yield from (partition_piece(item, inner),) if isinstance(item, Partition) else front_pieces(item, inner)

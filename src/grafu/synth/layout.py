@@ -29,6 +29,12 @@ class Door:
     shelves: int = 0
     behind: "Layout | None" = None
 
+    def __post_init__(self) -> None:
+        if self.leaf == "bowed" and self.hinge in ("top", "bottom"):
+            raise ValueError(
+                f"a bowed leaf needs an upright hinge (its belly would strike above a flap's): {self.hinge}"
+            )
+
 
 @final
 @dataclass(frozen=True, slots=True)
