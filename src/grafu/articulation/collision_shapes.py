@@ -1,0 +1,130 @@
+"""Shapes that simulators collide with: boxes for boards, convex hulls for the rest, so that a drawer stays open on top.
+
+Hinges and rails carry no shape: their knuckles and channels interlock, and only their joint may hold them. It knows no
+file format.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Link, Visual, VisualRole
+from grafu.articulation.convex_pieces import DEFAULT_PIECE_CONFIG, PieceConfig, convex_pieces, hull_of
+from grafu.geometry.arrays import Mat3, Points, Vec3
+from grafu.geometry.box import Box, OrientedBox, yaw_of
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.solids import ConvexSolid
+from grafu.geometry.transform import rotation_matrix
+
+CollisionShape = OrientedBox | ConvexSolid
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class CollisionConfig:
+    """How collision shapes are made; lengths in metres.
+
+    Every side of a shape moves in by `margin`, so that parts that touch at rest do not push one another. No shape is
+    thinner than `least_thickness`: thin hulls fall through in PhysX. A hull that fills its box to `box_share` becomes
+    that box. A link has at most `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
+    """
+
+    margin: float = 0.0005
+    least_thickness: float = 0.004
+    box_share: float = 0.85
+    most_shapes: int = 48
+    most_corners: int = 48
+    pieces: PieceConfig = DEFAULT_PIECE_CONFIG
+
+
+DEFAULT_COLLISION_CONFIG = CollisionConfig()
+
+
+def collision_shapes(link: Link, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> tuple[CollisionShape, ...]:
+    """Returns the collision shapes of a link in the object frame at rest, the largest first."""
+    shapes = [shape for visual in link.visuals if _collides(visual) for shape in _shapes_of(visual.mesh, config)]
+    shapes.sort(key=lambda shape: -extent_of(shape))
+    kept: list[CollisionShape] = []
+    for shape in shapes:
+        if len(kept) < config.most_shapes and not any(_within(shape, other) for other in kept):
+            kept.append(shape)
+    return tuple(kept)
+
+
+def corners_of(shape: CollisionShape) -> Points:
+    """Returns the corners of a shape in the object frame."""
+    return shape.corners() if isinstance(shape, OrientedBox) else shape.vertices
+
+
+def extent_of(shape: CollisionShape) -> float:
+    """Returns half the surface of the box around a shape, square metres: how much it can be touched."""
+    a, b, c = np.ptp(corners_of(shape), axis=0) if isinstance(shape, ConvexSolid) else 2 * shape.half
+    return float(a * b + b * c + c * a)
+
+
+def _collides(visual: Visual) -> bool:
+    return visual.role is not VisualRole.HARDWARE or visual.name.startswith("support_")
+
+
+def _shapes_of(mesh: TriangleMesh, config: CollisionConfig) -> list[CollisionShape]:
+    if not len(mesh.faces):
+        return []
+    R = _yaw_rotation(mesh.vertices)
+    pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), config.pieces)
+    made = (_shape_around(piece.vertices @ R.T, R, config) for piece in pieces)
+    return [shape for shape in made if shape is not None]
+
+
+def _yaw_rotation(points: Points) -> Mat3:
+    return rotation_matrix(np.array([0.0, 0.0, 1.0]), yaw_of(points))
+
+
+def _shape_around(points: Points, R: Mat3, config: CollisionConfig) -> CollisionShape | None:
+    """Returns the box or hull around points; boxes are tried along `R` and along the points' own yaw."""
+    hull = hull_of(points, config.least_thickness)
+    if hull is None:
+        return None
+    volume = _volume(hull)
+    for rotation in (R, _yaw_rotation(points)):
+        box = OrientedBox.around(hull.vertices, rotation)
+        if volume >= config.box_share * 8.0 * float(np.prod(box.half)):
+            return OrientedBox(box.center, _smaller(box.half, config), rotation)
+    return _smaller_hull(hull, R, config)
+
+
+def _smaller(half: Vec3, config: CollisionConfig) -> Vec3:
+    """Returns half sizes less the margin, never below the least thickness."""
+    return np.maximum(half - config.margin, config.least_thickness / 2)
+
+
+def _smaller_hull(hull: ConvexSolid, R: Mat3, config: CollisionConfig) -> ConvexSolid | None:
+    local = _few_corners(hull.vertices, config.most_corners) @ R
+    box = Box.around(local)
+    factor = np.minimum(1.0, _smaller(box.half, config) / np.maximum(box.half, 1e-9))
+    return ConvexSolid.around(((local - box.center) * factor + box.center) @ R.T)
+
+
+def _few_corners(points: Points, most: int) -> Points:
+    """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
+    if len(points) <= most:
+        return points
+    turn = np.arange(most) * np.pi * (3.0 - np.sqrt(5.0))
+    height = 1.0 - (2.0 * np.arange(most) + 1.0) / most
+    ring = np.sqrt(1.0 - height**2)
+    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
+    size = np.maximum(np.ptp(points, axis=0), 1e-9)
+    return points[np.unique(np.argmax((points / size) @ directions.T, axis=0))]
+
+
+def _volume(hull: ConvexSolid) -> float:
+    triangles = hull.vertices[hull.faces] - hull.vertices.mean(axis=0)
+    return float(np.abs(np.linalg.det(triangles)).sum() / 6.0)
+
+
+def _within(shape: CollisionShape, other: CollisionShape) -> bool:
+    """Whether a shape lies wholly inside a box."""
+    if not isinstance(other, OrientedBox):
+        return False
+    local = (corners_of(shape) - other.center) @ other.rotation
+    return bool(np.all(np.abs(local) <= other.half + 1e-9))

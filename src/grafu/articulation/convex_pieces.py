@@ -1,0 +1,201 @@
+"""A mesh taken apart into nearly convex pieces: boards are cut off around its deepest pit until no pit is left.
+
+Works on surfaces as they are, open or closed: a pit is empty space inside the convex hull from which one can look out
+along an axis and which is far from every face. It knows no links; coordinates are the caller's, best along the boards.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, final
+
+import manifold3d
+import numpy as np
+from trimesh.intersections import slice_faces_plane
+
+from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.box import Box
+from grafu.geometry.components import connected_parts, patches_of, welded
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.geometry.solids import ConvexSolid
+
+_DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
+_PAST_THE_WALL = 0.0005  # metres: faces on a cut belong to the board that is cut off
+_GRID = 10  # points per side at most: pits narrower than a tenth of the part are filled
+_slice: Any = slice_faces_plane  # trimesh states no types
+_SPECK = 0.004  # pieces smaller than this (metres) carry no load and stop no hand
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PieceConfig:
+    """How finely a mesh is taken apart.
+
+    Pits less deep than `tolerance` metres, or than `share` of the piece's middle side (the gap behind a bar handle is
+    small), are filled. At most `most` pieces come of one mesh.
+    """
+
+    tolerance: float = 0.02
+    share: float = 0.15
+    most: int = 32
+
+
+DEFAULT_PIECE_CONFIG = PieceConfig()
+
+
+def convex_pieces(mesh: TriangleMesh, config: PieceConfig = DEFAULT_PIECE_CONFIG) -> list[TriangleMesh]:
+    """Returns nearly convex pieces of a mesh: one where it has no pits, else its parts, cut along axis planes.
+
+    Specks of a few millimetres are left out, except where there is nothing else.
+    """
+    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh), config)]
+    return [piece for piece in pieces if piece.box.diagonal > _SPECK] or pieces[:1]
+
+
+def hull_of(points: Points, least_thickness: float) -> ConvexSolid | None:
+    """Returns the convex hull of points; flat ones are thickened to `least_thickness` metres. None for fewer than 3."""
+    return ConvexSolid.around(_thickened(points, least_thickness))
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A mesh and, where it bounds a solid, that solid: what is cut from a solid stays one."""
+
+    mesh: TriangleMesh
+    solid: Any = None  # a manifold3d.Manifold
+
+    def parts(self) -> list["_Piece"]:
+        """Returns the connected parts, each as a solid where it bounds one."""
+        if self.solid is not None:
+            return [_of_solid(part) for part in self.solid.decompose()]
+        return [_as_solid(part) for part in connected_parts(self.mesh)]
+
+    def halves(self, axis: int, sign: float, position: float) -> tuple["_Piece", "_Piece"]:
+        """Returns what lies beyond a plane across `axis` (on the side of `sign`), and the rest."""
+        normal = np.zeros(3)
+        normal[axis] = sign
+        if self.solid is not None:
+            beyond, rest = self.solid.split_by_plane(tuple(normal), sign * position)
+            return _of_solid(beyond), _of_solid(rest)
+        origin = np.abs(normal) * position
+        return _Piece(_sliced(self.mesh, normal, origin)), _Piece(_sliced(self.mesh, -normal, origin))
+
+
+def _of_solid(solid: Any) -> _Piece:
+    made = solid.to_mesh()
+    vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
+    return _Piece(TriangleMesh(vertices, np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)), solid)
+
+
+def _as_solid(mesh: TriangleMesh) -> _Piece:
+    """Returns the mesh as a solid where its distinct faces, turned one way, bound one; else as it is."""
+    patches = patches_of(mesh)
+    if not len(patches.closed) or not patches.closed.all():
+        return _Piece(mesh)
+    position = welded(mesh.vertices)
+    first = np.unique(position, return_index=True)[1]
+    made = manifold3d.Mesh(mesh.vertices[first].astype(np.float32), position[patches.faces].astype(np.uint32))
+    solid = manifold3d.Manifold(made)
+    return _of_solid(solid) if solid.status() == manifold3d.Error.NoError and solid.volume() > 0 else _Piece(mesh)
+
+
+def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
+    waiting, done = [whole], list[_Piece]()
+    while waiting:
+        piece = waiting.pop()
+        parts = _apart_once(piece, config) if len(done) + len(waiting) + 1 < config.most else []
+        if len(parts) > 1:
+            waiting += parts
+        else:
+            done.append(piece)
+    return done
+
+
+def _apart_once(piece: _Piece, config: PieceConfig) -> list[_Piece]:
+    """Returns the piece's connected parts or, of a single one, those on both sides of a cut; nothing without a pit."""
+    pit = _deepest_pit(piece.mesh, config)
+    if pit is None:
+        return []
+    parts = piece.parts()
+    return parts if len(parts) > 1 else _cut(parts[0], pit, config) if parts else []
+
+
+def _deepest_pit(mesh: TriangleMesh, config: PieceConfig) -> Vec3 | None:
+    """Returns the point of the deepest pit, None where every pit is within the tolerance."""
+    sides = np.sort(mesh.box.size)
+    tolerance = min(config.tolerance, config.share * float(sides[1]))
+    solid = hull_of(mesh.vertices, _SPECK)
+    if solid is None or sides[2] < 4 * _SPECK:
+        return None
+    points = _inside(solid, _grid(solid.box, tolerance))
+    depth = _depths(RayCaster(mesh), points, float(sides[2]))
+    if not len(depth) or depth.max() <= tolerance:
+        return None
+    return points[int(np.argmax(depth))]
+
+
+def _grid(box: Box, spacing: float) -> Points:
+    counts = np.clip(np.ceil(box.size / max(spacing, 1e-6)), 2, _GRID).astype(int)
+    axes = [low + (np.arange(n) + 0.5) / n * size for low, n, size in zip(box.low, counts, box.size, strict=True)]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def _inside(solid: ConvexSolid, points: Points) -> Points:
+    return points[np.all(points @ solid.planes[:, :3].T <= solid.planes[:, 3] - 1e-6, axis=1)]
+
+
+def _looks(caster: RayCaster, points: Points) -> np.ndarray:
+    """Returns how far one sees from each point along the six axis directions, (points, 6)."""
+    origins, directions = np.repeat(points, 6, axis=0), np.tile(_DIRECTIONS, (len(points), 1))
+    return caster.distances(origins, directions).reshape(-1, 6)
+
+
+def _depths(caster: RayCaster, points: Points, most: float) -> Scalars:
+    """Returns how far each point is from any face, at most `most`; 0 where no direction leads out."""
+    seen = _looks(caster, points)
+    return np.where(np.isinf(seen).any(axis=1), np.minimum(seen.min(axis=1, initial=most), most), 0.0)
+
+
+def _cut(piece: _Piece, pit: Vec3, config: PieceConfig) -> list[_Piece]:
+    """Returns both sides of a wall of the pit: at best one where what lies beyond it has no pit."""
+    fallback: list[_Piece] = []
+    for axis, sign, position in _walls(piece.mesh, pit):
+        board, rest = piece.halves(axis, sign, position - sign * _PAST_THE_WALL)
+        if not len(board.mesh.faces) or not len(rest.mesh.faces):
+            continue
+        if _deepest_pit(board.mesh, config) is None:
+            return [board, rest]
+        fallback = fallback or [board, rest]
+    return fallback
+
+
+def _walls(mesh: TriangleMesh, pit: Vec3) -> Iterator[tuple[int, float, float]]:
+    """Yields axis, sense and position of each wall seen from the pit, the largest faces of the box first.
+
+    Where no wall is seen (a ring seen from its middle along a diagonal), cuts through the pit itself come last.
+    """
+    seen = _looks(RayCaster(mesh), pit[None])[0]
+    size = mesh.box.size
+    order = sorted(range(6), key=lambda k: float(size[k // 2]))  # the face across a short side is large
+    for k in order:
+        if np.isfinite(seen[k]):
+            yield k // 2, float(_DIRECTIONS[k, k // 2]), float(pit[k // 2] + _DIRECTIONS[k, k // 2] * seen[k])
+    for axis in np.argsort(-size):
+        yield int(axis), 1.0, float(pit[axis])
+
+
+def _sliced(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
+    vertices, faces = _slice(np.array(mesh.vertices), np.array(mesh.faces), normal, origin)[:2]
+    return TriangleMesh(np.asarray(vertices).reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3))
+
+
+def _thickened(points: Points, least: float) -> Points:
+    """Returns points that are at least `least` apart in every direction: flat sets are doubled along their normal."""
+    center = points.mean(axis=0)
+    axes = np.linalg.svd(points - center, full_matrices=False)[2] if len(points) > 2 else np.zeros((0, 3))
+    for axis in axes:
+        extent = np.ptp(points @ axis)
+        if extent < least:
+            points = np.vstack([points - axis * (least - extent) / 2, points + axis * (least - extent) / 2])
+    return points
