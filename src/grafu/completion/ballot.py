@@ -1,0 +1,45 @@
+"""Weighted votes for a closed list of choices, and the verdict with its runner-up. It knows no furniture."""
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import Generic, TypeVar, final
+
+Choice = TypeVar("Choice", bound=Hashable)
+
+# Every choice starts with this much, so that one weak vote does not make a certainty.
+_PRIOR = 0.15
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Verdict(Generic[Choice]):
+    """The choice with the most votes, its share of them (0..1), and the next best (None where there is only one)."""
+
+    choice: Choice
+    score: float
+    runner_up: Choice | None = None
+    runner_up_score: float = 0.0
+
+
+@final
+class Ballot(Generic[Choice]):
+    """Collects weighted votes; a negative weight speaks against a choice. Ties fall to the choice listed first."""
+
+    def __init__(self, choices: tuple[Choice, ...]) -> None:
+        if not choices:
+            raise ValueError("a ballot needs at least one choice")
+        self._weights: dict[Choice, float] = dict.fromkeys(choices, _PRIOR)
+
+    def vote(self, choice: Choice, weight: float) -> None:
+        """Adds weight to a choice; one that is not on the list is ignored."""
+        if choice in self._weights:
+            self._weights[choice] += weight
+
+    def verdict(self) -> Verdict[Choice]:
+        """Returns the outcome; shares are of the positive weights."""
+        ranked = sorted(self._weights.items(), key=lambda item: -item[1])
+        total = sum(max(weight, 0.0) for _, weight in ranked)
+        shares = [max(weight, 0.0) / total if total > 0 else 1.0 / len(ranked) for _, weight in ranked]
+        if len(ranked) == 1:
+            return Verdict(ranked[0][0], shares[0])
+        return Verdict(ranked[0][0], shares[0], ranked[1][0], shares[1])

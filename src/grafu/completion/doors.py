@@ -1,0 +1,190 @@
+"""How a door hangs: its front, the border of its hinge, and the part that carries it (carpenters' rules on boxes).
+
+The handle decides where it sits clearly off-centre: the hinge is opposite. Else doors of a pair hang on their outer
+sides, a wide flap on its top or bottom, a lid on its back, a single door on the side nearer to the body's end. Every
+rule is a vote; the weights were set by hand on real cabinets.
+"""
+
+from typing import cast
+
+import numpy as np
+
+from grafu.completion.ballot import Ballot, Verdict
+from grafu.completion.rows import across_axis, pair_side, slides_past
+from grafu.completion.scene import CARRIES, Scene, offset_share, overlap_share
+from grafu.geometry.box import Box
+from grafu.graph.completion import Decision, Question, RefusedMotion
+from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
+from grafu.graph.functional_graph import PartNode
+from grafu.graph.motion import border_to_face, face_to_border, plane_axes, sign_for_opening, signed_axis
+
+# Parts farther than this share of the object from a border carry nothing there.
+_REACH = 0.1
+_NEAR = 0.02
+# From here on a handle's offset (share of the half width or height) is meant, and a flap is wide.
+_CLEAR, _SLIGHT = 0.3, 0.12
+_WIDE, _WIDE_PAIRED, _VERY_WIDE = 1.3, 1.8, 2.2
+
+
+def hang_door(door: PartNode, scene: Scene) -> tuple[Hinge, tuple[Decision, ...]] | RefusedMotion:
+    """Returns the hinge of a door with how sure each choice is, or why it gets none."""
+    other = slides_past(door, scene)
+    if other is not None:
+        return RefusedMotion(
+            door.id, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built"
+        )
+    if not scene.supports:
+        return RefusedMotion(door.id, "there is no static part to hang it on: label the parts that stand still")
+    thin = door.box.thin_axis
+    front, border = vote_front(door, scene), vote_border(door, scene)
+    mount = vote_mount(door, border.choice, scene)
+    if mount is None:
+        return RefusedMotion(door.id, "no static part is near enough to any of its borders to carry a hinge")
+    sign = sign_for_opening(thin, border.choice, front.choice)
+    flipped = "" if front.runner_up is None else str(1 - sign)
+    decisions = (
+        _decision(door, "border", border),
+        Decision(door.id, "sign", str(sign), front.score, flipped, front.runner_up_score),
+        _decision(door, "mount", mount),
+    )
+    return Hinge(mount.choice, door.id, border.choice, sign), decisions
+
+
+def vote_front(door: PartNode, scene: Scene) -> Verdict[SignedAxis]:
+    """Returns the broad face that looks away from the body: handles sit there, and the body's middle is behind it."""
+    thin, box = door.box.thin_axis, door.box
+    low, high = signed_axis(thin, False), signed_axis(thin, True)
+    ballot: Ballot[SignedAxis] = Ballot((low, high))
+    for handle in scene.handles_of(door):
+        beyond = float((handle.box.high[thin] - box.high[thin]) - (box.low[thin] - handle.box.low[thin]))
+        if abs(beyond) > 0.1 * float(handle.box.size[thin]):
+            ballot.vote(high if beyond > 0 else low, 4.0)
+    place = offset_share(scene.body, box.center, thin)
+    ballot.vote(high if place > 0 else low, 3.0 * min(abs(place), 1.0))
+    ballot.vote(2, 0.5)  # the frame's front is -Y,
+    ballot.vote(5, 0.5)  # and a lid opens upwards
+    return ballot.verdict()
+
+
+def vote_border(door: PartNode, scene: Scene) -> Verdict[HingeBorder]:
+    """Returns the border that the hinge is on."""
+    thin = door.box.thin_axis
+    ballot: Ballot[HingeBorder] = Ballot((0, 1, 2, 3))
+    if thin == 2:
+        _vote_lid(door, scene, ballot)
+    else:
+        _vote_upright(door, scene, ballot)
+    for border in cast(tuple[HingeBorder, ...], (0, 1, 2, 3)):
+        carriers = [score for _, score in _carriers(door, border, scene)]
+        ballot.vote(border, 0.7 * max(carriers, default=0.0) if carriers else -2.0)
+    return ballot.verdict()
+
+
+def vote_mount(door: PartNode, border: HingeBorder, scene: Scene) -> Verdict[str] | None:
+    """Returns the static part that carries the door at a border, or None where none is near."""
+    carriers = _carriers(door, border, scene)
+    if not carriers:
+        return None
+    ballot = Ballot(tuple(node.id for node, _ in carriers))
+    for node, score in carriers:
+        ballot.vote(node.id, 3.0 * score)
+    return ballot.verdict()
+
+
+def _vote_lid(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+    for axis, offset in _handle_offsets(door, scene).items():
+        if abs(offset) > _CLEAR:
+            ballot.vote(_border(door, axis, offset < 0), 5.0 * min(abs(offset), 1.0))
+    ballot.vote(_border(door, 1, True), 2.0)  # the back, where the front is -Y
+
+
+def _vote_upright(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+    across = across_axis(door)
+    paired = pair_side(door, scene)
+    sideways, upwards = _vote_handle(door, scene, ballot, paired != "none")
+    if not (sideways or upwards):
+        _vote_flap(door, scene, ballot)
+    if paired != "none":
+        ballot.vote(_border(door, across, paired == "high"), 2.5)
+    elif not upwards:
+        _vote_outer_side(door, scene, ballot)
+
+
+def _vote_handle(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder], paired: bool) -> tuple[bool, bool]:
+    """Votes for the border opposite the handle; returns whether it spoke for a side and for top or bottom."""
+    across = across_axis(door)
+    offsets = _handle_offsets(door, scene)
+    if not offsets:
+        return False, False
+    aside, aloft = offsets[across], offsets[2]
+    if abs(aside) > _SLIGHT:
+        weight = 6.0 * min(abs(aside), 1.0) if abs(aside) > _CLEAR else 1.5
+        ballot.vote(_border(door, across, aside < 0), weight)
+        return abs(aside) > _CLEAR, False
+    if abs(aloft) > _CLEAR and _aspect(door) >= (_WIDE_PAIRED if paired else _WIDE):
+        ballot.vote(_border(door, 2, aloft < 0), 5.0 * min(abs(aloft), 1.0))
+        return False, True
+    return False, False
+
+
+def _vote_flap(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+    """Votes for the top of a high and the bottom of a low flap, where it is too wide to swing sideways."""
+    if _aspect(door) >= _VERY_WIDE:
+        high = offset_share(scene.body, door.box.center, 2) >= 0
+        ballot.vote(_border(door, 2, high), 3.0)
+
+
+def _vote_outer_side(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+    across = across_axis(door)
+    to_low = abs(float(door.box.low[across] - scene.body.low[across]))
+    to_high = abs(float(door.box.high[across] - scene.body.high[across]))
+    if abs(to_low - to_high) > 0.1 * float(door.box.size[across]):
+        ballot.vote(_border(door, across, to_high < to_low), 1.5)
+    else:
+        ballot.vote(_border(door, across, True), 0.2)  # nothing decides; most people pull with the right hand
+        ballot.vote(_border(door, across, False), 0.1)
+
+
+def _handle_offsets(door: PartNode, scene: Scene) -> dict[int, float]:
+    """Returns where the handles sit in the door's plane on average: -1..1 along each of its two axes."""
+    handles = scene.handles_of(door)
+    if not handles:
+        return {}
+    middle = np.mean([h.box.center for h in handles], axis=0)
+    return {axis: offset_share(door.box, middle, axis) for axis in plane_axes(door.box.thin_axis)}
+
+
+def _aspect(door: PartNode) -> float:
+    return float(door.box.size[across_axis(door)] / max(float(door.box.size[2]), 1e-9))
+
+
+def _border(door: PartNode, axis: int, high: bool) -> HingeBorder:
+    return face_to_border(door.box.thin_axis, signed_axis(axis, high))
+
+
+def _carriers(door: PartNode, border: HingeBorder, scene: Scene) -> list[tuple[PartNode, float]]:
+    """Returns the parts near a border with a score each, 0..1: near, alongside, of a label that carries."""
+    edge = _border_box(door.box, border)
+    along = next(a for a in plane_axes(door.box.thin_axis) if a != border_to_face(door.box.thin_axis, border) // 2)
+    found = []
+    for node in scene.supports:
+        gap = edge.gap(node.box) / scene.unit
+        if gap > _REACH:
+            continue
+        alongside = overlap_share(edge, node.box, along)
+        nearness = float(np.exp(-gap / _NEAR)) * (1.0 if scene.touch(door, node) else 0.8)
+        found.append((node, nearness * (0.1 + 0.9 * alongside) * CARRIES[node.label]))
+    return found
+
+
+def _border_box(box: Box, border: HingeBorder) -> Box:
+    """Returns the face of a box that a border names, as a flat box."""
+    face = border_to_face(box.thin_axis, border)
+    low, high = box.low.copy(), box.high.copy()
+    low[face // 2] = high[face // 2] = box.face_center(face)[face // 2]
+    return Box(low, high)
+
+
+def _decision(door: PartNode, question: Question, verdict: Verdict[HingeBorder] | Verdict[str]) -> Decision:
+    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
+    return Decision(door.id, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)

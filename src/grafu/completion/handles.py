@@ -1,0 +1,69 @@
+"""Whose handle is whose: every handle goes to the door or drawer that it sits on. It looks at boxes alone."""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.box import Box
+from grafu.graph.completion import Decision, RefusedMotion
+from grafu.graph.edges import Attached
+from grafu.graph.edit import with_edges
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.vocabulary import PartLabel
+
+# A handle farther than this share of the object from every door and drawer belongs to none of them.
+_FAR = 0.05
+_NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
+
+
+@final
+@dataclass(frozen=True)
+class Attachments:
+    """The graph with its handles attached, how sure each is, and the handles that sit on nothing that moves."""
+
+    graph: FunctionalGraph
+    decisions: tuple[Decision, ...]
+    refused: tuple[RefusedMotion, ...]
+
+
+def attach_handles(graph: FunctionalGraph) -> Attachments:
+    """Returns the graph with an attached edge per handle; handles that are attached already stay as they are."""
+    movable = graph.labelled(PartLabel.DOOR, PartLabel.DRAWER)
+    held = {edge.child for edge in graph.attachments}
+    edges: list[Attached] = []
+    decisions: list[Decision] = []
+    refused: list[RefusedMotion] = []
+    for handle in graph.labelled(PartLabel.HANDLE):
+        if handle.id in held:
+            continue
+        ranked = sorted(((_misfit(handle, part, graph), part.id) for part in movable), key=lambda item: item[0])
+        if not ranked or ranked[0][0] > _FAR:
+            refused.append(RefusedMotion(handle.id, _NO_PARENT))
+            continue
+        edges.append(Attached(ranked[0][1], handle.id))
+        decisions.append(_decision(handle, ranked))
+    return Attachments(with_edges(graph, edges), tuple(decisions), tuple(refused))
+
+
+def _misfit(handle: PartNode, part: PartNode, graph: FunctionalGraph) -> float:
+    """Returns how badly a handle fits a part, as a share of the object: its gap, and how far it hangs over."""
+    unit = max(float(graph.box.size.max()), 1e-9)
+    touching = part.id in graph.neighbours[handle.id]
+    overhang = (1.0 - _share_in_front(handle.box, part.box)) * float(handle.box.size.max())
+    return (handle.box.gap(part.box) + overhang) / unit - 0.002 * touching
+
+
+def _share_in_front(handle: Box, part: Box) -> float:
+    """Returns the largest share of the handle that one face of the part lies behind, seen along an axis."""
+    low, high = np.maximum(handle.low, part.low), np.minimum(handle.high, part.high)
+    inside = np.clip((high - low) / np.maximum(handle.size, 1e-9), 0.0, 1.0)
+    inside = np.where(handle.size <= 1e-9, (high >= low).astype(float), inside)
+    return max(float(np.prod(np.delete(inside, axis))) for axis in range(3))
+
+
+def _decision(handle: PartNode, ranked: list[tuple[float, str]]) -> Decision:
+    weights = np.exp(-np.array([max(misfit, 0.0) for misfit, _ in ranked]) / 0.01)
+    shares = weights / weights.sum()
+    runner_up, second = (ranked[1][1], float(shares[1])) if len(ranked) > 1 else ("", 0.0)
+    return Decision(handle.id, "parent", ranked[0][1], float(shares[0]), runner_up, second)

@@ -1,0 +1,122 @@
+"""Doors beside one another: which hang as a pair, and which slide past each other. It looks at boxes alone."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from grafu.completion.scene import Scene, overlap_share
+from grafu.graph.functional_graph import PartNode
+
+Side = Literal["low", "high", "none"]
+
+# Doors of a row: at least so much of the lower one's height is shared, and the seam is at most this share of a width.
+_SHARED_HEIGHT = 0.8
+_SEAM = 0.25
+# Sliding doors lie in planes a good part of a thickness apart and lap by at least this share of a width.
+_LAP = 0.02
+_MOST_LAP = 0.6
+
+
+def across_axis(door: PartNode) -> int:
+    """Returns the horizontal axis in the plane of an upright door."""
+    return 1 if door.box.thin_axis == 0 else 0
+
+
+def pair_side(door: PartNode, scene: Scene) -> Side:
+    """Returns the side of an upright door on which it should hang because it is one of a pair: the outer one.
+
+    Doors of one row are split where a panel stands behind the seam; within each group every two make a pair.
+    """
+    axis = across_axis(door)
+    groups = _split_at_panels(_row_of(door, scene), scene)
+    group = next(g for g in groups if any(d.id == door.id for d in g))
+    position = next(k for k, d in enumerate(group) if d.id == door.id)
+    if len(group) % 2:
+        return _side_in_odd_group(group, position, axis, scene)
+    return "low" if position % 2 == 0 else "high"
+
+
+def slides_past(door: PartNode, scene: Scene) -> PartNode | None:
+    """Returns a door that this one slides past: lapping, of one height, in the next plane. None for a hinged door."""
+    if door.box.thin_axis == 2:
+        return None
+    return next((other for other in scene.doors if other.id != door.id and _laps(door, other)), None)
+
+
+def _laps(door: PartNode, other: PartNode) -> bool:
+    thin, axis = door.box.thin_axis, across_axis(door)
+    if other.box.thin_axis != thin or _shared_height(door, other) < 0.9:
+        return False
+    apart = abs(float(door.box.center[thin] - other.box.center[thin]))
+    thickness = float(min(door.box.size[thin], other.box.size[thin]))
+    nearest = float(max(door.box.size[thin], other.box.size[thin])) * 3
+    lap = -float(door.box.axis_gaps(other.box)[axis])
+    width = float(min(door.box.size[axis], other.box.size[axis]))
+    return 0.6 * thickness <= apart <= nearest and _LAP * width <= lap <= _MOST_LAP * width
+
+
+def _row_of(door: PartNode, scene: Scene) -> list[PartNode]:
+    """Returns the doors of one row, this one among them, in order of position."""
+    axis, thin = across_axis(door), door.box.thin_axis
+    alike = [d for d in scene.doors if d.box.thin_axis == thin and _in_line(door, d)]
+    alike.sort(key=lambda d: float(d.box.center[axis]))
+    start = next(k for k, d in enumerate(alike) if d.id == door.id)
+    first, last = start, start
+    while first > 0 and _seam(alike[first - 1], alike[first], axis) <= _SEAM:
+        first -= 1
+    while last + 1 < len(alike) and _seam(alike[last], alike[last + 1], axis) <= _SEAM:
+        last += 1
+    return alike[first : last + 1]
+
+
+def _in_line(door: PartNode, other: PartNode) -> bool:
+    thin = door.box.thin_axis
+    apart = abs(float(door.box.center[thin] - other.box.center[thin]))
+    thickness = float(max(door.box.size[thin], other.box.size[thin]))
+    return apart <= max(thickness, 0.02 * float(door.box.size.max())) and _shared_height(door, other) >= _SHARED_HEIGHT
+
+
+def _shared_height(a: PartNode, b: PartNode) -> float:
+    return min(overlap_share(a.box, b.box, 2), overlap_share(b.box, a.box, 2))
+
+
+def _seam(a: PartNode, b: PartNode, axis: int) -> float:
+    """Returns the gap between two doors as a share of the narrower one's width."""
+    return float(b.box.low[axis] - a.box.high[axis]) / max(float(min(a.box.size[axis], b.box.size[axis])), 1e-9)
+
+
+def _split_at_panels(row: Sequence[PartNode], scene: Scene) -> list[list[PartNode]]:
+    axis = across_axis(row[0])
+    groups = [[row[0]]]
+    for left, right in pairwise(row):
+        if panel_behind(left, right, axis, scene):
+            groups.append([])
+        groups[-1].append(right)
+    # Two doors alone are a pair whatever stands between them: each hangs on its own outer side.
+    return [list(row)] if len(row) == 2 else groups
+
+
+def panel_behind(left: PartNode, right: PartNode, axis: int, scene: Scene) -> bool:
+    """Whether an upright panel stands behind the seam of two doors."""
+    seam = (left.box.high[axis] + right.box.low[axis]) / 2
+    reach = float(left.box.size[axis] + right.box.size[axis]) / 20
+    return any(
+        abs(float(node.box.center[axis]) - seam) <= reach
+        and overlap_share(left.box, node.box, 2) > 0.6
+        and float(node.box.size[axis]) < 0.3 * float(left.box.size[axis])
+        for node in scene.supports
+    )
+
+
+def _side_in_odd_group(group: Sequence[PartNode], position: int, axis: int, scene: Scene) -> Side:
+    """Returns the side for one of three, five, ...: pairs from the outer end that is nearer to the body's."""
+    if len(group) == 1:
+        return "none"
+    gaps = (abs(group[0].box.low[axis] - scene.body.low[axis]), abs(group[-1].box.high[axis] - scene.body.high[axis]))
+    order = position if gaps[0] <= gaps[1] else len(group) - 1 - position
+    if order == len(group) - 1:
+        return "none"
+    outer = order % 2 == 0
+    return "low" if outer == bool(np.less_equal(gaps[0], gaps[1])) else "high"
