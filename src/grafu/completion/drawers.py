@@ -7,9 +7,9 @@ between two flanks where there are two, else on whatever is near.
 import numpy as np
 
 from grafu.completion.ballot import Ballot, Verdict
-from grafu.completion.scene import CARRIES, Scene, overlap_share
+from grafu.completion.scene import CARRIES, Scene, offset_share, overlap_share
 from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, RefusedMotion
+from grafu.graph.completion import Decision, Question, RefusedMotion
 from grafu.graph.edges import Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import code_to_direction, opposite, signed_axis
@@ -18,6 +18,8 @@ from grafu.vocabulary import PartLabel
 _WAYS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
 _NEAR = 0.03  # shares of the object
 _REACH = 0.15
+_LEAST_FLANK = 0.05
+_BLOCKERS = frozenset(CARRIES) - {PartLabel.FACE_FRAME, PartLabel.MISC}
 
 
 def run_drawer(drawer: PartNode, scene: Scene) -> tuple[tuple[Rail, ...], tuple[Decision, ...]] | RefusedMotion:
@@ -28,10 +30,8 @@ def run_drawer(drawer: PartNode, scene: Scene) -> tuple[tuple[Rail, ...], tuple[
     mounts = _flanks(drawer, way.choice, scene) or _nearest(drawer, scene)
     if not mounts:
         return RefusedMotion(drawer.id, "no static part is near enough to carry a rail")
-    rails = tuple(Rail(node_id, drawer.id, way.choice) for node_id, _ in mounts)
-    runner_up = "" if way.runner_up is None else str(way.runner_up)
-    slide = Decision(drawer.id, "slide", str(way.choice), way.score, runner_up, way.runner_up_score)
-    return rails, (slide, *(Decision(drawer.id, "mount", node_id, score) for node_id, score in mounts))
+    rails = tuple(Rail(mount.choice, drawer.id, way.choice) for mount in mounts)
+    return rails, (_decision(drawer, "slide", way), *(_decision(drawer, "mount", mount) for mount in mounts))
 
 
 def vote_way(drawer: PartNode, scene: Scene) -> Verdict[SignedAxis]:
@@ -63,52 +63,71 @@ def _depth_inside(box: Box, body: Box, way: SignedAxis) -> float:
 
 
 def _blocked_share(drawer: PartNode, way: SignedAxis, scene: Scene) -> float:
-    """Returns the share of the drawer's section that static parts and other drawers cover ahead of it, 0..1."""
+    """Returns the share of the drawer's section that static parts and other drawers cover on its way out, 0..1.
+
+    A part that lies within the drawer's box close to its face counts half: it may be the panel that an overlaid front
+    covers. Face frames leave the drawer its opening.
+    """
     axis, sense = way // 2, float(code_to_direction(way)[way // 2])
-    face = float(drawer.box.face_center(way)[axis])
+    others = [a for a in range(3) if a != axis]
     covered = 0.0
     for node in scene.graph.nodes:
-        if node.id == drawer.id or not (node.label.is_support or node.label is PartLabel.DRAWER):
+        if node.id == drawer.id or not (node.label in _BLOCKERS or node.label is PartLabel.DRAWER):
             continue
-        if sense * (float(node.box.center[axis]) - face) > 0:
-            others = [a for a in range(3) if a != axis]
-            covered += float(np.prod([overlap_share(drawer.box, node.box, a) for a in others]))
+        place = sense * offset_share(drawer.box, node.box.center, axis)
+        weight = 1.0 if place > 1.0 else 0.5 if place > 0.8 else 0.0
+        covered += weight * float(np.prod([overlap_share(drawer.box, node.box, a) for a in others]))
     return min(covered, 1.0)
 
 
-def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[tuple[str, float]]:
-    """Returns the best carrier on each side of the drawer with its score; one part around both sides comes once."""
+def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[Verdict[str]]:
+    """Returns the best carrier on each side of the drawer; one part around both sides comes once."""
     across = 1 - way // 2
-    low = _best_flank(drawer, signed_axis(across, False), way // 2, scene)
-    high = _best_flank(drawer, signed_axis(across, True), way // 2, scene)
-    found: dict[str, float] = {}
-    for flank in (low, high):
-        if flank is not None:
-            found[flank[0]] = max(flank[1], found.get(flank[0], 0.0))
-    return list(found.items())
+    sides = (_best_flank(drawer, signed_axis(across, high), way // 2, scene) for high in (False, True))
+    return list({side.choice: side for side in sides if side is not None}.values())
 
 
-def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) -> tuple[str, float] | None:
-    scored = [(node.id, _flank_score(drawer, node, side, slide, scene)) for node in scene.supports]
-    best = max(scored, key=lambda item: item[1], default=None)
-    return best if best is not None and best[1] > 0.05 else None
+def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) -> Verdict[str] | None:
+    scored = {node.id: _flank_score(drawer, node, (side, slide), scene) for node in scene.supports}
+    return _elect({node_id: score for node_id, score in scored.items() if score > _LEAST_FLANK})
 
 
-def _flank_score(drawer: PartNode, node: PartNode, side: SignedAxis, slide: int, scene: Scene) -> float:
-    """Returns how well a part carries a rail on one side of the drawer, 0..1: near its flank and alongside it."""
-    across = side // 2
-    inner = float((node.box.face_center(opposite(side)) - drawer.box.face_center(side)) @ code_to_direction(side))
-    outer = float((node.box.face_center(side) - drawer.box.face_center(side)) @ code_to_direction(side))
-    if outer < -0.25 * float(drawer.box.size[across]) or inner > _REACH * scene.unit:
+def _flank_score(drawer: PartNode, node: PartNode, where: tuple[SignedAxis, int], scene: Scene) -> float:
+    """Returns how well a part carries a rail on one side of the drawer, 0..1: near its flank and alongside it.
+
+    `where` is the side's face and the axis of the slide. A part may lie within the drawer's box, where an overlaid
+    front is wider than the drawer.
+    """
+    side, slide = where
+    outward, flank = code_to_direction(side), drawer.box.face_center(side)
+    inner = float((node.box.face_center(opposite(side)) - flank) @ outward)
+    outer = float((node.box.face_center(side) - flank) @ outward)
+    width = float(drawer.box.size[side // 2])
+    if outer < -0.25 * width or inner > _REACH * scene.unit:
         return 0.0
-    surrounds = outer > 0 and inner < -0.5 * float(drawer.box.size[across])
-    near = 0.5 if surrounds else float(np.exp(-abs(inner) / (_NEAR * scene.unit)))
+    surrounds = outer > 0 and inner < -0.5 * width
+    away = inner if inner > 0 else -0.3 * inner
+    near = 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.unit)))
     alongside = overlap_share(drawer.box, node.box, 2) * overlap_share(drawer.box, node.box, slide)
     return near * alongside * CARRIES[node.label]
 
 
-def _nearest(drawer: PartNode, scene: Scene) -> list[tuple[str, float]]:
+def _nearest(drawer: PartNode, scene: Scene) -> list[Verdict[str]]:
     """Returns the one part that carries a drawer without flanks: a tray hangs under its top."""
-    gaps = [(drawer.box.gap(node.box) / scene.unit, node) for node in scene.supports]
-    scored = [(node.id, float(np.exp(-gap / _NEAR)) * CARRIES[node.label]) for gap, node in gaps if gap <= _REACH]
-    return [max(scored, key=lambda item: item[1])] if scored else []
+    gaps = {node: drawer.box.gap(node.box) / scene.unit for node in scene.supports}
+    found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps.items() if gap <= _REACH})
+    return [] if found is None else [found]
+
+
+def _elect(scores: dict[str, float]) -> Verdict[str] | None:
+    if not scores:
+        return None
+    ballot = Ballot(tuple(scores))
+    for node_id, score in scores.items():
+        ballot.vote(node_id, 3.0 * score)
+    return ballot.verdict()
+
+
+def _decision(drawer: PartNode, question: Question, verdict: Verdict[SignedAxis] | Verdict[str]) -> Decision:
+    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
+    return Decision(drawer.id, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)

@@ -46,10 +46,11 @@ class Scene:
 
     @cached_property
     def body(self) -> Box:
-        """The box around the parts that may carry; around everything, where there are none."""
-        if not self.supports:
+        """The box around the parts that may carry, rails and ornaments left out; else around everything."""
+        solid = [n for n in self.supports if n.label is not PartLabel.MISC] or self.supports
+        if not solid:
             return self.graph.box
-        lows, highs = [n.box.low for n in self.supports], [n.box.high for n in self.supports]
+        lows, highs = [n.box.low for n in solid], [n.box.high for n in solid]
         return Box(np.min(lows, axis=0), np.max(highs, axis=0))
 
     @cached_property
