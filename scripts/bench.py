@@ -111,8 +111,7 @@ def time_model(path: str, repeats: int) -> Timing:
 
 def time_wall(parts: str, repeats: int) -> Timing:
     """Returns the timing of a made wall of doors and drawers, pipeline and exports, without files."""
-    from grafu.export.formats import exporter
-
+    from grafu.export.formats import export
     from grafu.pipeline.functionalize import functionalize
     from grafu.pipeline.motion_source import MotionSource
     from grafu.synth.scaling import furniture_of
@@ -124,8 +123,7 @@ def time_wall(parts: str, repeats: int) -> Timing:
         started = time.perf_counter()
         result = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
         exporting = time.perf_counter()
-        for name in ("glb", "urdf"):
-            exporter(name)(result.object)
+        export(result.object, ("glb", "urdf"))
         ended = time.perf_counter()
         return ended - started, len(asset.parts), dict(result.timings) | {"export": ended - exporting}
 

@@ -89,11 +89,11 @@ def _jobs(options: argparse.Namespace) -> "list[Job]":
 def _job_options(options: argparse.Namespace) -> "JobOptions":
     """Returns the shared options; what is wrong with them is said here, before any input is read."""
     from grafu.cli.job import JobOptions
-    from grafu.export.formats import exporter
+    from grafu.export.formats import exporter_for
 
     formats = tuple(dict.fromkeys(name.strip().lower() for name in options.formats.split(",") if name.strip()))
     for name in formats:
-        exporter(name)
+        exporter_for(name)
     open_gallery(options.templates)
     return JobOptions(
         out=options.out,

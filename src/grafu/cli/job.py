@@ -90,6 +90,7 @@ def run_job(job: Job) -> JobResult:
 def _functionalize(job: Job) -> "Report":
     from grafu.asset.load import load_asset
     from grafu.export.files import write_files
+    from grafu.export.formats import export
     from grafu.pipeline.functionalize import PipelineConfig, functionalize
     from grafu.pipeline.report import report_of
     from grafu.realization.config import RealizationConfig
@@ -102,7 +103,7 @@ def _functionalize(job: Job) -> "Report":
     config = PipelineConfig(realization=RealizationConfig(trim=options.trim))
     result = functionalize(asset, options.motion, open_gallery(options.templates), config)
     clock.lap("functionalize")
-    files = _model_files(result, options.formats)
+    files = export(result.object, options.formats)
     clock.lap("export")
     outside = {name: seconds for name, seconds in clock.seconds.items() if name != "functionalize"}
     report = report_of(result, job.name, outside)
@@ -126,16 +127,6 @@ def _require_absent(job: Job) -> None:
     """Refuses an existing output before any work is done; `write_files` refuses it again at the end."""
     if not job.options.overwrite and job.folder.is_dir() and any(job.folder.iterdir()):
         raise ExportError(f"the output `{job.folder}` exists already: choose another --out, or give --overwrite")
-
-
-def _model_files(result: "Functionalized", formats: tuple[str, ...]) -> "ExportFiles":
-    from grafu.export.files import ExportFiles
-    from grafu.export.formats import exporter
-
-    files = ExportFiles({})
-    for name in formats:
-        files = files.joined(exporter(name)(result.object))
-    return files
 
 
 def _json_files(result: "Functionalized", report: "Report") -> "ExportFiles":

@@ -1,0 +1,115 @@
+"""`functionalize` through the real command: what is written, several inputs, names, formats."""
+
+import json
+from pathlib import Path
+
+import pytest
+from obj_inputs import CABINET, write_cabinet
+
+from grafu.cli.main import main
+from grafu.graph.serialize import completion_from_json
+from grafu.pipeline.report_schema import Report
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("run")
+    assert main(["functionalize", str(write_cabinet(folder)), "--out", str(folder / "out")]) == 0
+    return folder / "out" / "cabinet"
+
+
+def test_the_contract_is_written(result: Path) -> None:
+    assert {p.name for p in result.iterdir()} >= {"model.glb", "model.urdf", "meshes", "graph.json", "report.json"}
+
+
+def test_the_report_keeps_its_form(result: Path) -> None:
+    text = (result / "report.json").read_text()
+    report = Report.model_validate_json(text)
+
+    assert json.loads(text)["schema"] == "grafu.report/1"
+    assert report.input.name == "cabinet"
+    assert {part.source.name for part in report.parts} == set(CABINET)
+    assert {joint.part for joint in report.joints} == {"door", "drawer"}
+    assert {"load", "parse", "complete", "plan", "realize", "export"} <= set(report.timings)
+
+
+def test_the_graph_reads_back(result: Path) -> None:
+    completion = completion_from_json(json.loads((result / "graph.json").read_text()))
+
+    assert [hinge.child for hinge in completion.completed.hinges] == ["door"]
+    assert {rail.child for rail in completion.completed.rails} == {"drawer"}
+
+
+def test_joints_in_the_report_are_those_of_the_urdf(result: Path) -> None:
+    report = Report.model_validate_json((result / "report.json").read_text())
+    urdf = (result / "model.urdf").read_text()
+
+    for joint in report.joints:
+        assert f'<joint name="{joint.id}" type="{joint.type}">' in urdf
+        assert f'<child link="{joint.part}"' in urdf
+
+
+def test_the_summary_tells_what_opened(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "urdf"])
+    said = capsys.readouterr().out
+
+    assert "°" in said
+    assert " cm" in said
+    assert str(tmp_path / "out" / "cabinet") in said
+
+
+def test_formats_are_a_choice(tmp_path: Path) -> None:
+    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "GLB"])
+
+    names = {p.name for p in (tmp_path / "out" / "cabinet").iterdir()}
+    assert "model.glb" in names
+    assert "model.urdf" not in names
+
+
+def test_overwrite_replaces_an_earlier_result(tmp_path: Path) -> None:
+    arguments = ["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "urdf"]
+    assert main(arguments) == 0
+    assert main(arguments) == 2
+    assert main([*arguments, "--overwrite"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["--formats", "dwg"], "dwg"),
+        (["--templates", "nowhere"], "nowhere"),
+        (["--motion", "annotation"], "annotation"),
+        (["--up", "Q"], "--up"),
+    ],
+)
+def test_wrong_choices_write_nothing(
+    arguments: list[str], word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    assert main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(out), *arguments]) == 2
+    said = capsys.readouterr().err
+    assert word in said
+    assert said.count("\n") == 1
+    assert not out.exists()
+
+
+def test_two_inputs_of_one_name_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    inputs = [str(write_cabinet(tmp_path / folder)) for folder in ("a", "b")]
+
+    assert main(["functionalize", *inputs, "--out", str(tmp_path / "out")]) == 2
+    assert "different names" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_one_bad_input_does_not_stop_the_others(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    good, bad, out = write_cabinet(tmp_path), tmp_path / "bad.obj", tmp_path / "out"
+    bad.write_text("no mesh")
+
+    code = main(["functionalize", str(bad), str(good), str(good), "--out", str(out), "--jobs", "2"])
+
+    said = capsys.readouterr()
+    assert code == 1
+    assert "1 of 2 inputs failed" in said.out
+    assert str(bad) in said.err
+    assert said.err.count("\n") == 1
+    assert [p.name for p in out.iterdir()] == ["cabinet"]

@@ -1,0 +1,108 @@
+"""The command as a whole: help, version, exit codes, and the last door that errors meet."""
+
+from pathlib import Path
+
+import pytest
+
+from grafu.cli import inspect
+from grafu.cli.input_options import join_directions
+from grafu.cli.main import build_parser, main
+from grafu.version import __version__
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    assert end.value.code == 0
+    assert capsys.readouterr().out == f"grafu {__version__}\n"
+
+
+@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates"])
+def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main([verb, "--help"])
+    said = capsys.readouterr().out
+    assert end.value.code == 0
+    assert f"examples:\n  grafu {verb}" in said
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["fly"],
+        ["functionalize", "a.glb"],
+        ["functionalize", "--out", "x"],
+        ["functionalize", "a.glb", "--out", "x", "--motion", "wind"],
+        ["functionalize", "a.glb", "--out", "x", "--jobs", "0"],
+        ["functionalize", "a.glb", "--out", "x", "--jobs", "two"],
+        ["inspect", "a.glb", "--height", "tall"],
+        ["inspect", "a.glb", "--labels", "some"],
+    ],
+)
+def test_wrong_arguments_exit_with_2(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+    assert "usage: grafu" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--up", "sideways"],
+        ["--up", "Z", "--front", "-Z"],
+        ["--scale", "0"],
+        ["--height", "-1"],
+        ["--height", "nan"],
+    ],
+)
+def test_wrong_values_are_one_line(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", "a.glb", *arguments]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert arguments[0] in said
+
+
+def test_a_negative_axis_is_no_option() -> None:
+    assert join_directions(["--front", "-Y", "--json", "-X"]) == ["--front=-Y", "--json", "-X"]
+    options = build_parser().parse_args(join_directions(["inspect", "a.glb", "--front", "-y"]))
+    assert options.front == "-y"
+
+
+def fail(_: object) -> int:
+    raise ZeroDivisionError("two\nlines")
+
+
+def test_an_error_of_ours_is_owned_and_kept(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(inspect, "run", fail)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+
+    assert main(["inspect", "a.glb"]) == 1
+
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "our fault" in said
+    [log] = tmp_path.iterdir()
+    assert str(log) in said
+    assert "ZeroDivisionError" in log.read_text()
+
+
+def test_debug_prints_the_traceback(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(inspect, "run", fail)
+
+    assert main(["inspect", "a.glb", "--debug"]) == 1
+    assert "Traceback" in capsys.readouterr().err
+
+
+def interrupt(_: object) -> int:
+    raise KeyboardInterrupt
+
+
+def test_an_interruption_is_clean(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(inspect, "run", interrupt)
+
+    assert main(["inspect", "a.glb"]) == 130
+    assert capsys.readouterr().err.count("\n") == 1

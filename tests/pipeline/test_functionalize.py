@@ -1,0 +1,100 @@
+"""The pipeline as one function, and the report of its result."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.part import Asset
+from grafu.errors import AssetError
+from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.report_schema import Report
+from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.case import Case
+from grafu.synth.layout import Door, Drawer, Stack
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType, PartLabel
+
+CABINET = Cabinet("made", Case(0.5, 0.9), Stack((Drawer(), Door(handle="none")), (1.0, 3.0)))
+
+
+@pytest.fixture(scope="module")
+def asset() -> Asset:
+    return make_cabinet(CABINET)
+
+
+@pytest.fixture(scope="module")
+def result(asset: Asset) -> Functionalized:
+    return functionalize(asset, MotionSource.AUTO, builtin_gallery())
+
+
+def test_every_source_but_auto_has_its_row() -> None:
+    assert set(MOTIONS) == set(MotionSource) - {MotionSource.AUTO}
+
+
+def test_auto_takes_the_annotation_where_there_is_one(asset: Asset) -> None:
+    assert choose_source(asset, MotionSource.AUTO) is MotionSource.ANNOTATION
+    assert choose_source(asset.without_annotation(), MotionSource.AUTO) is MotionSource.RULE
+    assert choose_source(asset, MotionSource.RULE) is MotionSource.RULE
+
+
+def test_an_annotation_that_is_not_there_cannot_be_used(asset: Asset) -> None:
+    with pytest.raises(AssetError, match="states no joints"):
+        functionalize(asset.without_annotation(), MotionSource.ANNOTATION, builtin_gallery())
+
+
+def test_annotated_joints_are_built(asset: Asset, result: Functionalized) -> None:
+    built = {joint.child: joint for joint in result.object.moving_joints}
+
+    assert result.source is MotionSource.ANNOTATION
+    assert set(built) == {joint.part for joint in asset.joints}
+    for stated in asset.joints:
+        assert built[stated.part].type is stated.type
+        assert built[stated.part].axis.direction @ stated.axis.direction > 0.98
+
+
+def test_the_rule_needs_no_annotation(asset: Asset) -> None:
+    bare = replace(asset, joints=())
+    found = functionalize(bare, MotionSource.AUTO, builtin_gallery())
+
+    assert {j.type for j in found.object.moving_joints} == {JointType.REVOLUTE, JointType.PRISMATIC}
+
+
+def test_the_same_input_gives_the_same_object(asset: Asset, result: Functionalized) -> None:
+    again = functionalize(asset, MotionSource.AUTO, builtin_gallery())
+
+    assert again.object == result.object
+
+
+def test_the_report_tells_what_was_built(result: Functionalized) -> None:
+    report = report_of(result, "name", {"load": 0.5})
+
+    assert Report.model_validate(report.to_json()) == report
+    assert report.input.name == "name"
+    assert report.timings["load"] == 0.5
+    for record in report.joints:
+        joint = next(j for j in result.object.joints if j.id == record.id)
+        assert (record.lower, record.upper) == (joint.limits.lower, joint.limits.upper)
+        assert np.allclose(record.axis, joint.axis.direction)
+        assert record.mount in {part.id for part in report.parts}
+
+
+def test_the_report_names_how_each_part_is_grasped(result: Functionalized) -> None:
+    grasp = {joint.part: joint.grasp for joint in report_of(result).joints}
+    label_of = {part.id: part.label for part in result.asset.parts}
+
+    assert {label_of[part]: how for part, how in grasp.items()} == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "none"}
+
+
+def test_the_matrix_in_the_report_is_the_frames(result: Functionalized) -> None:
+    assert np.array_equal(report_of(result).frame.input_to_output, result.asset.frame.input_to_output)
+
+
+def test_every_part_is_in_a_link(result: Functionalized) -> None:
+    link_of = {part.id: part.link for part in report_of(result).parts}
+    moving = {joint.child for joint in result.object.moving_joints}
+
+    assert {link for link in link_of.values()} == moving | {result.object.root}
+    assert all(link_of[link] == link for link in moving)
