@@ -1,0 +1,125 @@
+"""Visuals as OBJ files with their MTL files and textures, all names relative. It knows no links and no joints.
+
+What MTL cannot say (metallic-roughness and occlusion images, the alpha cutoff) is left out; GLB keeps it.
+"""
+
+from collections.abc import Iterator
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual
+from grafu.export.names import NameBook, file_safe
+from grafu.export.shading import corner_normals
+from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.arrays import Vec3
+from grafu.geometry.mesh import TriangleMesh
+
+_SUFFIX = {"image/png": ".png", "image/jpeg": ".jpg"}
+
+
+@final
+class ObjFolder:
+    """Collects the OBJ, MTL and image files of one folder; every image is written once."""
+
+    def __init__(self, crease_angle: float) -> None:
+        self.files: dict[str, bytes] = {}
+        self._crease = crease_angle
+        self._names = NameBook()
+        self._textures: dict[tuple[bytes, str], str] = {}
+
+    def add_visual(self, visual: Visual, origin: Vec3) -> str:
+        """Adds a visual, its coordinates relative to `origin` (metres), and returns the name of its OBJ file."""
+        stem = self._names.unique(file_safe(visual.name))
+        surfaces = [s for s in visual.surfaces if not s.is_empty]
+        names = _material_names(surfaces)
+        self.files[f"{stem}.mtl"] = "\n".join(self._described(names)).encode()
+        groups = "".join(self._groups(surfaces, names, origin))
+        self.files[f"{stem}.obj"] = f"mtllib {stem}.mtl\no {file_safe(visual.name)}\n{groups}".encode()
+        return f"{stem}.obj"
+
+    def add_mesh(self, name: str, mesh: TriangleMesh, origin: Vec3) -> str:
+        """Adds a bare mesh, without normals and materials, and returns the name of its OBJ file."""
+        stem = self._names.unique(file_safe(name))
+        text = _rows("v", mesh.vertices - origin) + _plain_faces(mesh.faces)
+        self.files[f"{stem}.obj"] = text.encode()
+        return f"{stem}.obj"
+
+    def _groups(self, surfaces: list[Surface], names: dict[Material, str], origin: Vec3) -> Iterator[str]:
+        """Yields one group of faces per surface; indices count through the file, from 1."""
+        first = np.ones(3, dtype=np.int64)
+        for surface in surfaces:
+            shading = corner_normals(surface, self._crease)
+            yield _vertex_rows(surface, origin) + _rows("vn", shading.normals)
+            yield _rows("vt", np.nan_to_num(surface.uv, posinf=0.0, neginf=0.0)) if surface.uv is not None else ""
+            yield f"usemtl {names[surface.material]}\n"
+            yield _faces(surface, np.asarray(shading.corners), first)
+            uv_rows = 0 if surface.uv is None else len(surface.uv)
+            first += np.array([len(surface.mesh.vertices), uv_rows, len(shading.normals)])
+
+    def _described(self, names: dict[Material, str]) -> Iterator[str]:
+        for material, name in names.items():
+            r, g, b, alpha = material.base_color
+            yield f"newmtl {name}"
+            yield f"Kd {r:.6g} {g:.6g} {b:.6g}"
+            yield f"Ks {0.04 + 0.5 * material.metallic:.6g} " * 2 + f"{0.04 + 0.5 * material.metallic:.6g}"
+            yield f"Ns {1000.0 * (1.0 - material.roughness) ** 2:.6g}"
+            yield f"d {alpha if material.alpha_mode != 'OPAQUE' else 1.0:.6g}"
+            yield "Ke {:.6g} {:.6g} {:.6g}".format(*material.emissive)
+            yield f"Pr {material.roughness:.6g}\nPm {material.metallic:.6g}\nillum 2"
+            for key, texture in _maps(material):
+                yield f"{key} {self._texture(texture)}"
+
+    def _texture(self, texture: Texture) -> str:
+        key = (texture.data, texture.mime)
+        if key not in self._textures:
+            stem = file_safe(texture.name.removesuffix(_SUFFIX[texture.mime]))
+            name = f"textures/{self._names.unique(stem)}{_SUFFIX[texture.mime]}"
+            self._textures[key] = name
+            self.files[name] = texture.data
+        return self._textures[key]
+
+
+def _maps(material: Material) -> Iterator[tuple[str, Texture]]:
+    slots = {
+        "map_Kd": material.base_color_texture,
+        "map_Ke": material.emissive_texture,
+        "norm": material.normal_texture,
+    }
+    for key, texture in slots.items():
+        if texture is not None:
+            yield key, texture
+
+
+def _material_names(surfaces: list[Surface]) -> dict[Material, str]:
+    book = NameBook()
+    materials = dict.fromkeys(surface.material for surface in surfaces)
+    return {material: book.unique(file_safe(material.name)) for material in materials}
+
+
+def _vertex_rows(surface: Surface, origin: Vec3) -> str:
+    vertices = surface.mesh.vertices - origin
+    if surface.colors is None:
+        return _rows("v", vertices)
+    return _rows("v", np.hstack([vertices, surface.colors[:, :3] / 255.0]))  # a common extension of the format
+
+
+def _rows(key: str, values: np.ndarray) -> str:
+    """Returns one line per row; eight digits hold single precision."""
+    line = key + " %.8g" * values.shape[1] + "\n"
+    return (line * len(values)) % tuple(values.ravel().tolist())
+
+
+def _plain_faces(faces: np.ndarray) -> str:
+    return ("f %d %d %d\n" * len(faces)) % tuple((faces + 1).ravel().tolist())
+
+
+def _faces(surface: Surface, corners: np.ndarray, first: np.ndarray) -> str:
+    faces = surface.mesh.faces
+    if surface.uv is None:
+        columns = np.stack([faces + first[0], corners + first[2]], axis=-1)
+        line = "f %d//%d %d//%d %d//%d\n"
+    else:
+        columns = np.stack([faces + first[0], faces + first[1], corners + first[2]], axis=-1)
+        line = "f %d/%d/%d %d/%d/%d %d/%d/%d\n"
+    return (line * len(faces)) % tuple(columns.ravel().tolist())

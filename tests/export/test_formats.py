@@ -1,0 +1,27 @@
+import subprocess
+import sys
+
+import pytest
+
+from grafu.errors import ExportError
+from grafu.export.formats import FORMATS, export, exporter_for
+
+
+def test_every_format_of_the_table_exports(cabinet):
+    for name in FORMATS:
+        assert f"model.{name}" in exporter_for(name)(cabinet).names
+
+
+def test_formats_are_exported_together(cabinet):
+    assert {"model.glb", "model.urdf", "meshes/door_1.obj"} <= set(export(cabinet, ["glb", "urdf"]).names)
+
+
+def test_an_unknown_format_names_the_known_ones(cabinet):
+    with pytest.raises(ExportError, match=r"unknown format `fbx`: known formats are glb, urdf"):
+        export(cabinet, ["glb", "fbx"])
+
+
+def test_the_table_imports_no_exporter():
+    code = "import sys, grafu.export.formats; sys.exit('grafu.export.glb' in sys.modules)"
+
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
