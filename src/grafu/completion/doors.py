@@ -16,7 +16,14 @@ from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, Question, RefusedMotion
 from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
 from grafu.graph.functional_graph import PartNode
-from grafu.graph.motion import border_to_face, face_to_border, plane_axes, sign_for_opening, signed_axis
+from grafu.graph.motion import (
+    border_to_face,
+    code_to_direction,
+    face_to_border,
+    plane_axes,
+    sign_for_opening,
+    signed_axis,
+)
 
 # Parts farther than this share of the object from a border carry nothing there.
 _REACH = 0.1
@@ -141,8 +148,9 @@ def _vote_outer_side(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) 
     if abs(to_low - to_high) > 0.1 * float(door.box.size[across]):
         ballot.vote(_border(door, across, to_high < to_low), 1.5)
     else:
-        ballot.vote(_border(door, across, True), 0.2)  # nothing decides; most people pull with the right hand
-        ballot.vote(_border(door, across, False), 0.1)
+        # Nothing decides: hung on the right as one stands before it, so that turning the object changes nothing.
+        right = np.cross([0.0, 0.0, 1.0], code_to_direction(vote_front(door, scene).choice))
+        ballot.vote(_border(door, across, bool(right[across] > 0)), 0.2)
 
 
 def _handle_offsets(door: PartNode, scene: Scene) -> dict[int, float]:
