@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 
 from grafu.completion.ballot import Ballot, Verdict
-from grafu.completion.rows import across_axis, pair_side, slides_past
+from grafu.completion.rows import across_axis, pair_side, row_size, slides_past
 from grafu.completion.scene import CARRIES, Scene, offset_share, overlap_share
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, Question, RefusedMotion
@@ -30,7 +30,9 @@ _REACH = 0.1
 _NEAR = 0.02
 # From here on a handle's offset (share of the half width or height) is meant, and a flap is wide.
 _CLEAR, _SLIGHT = 0.3, 0.12
-_WIDE, _WIDE_PAIRED, _VERY_WIDE = 1.3, 1.8, 2.2
+_WIDE, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.8, 2.2
+# A lone door with its handle in the middle of the top or bottom edge is a flap unless it is clearly upright.
+_EDGE, _UPRIGHT = 0.5, 0.7
 
 
 def hang_door(door: PartNode, scene: Scene) -> tuple[Hinge, tuple[Decision, ...]] | RefusedMotion:
@@ -63,9 +65,10 @@ def vote_front(door: PartNode, scene: Scene) -> Verdict[SignedAxis]:
     low, high = signed_axis(thin, False), signed_axis(thin, True)
     ballot: Ballot[SignedAxis] = Ballot((low, high))
     for handle in scene.handles_of(door):
-        beyond = float((handle.box.high[thin] - box.high[thin]) - (box.low[thin] - handle.box.low[thin]))
-        if abs(beyond) > 0.1 * float(handle.box.size[thin]):
-            ballot.vote(high if beyond > 0 else low, 4.0)
+        above = max(float(handle.box.high[thin] - box.high[thin]), 0.0)
+        below = max(float(box.low[thin] - handle.box.low[thin]), 0.0)
+        if abs(above - below) > 0.1 * float(handle.box.size[thin]):
+            ballot.vote(high if above > below else low, 4.0)
     place = offset_share(scene.body, box.center, thin)
     ballot.vote(high if place > 0 else low, 3.0 * min(abs(place), 1.0))
     ballot.vote(2, 0.5)  # the frame's front is -Y,
@@ -108,7 +111,7 @@ def _vote_lid(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None
 def _vote_upright(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
     across = across_axis(door)
     paired = pair_side(door, scene)
-    sideways, upwards = _vote_handle(door, scene, ballot, paired != "none")
+    sideways, upwards = _vote_handle(door, scene, ballot)
     if not (sideways or upwards):
         _vote_flap(door, scene, ballot)
     if paired != "none":
@@ -117,7 +120,7 @@ def _vote_upright(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> 
         _vote_outer_side(door, scene, ballot)
 
 
-def _vote_handle(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder], paired: bool) -> tuple[bool, bool]:
+def _vote_handle(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> tuple[bool, bool]:
     """Votes for the border opposite the handle; returns whether it spoke for a side and for top or bottom."""
     across = across_axis(door)
     offsets = _handle_offsets(door, scene)
@@ -128,10 +131,17 @@ def _vote_handle(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder], pair
         weight = 6.0 * min(abs(aside), 1.0) if abs(aside) > _CLEAR else 1.5
         ballot.vote(_border(door, across, aside < 0), weight)
         return abs(aside) > _CLEAR, False
-    if abs(aloft) > _CLEAR and _aspect(door) >= (_WIDE_PAIRED if paired else _WIDE):
+    if abs(aloft) > _CLEAR and _aspect(door) >= _least_flap_aspect(door, scene, aloft):
         ballot.vote(_border(door, 2, aloft < 0), 5.0 * min(abs(aloft), 1.0))
         return False, True
     return False, False
+
+
+def _least_flap_aspect(door: PartNode, scene: Scene, aloft: float) -> float:
+    """Returns from which width to height on a handle in the middle says flap; doors of a row often have it there."""
+    if row_size(door, scene) > 1:
+        return _WIDE_IN_ROW
+    return _UPRIGHT if abs(aloft) > _EDGE else _WIDE
 
 
 def _vote_flap(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:

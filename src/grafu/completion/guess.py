@@ -28,6 +28,7 @@ _LEAST_DEPTH = 0.12  # shallowest drawer
 _SKIN = 0.1  # how far behind the outermost face a front may lie
 _HANDLE = 0.08  # thickest handle
 _TOUCH = 0.01
+_SLAB = 0.08  # a lower box without a handle may be a thick panel
 
 
 @final
@@ -79,7 +80,7 @@ def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_Front]:
         if _behind_outside(node.box, way, graph) > _SKIN or (node.box.thin_axis == 2 and depth < _LEAST_DEPTH):
             continue
         if depth <= _PLATE and min(across, size[2]) >= max(_LEAST_SIDE, 2.5 * depth):
-            found.append(_Front(node, way, PartLabel.DOOR))
+            found += [_Front(node, way, PartLabel.DOOR)] if not _is_frame(node, way, graph) else []
         elif depth >= _LEAST_DEPTH and across >= _LEAST_SIDE and 0.03 <= size[2] <= 0.4 and not _is_case(node, graph):
             found.append(_Front(node, way, PartLabel.DRAWER))
     return found
@@ -90,7 +91,21 @@ def _is_case(node: PartNode, graph: FunctionalGraph) -> bool:
     share = node.box.size / np.maximum(graph.box.size, 1e-9)
     others = (n.box for n in graph.nodes if n.id != node.id and 0.05 < n.box.volume / max(node.box.volume, 1e-12) < 0.9)
     held = any(all(overlap_share(box, node.box, a) > 0.95 for a in range(3)) for box in others)
-    return held or bool(share[0] * share[1] > 0.85)
+    return held or bool(share[0] * share[1] > 0.85 and (share[2] > 0.6 or node.box.size[2] < _SLAB * _unit(graph)))
+
+
+def _is_frame(node: PartNode, way: SignedAxis, graph: FunctionalGraph) -> bool:
+    """Whether an upright plate has another plate in it: a face frame, a fixed front with a hole."""
+    others = [a for a in range(3) if a != way // 2]
+    unit, least = _unit(graph), _LEAST_SIDE * _unit(graph)
+    return any(
+        n.id != node.id
+        and min(float(n.box.size[a]) for a in others) > least
+        and all(overlap_share(n.box, node.box, a) > 0.99 and n.box.size[a] < 0.97 * node.box.size[a] for a in others)
+        and float(n.box.axis_gaps(node.box)[way // 2]) <= _TOUCH * unit
+        and float(n.box.size[way // 2]) <= _PLATE * unit
+        for n in graph.nodes
+    )
 
 
 def _is_flanked(front: _Front, graph: FunctionalGraph) -> bool:
@@ -134,7 +149,7 @@ def _closes(front: _Front, graph: FunctionalGraph) -> bool:
     across, height = float(size[1 - front.way // 2]), float(size[2])
     if front.label is PartLabel.DOOR and (across > 4 * height or height > 12 * across):
         return False
-    if front.label is PartLabel.DRAWER and not _is_flanked(front, graph):
+    if front.label is PartLabel.DRAWER and (height < _SLAB * _unit(graph) or not _is_flanked(front, graph)):
         return False
     return not any(_covers(node, front) for node in graph.nodes if node.id != front.node.id)
 

@@ -38,6 +38,11 @@ def pair_side(door: PartNode, scene: Scene) -> Side:
     return "low" if position % 2 == 0 else "high"
 
 
+def row_size(door: PartNode, scene: Scene) -> int:
+    """Returns how many doors stand side by side in the row of an upright door, itself counted."""
+    return len(_row_of(door, scene))
+
+
 def slides_past(door: PartNode, scene: Scene) -> PartNode | None:
     """Returns a door that this one slides past: lapping, of one height, in the next plane. None for a hinged door."""
     if door.box.thin_axis == 2:
