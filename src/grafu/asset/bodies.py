@@ -45,7 +45,7 @@ class Motion:
 @final
 @dataclass(frozen=True)
 class Body:
-    """Links that hang together rigidly; `parent` is the link of the body that carries it, `motion` None means static."""
+    """Links that hang together rigidly; `parent` is the link of the body that carries it, no `motion` is static."""
 
     name: str
     link: str
@@ -140,7 +140,7 @@ def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: Motion, up: int) -
     size = merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size
     along = int(np.argmax(np.abs(motion.axis.direction)))
     thin = int(np.argmin(size))
-    return along != up and thin not in (up, along) and size[thin] < 0.35 * np.delete(size, thin).min()
+    return along != up and thin not in (up, along) and bool(size[thin] < 0.35 * np.delete(size, thin).min())
 
 
 def _static(body: Body, carrier: str | None, annotated: bool, notes: list[str]) -> list[_Draft]:

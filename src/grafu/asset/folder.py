@@ -8,10 +8,10 @@ from pathlib import Path
 
 from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.mesh_files import MESH_SUFFIXES, MeshFile, check_faces, read_mesh_file
-from grafu.asset.options import LoadOptions
+from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.sweethome import is_sweethome, read_sweethome
-from grafu.errors import AssetTooLarge, UnsegmentedAsset
+from grafu.errors import UnsegmentedAsset
 
 
 def mesh_files_in(folder: Path) -> list[Path]:
@@ -39,10 +39,7 @@ def read_mesh_folder(folder: Path, options: LoadOptions) -> Reading:
     files = mesh_files_in(folder)
     if len(files) == 1:
         return read_mesh(files[0], options)
-    if len(files) > options.limits.max_parts:
-        raise AssetTooLarge(
-            f"{folder} holds {len(files):,} meshes: at most {options.limits.max_parts:,} parts are read; merge some"
-        )
+    check_parts(len(files), folder, options.limits)
     drafts: list[PartDraft] = []
     notes: list[str] = []
     faces = 0
@@ -67,6 +64,7 @@ def read_mesh(path: Path, options: LoadOptions) -> Reading:
     if is_sweethome(found):
         return read_sweethome(path, found)
     filled = [piece for piece in found.pieces if piece.surfaces]
+    check_parts(len(filled), path, options.limits)
     if len(filled) == 1:
         raise UnsegmentedAsset(_one_piece(path, found))
     drafts = [PartDraft(piece.name or path.stem, piece.surfaces, file=path.name) for piece in filled]

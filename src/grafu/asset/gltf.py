@@ -16,7 +16,7 @@ from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.labels import is_whole_mover, label_of
-from grafu.asset.options import Limits, LoadOptions
+from grafu.asset.options import Limits, LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
@@ -46,11 +46,13 @@ def read_gltf(path: Path, options: LoadOptions) -> Reading:
     """
     file = read_gltf_file(path, options.limits)
     meshes = GltfMeshes(file, options.limits)
-    nodes = list(_scene_nodes(file))
-    wholes = _whole_nodes(file, nodes)
-    drafts = [_draft(node, meshes, wholes) for node in nodes]
+    with file.guarded():
+        nodes = list(_scene_nodes(file))
+        check_parts(len(nodes), path, options.limits)
+        wholes = _whole_nodes(file, nodes)
+        drafts = [_draft(node, meshes, wholes) for node in nodes]
+        notes = (["animations are not read as joints"] if file.items("animations") else []) + meshes.notes
     parts = parts_of_drafts(drafts)
-    notes = (["animations are not read as joints"] if file.items("animations") else []) + meshes.notes
     return Reading("glb", parts, CONVENTION, notes=tuple(dict.fromkeys(notes)))
 
 
@@ -62,7 +64,8 @@ def read_surfaces(path: Path, limits: Limits) -> tuple[Surface, ...]:
     """
     file = read_gltf_file(path, limits)
     meshes = GltfMeshes(file, limits)
-    return tuple(s.transformed(n.T_scene_node) for n in _scene_nodes(file) for s in meshes.get(n.mesh))
+    with file.guarded():
+        return tuple(s.transformed(n.T_scene_node) for n in _scene_nodes(file) for s in meshes.get(n.mesh))
 
 
 def _draft(node: _Node, meshes: GltfMeshes, wholes: set[int]) -> PartDraft:

@@ -7,6 +7,8 @@ import base64
 import binascii
 import json
 import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -25,7 +27,8 @@ _REFUSED = {
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
-_MOST_ELEMENTS = 200_000_000
+# An accessor without bytes behind it is all zeros: a few characters of JSON could claim any amount of memory.
+_MOST_ZEROS = 10_000_000
 
 
 @final
@@ -57,6 +60,18 @@ class GltfFile:
         """Returns the error for a damaged document, to be raised."""
         return UnreadableAsset(f"{self.path} is damaged ({why}): expected a valid glTF 2.0 file; export it again")
 
+    @contextmanager
+    def guarded(self) -> Iterator[None]:
+        """Turns what a malformed document trips inside the block into one clear error.
+
+        Raises:
+            UnreadableAsset: where an entry is missing or of the wrong type.
+        """
+        try:
+            yield
+        except (KeyError, TypeError, AttributeError, ValueError, OverflowError) as error:
+            raise self.damaged(f"an entry has the wrong type: {str(error).splitlines()[0]}") from None
+
     def view(self, index: Any) -> tuple[bytes, int]:
         """Returns the bytes of a buffer view and its stride (0: tight)."""
         view = self.item("bufferViews", index)
@@ -84,9 +99,9 @@ class GltfFile:
 
     def _dense(self, accessor: dict[str, Any], index: Any, dtype: np.dtype[Any], width: int) -> np.ndarray:
         count = accessor["count"]
-        if count * width > _MOST_ELEMENTS:
-            raise AssetTooLarge(f"{self.path}: accessors[{index}] declares {count:,} elements, more than is read")
         if "bufferView" not in accessor:
+            if count * width > _MOST_ZEROS:
+                raise AssetTooLarge(f"{self.path}: accessors[{index}] declares {count:,} elements without data")
             return np.zeros((count, width), dtype)
         data, stride = self.view(accessor["bufferView"])
         offset, element = int(accessor.get("byteOffset", 0)), dtype.itemsize * width
@@ -134,10 +149,9 @@ def read_gltf_file(path: Path, limits: Limits) -> GltfFile:
         raise UnreadableAsset(f"{path} is not glTF: expected JSON or a GLB container; export it again") from None
     if not isinstance(document, dict) or "asset" not in document:
         raise UnreadableAsset(f"{path} is not glTF: expected an `asset` entry; export it again")
-    if not str(document["asset"].get("version", "")).startswith("2"):
-        raise UnreadableAsset(
-            f"{path} is glTF {document['asset'].get('version')}: expected version 2.0; export it again"
-        )
+    version = document["asset"].get("version") if isinstance(document["asset"], dict) else None
+    if not str(version).startswith("2"):
+        raise UnreadableAsset(f"{path} is glTF version {version}: expected 2.0; export it again")
     for extension in document.get("extensionsRequired", ()):
         if extension in _REFUSED:
             kind = _REFUSED[extension]

@@ -15,13 +15,13 @@ from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.frame import settle_frame
 from grafu.asset.gltf import read_gltf
 from grafu.asset.mesh_files import MESH_SUFFIXES
-from grafu.asset.options import LoadOptions
+from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import AnnotatedJoint, Asset, Frame, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
 from grafu.asset.reading import Reading
 from grafu.asset.riders import with_riders
 from grafu.asset.urdf import read_urdf
-from grafu.errors import AssetTooLarge, UnreadableAsset, UnsegmentedAsset
+from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import JointType, PartLabel
 
 Reader = Callable[[Path, LoadOptions], Reading]
@@ -53,13 +53,16 @@ def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
     kind, place = detect(path)
     reading = cleaned(READERS[kind](place, options))
     _check_parts(reading, path, options)
-    frame = settle_frame(_without_labels(reading) if options.labels == "none" else reading, options)
+    reading = _without_labels(reading) if options.labels == "none" else reading
+    frame = settle_frame(reading, options)
     parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))
-    if options.labels == "none":
-        parts = tuple(_unlabelled(p) for p in parts)
     joints = tuple(_placed_joint(j, frame) for j in reading.joints)
-    name = (path.resolve().name if path.is_dir() else path.stem) or "model"
+    name = _name(place if kind == "partnet-mobility" else path)  # its folder names the model, never `mobility.urdf`
     return Asset(name, str(path), reading.kind, parts, frame, joints, reading.notes)
+
+
+def _name(path: Path) -> str:
+    return path.resolve().name if path.is_dir() else path.stem
 
 
 def detect(path: Path) -> tuple[str, Path]:
@@ -68,20 +71,20 @@ def detect(path: Path) -> tuple[str, Path]:
     Raises:
         UnreadableAsset: if there is nothing, or nothing that is read.
     """
-    if not path.exists():
-        raise UnreadableAsset(f"{path} does not exist: expected {_EXPECTED}")
-    return _detect_folder(path) if path.is_dir() else _detect_file(path)
+    try:
+        if not path.exists():
+            raise UnreadableAsset(f"{path} does not exist: expected {_EXPECTED}")
+        return _detect_folder(path) if path.is_dir() else _detect_file(path)
+    except OSError as error:
+        raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {_EXPECTED}") from None
 
 
 def _detect_file(path: Path) -> tuple[str, Path]:
     suffix = path.suffix.lower()
     if path.name in ("mobility.urdf", "mobility_v2.json") and is_partnet_mobility(path.parent):
         return "partnet-mobility", path.parent
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(4096)
-    except OSError as error:
-        raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {_EXPECTED}") from None
+    with path.open("rb") as stream:
+        head = stream.read(4096)
     if suffix == ".urdf" or b"<robot" in head:
         return "urdf", path
     if suffix in (".glb", ".gltf") or head[:4] == b"glTF":
@@ -114,9 +117,8 @@ def _files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
 
 
 def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
-    count, most = len(reading.parts), options.limits.max_parts
-    if count > most:
-        raise AssetTooLarge(f"{path} has {count:,} parts: at most {most:,} are read; merge or leave out some")
+    count = len(reading.parts)
+    check_parts(count, path, options.limits)
     if count == 0:
         raise UnreadableAsset(f"{path} holds no part with faces: expected {_EXPECTED}")
     if count == 1:

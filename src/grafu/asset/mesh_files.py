@@ -82,12 +82,13 @@ def check_faces(count: int, where: str, limits: Limits) -> None:
 
 
 def _read_obj(path: Path, data: bytes, limits: Limits, split: bool) -> MeshFile:
+    check_faces(data.count(b"\nf "), str(path), limits)
     obj = parse_obj(data, str(path))
     if not len(obj.vertices) and data.strip() and not obj.runs:
         raise UnreadableAsset(f"{path} holds no vertices: expected a Wavefront OBJ mesh; re-export it")
-    check_faces(len(obj.starts) - 1, str(path), limits)
     materials, notes = _materials(path, obj)
     triangles, owners = triangulate(obj.vertices, obj.corners[:, 0], obj.starts)
+    check_faces(len(triangles), str(path), limits)
     pieces: dict[str, dict[str, list[np.ndarray]]] = {}
     by_object = len({run.object for run in obj.runs}) > 1
     bounds = np.searchsorted(owners, [[run.first, run.last] for run in obj.runs]) if obj.runs else ()

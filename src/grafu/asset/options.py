@@ -1,9 +1,10 @@
 """What a user can say about an input before it is read. It reads nothing."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal, final
 
-from grafu.errors import AssetError
+from grafu.errors import AssetError, AssetTooLarge
 
 DIRECTIONS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 
@@ -18,6 +19,14 @@ class Limits:
     max_bytes: int = 512 * 2**20
     max_parts: int = 5_000
     max_faces: int = 20_000_000
+
+
+def check_parts(count: int, path: Path, limits: Limits) -> None:
+    """Raises AssetTooLarge where `count` parts are more than the limit."""
+    if count > limits.max_parts:
+        raise AssetTooLarge(
+            f"{path} has {count:,} parts: at most {limits.max_parts:,} are read; merge or leave out some"
+        )
 
 
 @final

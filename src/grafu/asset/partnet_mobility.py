@@ -6,7 +6,6 @@ Mesh files are Y up, front +Z, scaled to about a unit sphere. JSON hinge limits 
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -56,6 +55,15 @@ def _load_json(path: Path, options: LoadOptions) -> Any:
         raise UnreadableAsset(f"{path} is not JSON: expected a PartNet-Mobility file; fetch the model again") from None
 
 
+def _load_list(path: Path, options: LoadOptions) -> list[dict[str, Any]]:
+    data = _load_json(path, options)
+    if not isinstance(data, list) or not all(isinstance(item, dict) for item in data):
+        raise UnreadableAsset(
+            f"{path} is not a list of objects: expected the data set's own form; fetch the model again"
+        )
+    return data
+
+
 def _furniture(folder: Path, options: LoadOptions) -> Furniture | None:
     path = folder / "meta.json"
     if not path.is_file():
@@ -66,15 +74,16 @@ def _furniture(folder: Path, options: LoadOptions) -> Furniture | None:
 
 
 def _bodies_from_json(folder: Path, options: LoadOptions) -> tuple[list[Body], list[str]]:
-    links = _load_json(folder / "mobility_v2.json", options)
+    links, tree = (_load_list(folder / name, options) for name in ("mobility_v2.json", "result.json"))
     try:
-        objs = _objs_by_id(_load_json(folder / "result.json", options))
+        objs = _objs_by_id(tree)
         meshes = _Meshes(folder, options)
         listed = {p["id"] for link in links for p in link["parts"]}
         bodies = [_json_body(link, objs, listed, meshes) for link in links]
-    except (KeyError, TypeError, AttributeError, IndexError) as error:
+    except (KeyError, TypeError, AttributeError, ValueError, RecursionError) as error:
+        reason = f"{type(error).__name__}: {str(error).splitlines()[0]}" if str(error) else type(error).__name__
         raise UnreadableAsset(
-            f"{folder}: mobility_v2.json or result.json lacks {error}; expected the data set's own form"
+            f"{folder}: mobility_v2.json or result.json is damaged ({reason}); fetch it again"
         ) from None
     return bodies, meshes.notes
 
@@ -149,7 +158,7 @@ def _json_motion(link: dict[str, Any]) -> Motion | None:
     return Motion(joint, Axis(vec3(*origin), vec3(*direction)), low, high, not limit.get("noLimit", False))
 
 
-def _numbers(values: Iterable[float | None] | None) -> list[float] | None:
+def _numbers(values: Any) -> list[float] | None:
     numbers = [float(v) if v is not None else 0.0 for v in values] if values is not None else []
     return numbers if len(numbers) == 3 and all(math.isfinite(v) for v in numbers) else None
 

@@ -47,7 +47,7 @@ TABLE: Final[dict[str, Habit]] = {
     "panel thickness": Habit(0.025, 0.5),
 }
 # A unit in common use, in metres.
-UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
+UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001}
 _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
 
 
@@ -79,22 +79,18 @@ def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furn
     return Estimate(float(np.exp(weights @ logs / weights.sum())), kind, tuple(known))
 
 
-def likely_unit(size: float, estimate: Estimate, spread: float = 4.0) -> tuple[str, float] | None:
+def likely_unit(size: float, estimate: Estimate, spread: float = 2.5) -> tuple[str, float] | None:
     """Returns the unit in common use that makes the object plausible, or None.
 
-    A unit is plausible where it is within a factor `spread` of the estimate and the largest side `size` (input
-    units) comes out between 10 cm and 6 m; of several the nearest to the estimate is taken, inches
-    only where nothing else fits.
+    Args:
+        size: the largest side in input units; it must come out between 10 cm and 6 m.
+        estimate: the scale that shape and labels suggest.
+        spread: the largest factor between a unit and the estimate.
     """
-    fits = {}
-    for name, unit in UNITS.items():
-        off = abs(math.log(unit / estimate.scale))
-        if off < math.log(spread) and 0.1 <= size * unit <= 6.0:
-            fits[name] = off + (math.log(2.0) if name == "inches" else 0.0)
-    if not fits:
-        return None
-    best = min(fits, key=lambda name: fits[name])
-    return best, UNITS[best]
+    best = min(UNITS, key=lambda name: abs(math.log(UNITS[name] / estimate.scale)))
+    unit = UNITS[best]
+    plausible = abs(math.log(unit / estimate.scale)) < math.log(spread) and 0.1 <= size * unit <= 6.0
+    return (best, unit) if plausible else None
 
 
 def is_normalised(whole: Box) -> bool:

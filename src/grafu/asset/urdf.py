@@ -110,6 +110,8 @@ def _read_tree(path: Path, options: LoadOptions) -> _Tree:
             f"{path} has the root <{robot.tag}>: expected <robot>, a URDF (xacro must be expanded first)"
         )
     links = {link.get("name", ""): link for link in robot.findall("link")}
+    if not links:
+        raise UnreadableAsset(f"{path} has no links: expected a URDF with links and visuals")
     joints = [_joint_element(element, path) for element in robot.findall("joint")]
     above: dict[str, _JointElement] = {}
     for joint in joints:

@@ -1,0 +1,89 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grafu.asset.labels import is_control, is_piece, is_whole_mover, label_of
+from grafu.asset.names import safe_id, unique_ids, words
+from grafu.vocabulary import PartLabel
+
+NAMES = {
+    PartLabel.TOP_PANEL: [
+        "top_panel-3",
+        "board-60",
+        "tabletop",
+        "Countertop.001",
+        "top panel_2",
+        "Top",
+        "table_top_surface",
+    ],
+    PartLabel.SIDE_PANEL: ["vertical_side_panel-1", "SidePanelLeft", "side panel_0", "base_side_panel-9", "left side"],
+    PartLabel.BACK_PANEL: ["back_panel-5", "Back.002", "BackPanel", "back panel_1", "rear_panel"],
+    PartLabel.BOTTOM_PANEL: ["bottom_panel-4", "bottom", "bottom panel_12"],
+    PartLabel.FACE_FRAME: ["face frame_3", "face_frame", "stile_left", "bottom_rail", "front"],
+    PartLabel.SHELF: ["shelf-6", "Shelves", "adjustable_shelf_02", "top_shelf"],
+    PartLabel.DIVIDER: ["vertical_divider_panel-2", "divider_1", "Partition"],
+    PartLabel.BAR: ["frame_horizontal_bar-45", "bar_stretcher-3", "crossbar", "bar_2"],
+    PartLabel.LEG: ["leg-21", "foot-3", "Feet", "back_leg_left"],
+    PartLabel.DOOR: ["cabinet_door_surface-7", "door_1", "DoorLeft", "glass_door", "lid", "Flap.003", "top_door"],
+    PartLabel.DRAWER: [
+        "drawer_front-9",
+        "drawer_box",
+        "Drawer01",
+        "keyboard_tray_surface-2",
+        "bottom_drawer",
+        "pull-out",
+    ],
+    PartLabel.HANDLE: ["handle-8", "door_handle", "drawer_knob_2", "DoorPull", "door_right_nob", "handle_top"],
+    PartLabel.MISC: [
+        "wheel-3",
+        "caster_2",
+        "drawer_rails-40",
+        "door_hinge",
+        "misc_4",
+        "tabletop_connector-7",
+        "mirror",
+    ],
+    PartLabel.UNKNOWN: ["other_leaf-22", "Cube.003", "part_0", "", "42", "Küche", "mesh25-geometry"],
+}
+
+
+@pytest.mark.parametrize(("label", "name"), [(label, name) for label, names in NAMES.items() for name in names])
+def test_names_give_labels(label, name):
+    assert label_of(name) is label
+
+
+@pytest.mark.parametrize("label", [x for x in PartLabel if x is not PartLabel.UNKNOWN])
+def test_the_official_spelling_gives_each_label(label):
+    assert label_of(f"{label.value}_12") is label
+    assert label_of(f"{label.value.replace(' ', '_')}_0") is label
+
+
+def test_pieces_wholes_and_controls_are_told_apart():
+    assert is_piece("drawer_front-3")
+    assert not is_piece("drawer_3")
+    assert is_whole_mover("Door.001")
+    assert not any(is_whole_mover(n) for n in ("doors", "drawer_unit", "drawer_side", "shelf"))
+    assert is_control("knob")
+    assert is_control("Caster_2")
+    assert not is_control("door_knob")
+
+
+@given(st.text(max_size=20), st.booleans())
+def test_ids_are_safe(name, is_handle):
+    found = safe_id(name, is_handle)
+    assert found.isascii()
+    assert found.isidentifier()
+    assert found.startswith("handle") == is_handle
+    assert not found.startswith(("hinge_", "rail_", "support_"))
+
+
+@given(st.lists(st.tuples(st.sampled_from(["a", "a_2", "A b", "a b", "", "é"]), st.booleans()), max_size=12))
+def test_ids_are_unique_and_the_first_keeps_its_name(names):
+    ids = unique_ids(names)
+    assert len(set(ids)) == len(ids)
+    if names:
+        assert ids[0] == safe_id(*names[0])
+
+
+def test_words_part_camel_case_digits_and_signs():
+    assert words("SidePanel_02.left-TOPDrawer") == ("side", "panel", "left", "top", "drawer")

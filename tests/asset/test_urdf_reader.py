@@ -1,0 +1,112 @@
+from math import pi
+
+import numpy as np
+import pytest
+from small_assets import urdf_text, write_urdf
+
+from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
+from grafu.errors import UnreadableAsset
+from grafu.vocabulary import PartLabel
+
+
+def test_links_become_parts_and_joints_in_place(tmp_path):
+    asset = load_asset(write_urdf(tmp_path))
+    assert asset.kind == "urdf"
+    assert {p.id for p in asset.parts if p.label.is_movable} == {"door_link", "drawer_link"}
+    assert asset.part("handle_8").rides_on == "door_link"
+    np.testing.assert_allclose(asset.box.size, [0.8, 0.43, 1.0], atol=1e-6)
+    np.testing.assert_allclose(asset.part("door_link").box.low, [-0.4, -0.185, 0.0], atol=1e-6)
+    assert asset.joints[0].upper == 1.5
+
+
+def test_the_folder_of_a_urdf_reads_the_same(tmp_path):
+    by_file, by_folder = load_asset(write_urdf(tmp_path / "m")), load_asset(tmp_path / "m")
+    assert by_file.name == "cabinet"
+    assert by_folder.name == "m"
+    assert [p.id for p in by_file.parts] == [p.id for p in by_folder.parts]
+
+
+def test_continuous_joints_are_unlimited(tmp_path):
+    asset = load_asset(write_urdf(tmp_path, urdf_text(door_type="continuous")))
+    assert not asset.joints[0].limited
+
+
+@pytest.mark.parametrize("kind", ["floating", "planar"])
+def test_kinds_that_are_not_built_stay_in_place_with_a_note(tmp_path, kind):
+    asset = load_asset(write_urdf(tmp_path, urdf_text(door_type=kind)))
+    assert len(asset.joints) == 1
+    assert any(kind in note for note in asset.notes)
+
+
+def test_a_link_fixed_to_a_moving_link_belongs_to_it(tmp_path):
+    extra = """<link name="knob_link"><visual><origin xyz="0.35 -0.02 0.5"/><geometry><sphere radius="0.01"/></geometry>
+    </visual></link><joint name="k" type="fixed"><parent link="door_link"/><child link="knob_link"/></joint>"""
+    asset = load_asset(write_urdf(tmp_path, urdf_text(extra)))
+    knob = asset.part("handle_knob_link")
+    assert (knob.label, knob.rides_on) == (PartLabel.HANDLE, "door_link")
+
+
+def test_package_names_are_sought_upwards_and_absent_meshes_noted(tmp_path):
+    text = urdf_text().replace('filename="meshes/', 'filename="package://cabinet_model/meshes/')
+    text = text.replace("meshes/shelf-6.obj", "meshes/shelf-60.obj")
+    asset = load_asset(write_urdf(tmp_path, text))
+    assert any("shelf-60.obj is missing" in note for note in asset.notes)
+    assert "shelf_6" not in {p.id for p in asset.parts}
+
+
+def test_primitives_scale_and_colours_are_read(tmp_path):
+    text = """<robot name="r"><material name="red"><color rgba="1 0 0 1"/></material><link name="a">
+    <visual name="top"><geometry><box size="1 0.5 0.02"/></geometry><material name="red"/></visual>
+    <visual name="leg"><origin xyz="0 0 -0.4" rpy="1.5707963 0 0"/><geometry>
+    <cylinder radius="0.1" length="0.3"/></geometry></visual></link></robot>"""
+    (tmp_path / "r.urdf").write_text(text)
+    top, leg = load_asset(tmp_path / "r.urdf").parts
+    assert top.surfaces[0].material.base_color == (1.0, 0.0, 0.0, 1.0)
+    np.testing.assert_allclose(sorted(leg.box.size), [0.2, 0.2, 0.3], atol=2e-3)
+
+
+def test_roll_pitch_yaw_turn_about_fixed_axes(tmp_path):
+    turned = f'<origin rpy="{pi / 2} 0 {pi / 2}"/><axis xyz="0 1 0"/>'
+    text = urdf_text().replace('<axis xyz="0 -1 0"/>', turned)
+    drawer = load_asset(write_urdf(tmp_path, text), LoadOptions(front="-Y")).joints[1]
+    np.testing.assert_allclose(drawer.axis.direction, [0, 0, 1], atol=1e-9)
+    turned = f'<origin rpy="0 {pi / 2} {pi / 2}"/><axis xyz="1 0 0"/>'
+    text = urdf_text().replace('<axis xyz="0 -1 0"/>', turned)
+    drawer = load_asset(write_urdf(tmp_path, text), LoadOptions(front="-Y")).joints[1]
+    np.testing.assert_allclose(drawer.axis.direction, [0, 0, -1], atol=1e-9)
+
+
+CYCLE = """<joint name="c1" type="fixed"><parent link="door_link"/><child link="carcass"/></joint>"""
+TWICE = """<joint name="c2" type="fixed"><parent link="drawer_link"/><child link="door_link"/></joint>"""
+STRAY = """<joint name="c3" type="fixed"><parent link="nowhere"/><child link="door_link"/></joint>"""
+HALF = """<joint name="c4" type="fixed"><parent link="carcass"/></joint>"""
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (urdf_text(CYCLE), "cycle"),
+        (urdf_text(TWICE), "two parent joints"),
+        (urdf_text(STRAY), "nowhere"),
+        (urdf_text(HALF), "lacks a parent or a child"),
+        ("<robot><link", "not readable XML"),
+        ("<mujoco/>", "expected <robot>"),
+        ('<robot name="r"/>', "no links"),
+        (urdf_text().replace("meshes/", "gone/"), "no visual shape"),
+        (urdf_text().replace('lower="0"', 'lower="zero"'), "finite numbers"),
+        (urdf_text().replace('xyz="0 0 -1"', 'xyz="0 0"'), "expected 3 finite numbers"),
+        ('<!DOCTYPE r [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><robot name="&b;"/>', "entities"),
+    ],
+)
+def test_bad_files_are_refused_in_one_line(tmp_path, text, said):
+    with pytest.raises(UnreadableAsset, match=said) as caught:
+        load_asset(write_urdf(tmp_path, text))
+    assert "\n" not in str(caught.value)
+    assert "cabinet.urdf" in str(caught.value)
+
+
+def test_a_zero_axis_keeps_the_part_in_place(tmp_path):
+    asset = load_asset(write_urdf(tmp_path, urdf_text().replace('xyz="0 0 -1"', 'xyz="0 0 0"')))
+    assert len(asset.joints) == 1
+    assert any("zero axis" in note for note in asset.notes)
