@@ -65,17 +65,24 @@ def patches_of(mesh: TriangleMesh) -> Patches:
     return Patches(np.where(inverted[:, None], faces[:, ::-1], faces), patch, closed)
 
 
-def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
-    """Returns the pieces of a mesh that share no position with one another, in order of their first face."""
+def part_numbers(mesh: TriangleMesh) -> Indices:
+    """Returns for each face the number of the piece it belongs to, in order of first faces (see `connected_parts`)."""
     if not len(mesh.faces):
-        return []
+        return np.zeros(0, np.int64)
     position = welded(mesh.vertices)[mesh.faces]
     count = int(position.max()) + 1
     ends = (np.concatenate([position[:, 0], position[:, 1]]), np.concatenate([position[:, 1], position[:, 2]]))
     graph = coo_matrix((np.ones(len(ends[0]), np.int8), ends), (count, count))
     label = connected_components(graph, directed=False)[1][position[:, 0]]
-    order = dict.fromkeys(label.tolist())
-    return [mesh] if len(order) == 1 else [mesh.with_faces(label == number) for number in order]
+    _, first, number = np.unique(label, return_index=True, return_inverse=True)
+    return np.argsort(np.argsort(first))[number.reshape(-1)].astype(np.int64)
+
+
+def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
+    """Returns the pieces of a mesh that share no position with one another, in order of their first face."""
+    numbers = part_numbers(mesh)
+    count = int(numbers.max()) + 1 if len(numbers) else 0
+    return [mesh] if count == 1 else [mesh.with_faces(numbers == k) for k in range(count)]
 
 
 def _distinct(position: Faces) -> Indices:

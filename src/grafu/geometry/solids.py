@@ -148,10 +148,18 @@ def _clip(surface: Surface, solid: ConvexSolid) -> Surface:
     if not hit.any():
         return surface
     pieces = np.concatenate([p[hit[o]] for p, o in zip(kept, kept_owner, strict=True)])
-    pieces = pieces[_areas(pieces) > _SLIVER**2]
+    pieces = pieces[~_is_sliver(pieces)]
     new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
-    faces = np.vstack([mesh.faces[~hit], new_faces])
+    flat = candidate & _is_sliver(t)  # a face without area would stay behind as a needle in the cut
+    faces = np.vstack([mesh.faces[~hit & ~flat], new_faces])
     return _from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
+
+
+def _is_sliver(triangles: np.ndarray) -> np.ndarray:
+    """Returns which triangles are flatter than nothing: no higher over their longest side than a sliver."""
+    corners = triangles[:, :, :3]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    return 2 * _areas(triangles) <= 2 * _SLIVER * longest
 
 
 def _areas(triangles: np.ndarray) -> np.ndarray:

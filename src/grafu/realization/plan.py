@@ -15,7 +15,8 @@ class JointRequest:
     `axis` is an initial guess in the object frame; positive motion along or about it opens. `reference` is the
     opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts
     that should carry it, best first; empty leaves the choice to the geometry. `riders` move with the part (handles).
-    `source` says where the motion came from; `either_sign` lets the geometry choose the sense.
+    `source` says where the motion came from. `drawn_at` is the joint value at which the input draws the part: where it
+    is not 0 the part is drawn ajar, and is closed before anything is built.
     """
 
     moving: str
@@ -25,7 +26,7 @@ class JointRequest:
     reference: float | None = None
     mounts: tuple[str, ...] = ()
     riders: tuple[str, ...] = ()
-    either_sign: bool = False
+    drawn_at: float = 0.0
 
     def __post_init__(self) -> None:
         if self.type is JointType.FIXED:

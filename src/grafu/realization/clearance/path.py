@@ -1,0 +1,51 @@
+"""The way that must become free, and what stands in it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat3
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MovingBody
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.components import connected_parts
+from grafu.realization.config import RealizationConfig
+from grafu.realization.limits import Motion, in_the_way, sweep, swept_box
+from grafu.realization.scene import Scene
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A mover's motion from 0 to `reach` (radians where `is_turn`, else metres); the columns of `axes` are its box's."""
+
+    mover: str
+    motion: Motion
+    reach: float
+    axes: Mat3
+    is_turn: bool
+
+
+def blockers(scene: Scene, path: Path, config: RealizationConfig) -> tuple[str, ...]:
+    """Returns the ids of the static parts that the mover runs into."""
+    mesh = scene.moving_mesh(path.mover)
+    body = MovingBody(mesh, config.depth * scene.unit, path.axes)
+    near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
+    return sweep(body, path.motion, path.reach, near, config.coarse_poses).blockers
+
+
+def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:
+    """Returns the box around a mesh in the coordinates of `axes`."""
+    return Box.around(mesh.vertices @ axes)
+
+
+def piece_boxes(axes: Mat3, mesh: TriangleMesh) -> list[Box]:
+    """Returns the boxes of the connected pieces in the coordinates of `axes`."""
+    return [box_in(axes, piece) for piece in connected_parts(mesh)]
+
+
+def overlapping(boxes: Sequence[Box], other: Box) -> np.ndarray:
+    """Returns which boxes share more than a face with another."""
+    return np.array([bool((box.axis_gaps(other) < 0).all()) for box in boxes], dtype=bool)

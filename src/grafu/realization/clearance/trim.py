@@ -1,0 +1,94 @@
+"""Takes a trace off the moving part: pieces pressed back to their neighbours' faces, by at most 2 % of the part's side."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.components import part_numbers
+from grafu.realization.clearance.path import Path, box_in, piece_boxes
+from grafu.realization.config import RealizationConfig
+from grafu.realization.report import Clearance
+from grafu.realization.scene import Scene
+
+_KEPT = 0.4  # a trimmed piece keeps at least this share of its own thickness
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Press:
+    """Presses a piece's vertices back to a plane: along `axis`, everything beyond `limit` on `side` (0 low, 1 high)."""
+
+    axis: int
+    side: int
+    limit: float
+    depth: float
+
+
+def trim(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
+    """Returns the scene with the moving part's pieces pressed back where they cut into static pieces."""
+    part = scene.parts[path.mover]
+    most = config.max_trim * box_in(path.axes, part.mesh).size
+    play = 1.5 * config.depth * scene.unit
+    theirs = [box for name in ids for box in piece_boxes(path.axes, scene.parts[name].mesh)]
+    depth = 0.0
+    surfaces = []
+    for surface in part.surfaces:
+        pressed, deepest = _pressed(surface, theirs, path, most, play)
+        surfaces.append(pressed)
+        depth = max(depth, deepest)
+    if depth == 0.0:
+        return scene, []
+    trimmed: Part = replace(part, surfaces=tuple(surfaces))
+    share = depth / float(most.max() / config.max_trim)
+    return scene.replaced([trimmed]), [Clearance(path.mover, "trimmed", depth, share, f"cut into {', '.join(ids)}")]
+
+
+def _pressed(
+    surface: Surface, theirs: Sequence[Box], path: Path, most: np.ndarray, play: float
+) -> tuple[Surface, float]:
+    """Returns the surface with its pieces pressed back, and by how much at most."""
+    numbers = part_numbers(surface.mesh)
+    local = surface.mesh.vertices @ path.axes
+    deepest = 0.0
+    for k in range(int(numbers.max()) + 1 if len(numbers) else 0):
+        used = np.unique(surface.mesh.faces[numbers == k])
+        box = Box.around(local[used])
+        for press in _presses(box, theirs, path, most, play):
+            column = local[used, press.axis]
+            limit = np.maximum(column, press.limit) if press.side == 0 else np.minimum(column, press.limit)
+            local[used, press.axis] = limit
+            deepest = max(deepest, press.depth)
+    if deepest == 0.0:
+        return surface, 0.0
+    mesh = TriangleMesh(local @ path.axes.T, surface.mesh.faces)
+    return Surface(mesh, surface.material, surface.uv, surface.normals, surface.colors), deepest
+
+
+def _presses(box: Box, theirs: Sequence[Box], path: Path, most: np.ndarray, play: float) -> list[_Press]:
+    """Returns how a piece must be pressed so that it clears the static pieces that it cuts into a little."""
+    way = _swept(box, path)
+    found: list[_Press] = []
+    for other in theirs:
+        depths = np.stack([other.high - way.low, way.high - other.low])
+        if (depths <= 0).any():
+            continue
+        side, axis = (int(i) for i in np.unravel_index(int(np.argmin(depths)), depths.shape))
+        depth = float(depths[side, axis]) + play
+        if depth <= most[axis] and depth <= (1 - _KEPT) * box.size[axis]:
+            limit = float(way.low[axis] + depth) if side == 0 else float(way.high[axis] - depth)
+            found.append(_Press(axis, side, limit, depth))
+    return found
+
+
+def _swept(box: Box, path: Path) -> Box:
+    """Returns the box of a sliding piece's whole way (of a turning piece: its rest box)."""
+    if path.is_turn:
+        return box
+    shift = (path.motion(path.reach)[:3, 3]) @ path.axes
+    return box.union(Box(box.low + shift, box.high + shift))

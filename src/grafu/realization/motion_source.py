@@ -1,0 +1,107 @@
+"""Where motions come from becomes one plan: from a completed graph, or from the joints that the input states.
+
+Both give initial axes only; what is built from them cannot tell the sources apart.
+"""
+
+from collections.abc import Iterable
+from math import pi
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Joint, JointLimits
+from grafu.asset.part import AnnotatedJoint, Asset
+from grafu.geometry.box import Box
+from grafu.geometry.transform import transform_points
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.motion import hinge_to_axis, rail_to_axis
+from grafu.realization.plan import JointRequest, RealizationPlan, Refusal
+from grafu.vocabulary import JointType
+
+# A limit on the other side of the drawn pose that is less than this share of the wider one is play, not motion.
+_PLAY = 0.25
+
+
+def plan_from_annotation(asset: Asset) -> RealizationPlan:
+    """Returns what the input itself states: one request per annotated joint, a refusal per door or drawer without one."""
+    requests = tuple(_from_joint(joint, asset) for joint in asset.joints)
+    stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
+    refused = tuple(
+        Refusal(part.id, "the input states no joint for it")
+        for part in asset.parts
+        if part.label.is_movable and part.id not in stated
+    )
+    return RealizationPlan(requests, refused)
+
+
+def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
+    """Returns what a completed graph states: one request per hinged or railed part, and the refusals that it carries."""
+    graph = completion.completed
+    riders = _riders(asset, ((edge.parent, edge.child) for edge in graph.attachments))
+    known = {part.id for part in asset.parts}
+    requests = []
+    for hinge in graph.hinges:
+        axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
+        requests.append(_request(hinge.child, JointType.REVOLUTE, axis, completion.source, (hinge.parent,), riders))
+    for child in dict.fromkeys(rail.child for rail in graph.rails):
+        edges = [rail for rail in graph.rails if rail.child == child]
+        axis = rail_to_axis(graph.node(child).box, edges[0].axis)
+        mounts = tuple(rail.parent for rail in edges)
+        requests.append(_request(child, JointType.PRISMATIC, axis, completion.source, mounts, riders))
+    refused = tuple(Refusal(r.part, r.why) for r in completion.refused)
+    return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
+
+
+def _request(moving, kind, axis, source, mounts, riders):  # type: ignore[no-untyped-def]
+    return JointRequest(moving, kind, axis, source, None, mounts, riders.get(moving, ()))
+
+
+def _riders(asset: Asset, attached: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
+    """Returns what rides on each part, whoever says so, riders of riders included."""
+    known = {part.id for part in asset.parts}
+    below: dict[str, list[str]] = {}
+    for parent, child in [*((p.rides_on, p.id) for p in asset.parts if p.rides_on), *attached]:
+        if child in known and child not in below.setdefault(parent, []):
+            below[parent].append(child)
+    return {parent: tuple(_descendants(parent, below)) for parent in below}
+
+
+def _descendants(parent: str, below: dict[str, list[str]]) -> list[str]:
+    found: list[str] = []
+    queue = list(below.get(parent, ()))
+    while queue:
+        child = queue.pop(0)
+        if child not in found and child != parent:
+            found.append(child)
+            queue += below.get(child, ())
+    return found
+
+
+def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
+    """Returns the request of one annotated joint: signed so that positive opens, drawn ajar where its range says so."""
+    lower, upper = (joint.lower, joint.upper) if joint.limited else (0.0, pi / 2)
+    lower, upper = min(lower, upper), max(lower, upper)
+    opens_up = abs(upper) >= abs(lower)
+    if min(-lower, upper) > _PLAY * max(-lower, upper):
+        opens_up = _closed_end(joint, asset, lower, upper) == lower
+    axis = joint.axis if opens_up else joint.axis.reversed()
+    before, after = (lower, upper) if opens_up else (-upper, -lower)
+    drawn_at = -before if min(-before, after) > _PLAY * max(-before, after) else 0.0
+    reference = after - before if drawn_at else max(abs(before), abs(after))
+    riders = _riders(asset, ()).get(joint.part, ())
+    return JointRequest(joint.part, joint.type, axis, "annotation", reference, (), riders, drawn_at)
+
+
+def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float) -> float:
+    """Returns the end of a range at which the part lies deeper in the rest of the object: closed."""
+    moved = Joint("", joint.type, "", "", joint.axis, JointLimits(0.0, 0.0))
+    corners = asset.part(joint.part).box.corners()
+    others = {other.part for other in asset.joints}
+    body = [p.box for p in asset.parts if p.id not in others and p.rides_on is None]
+    whole = Box.around(np.vstack([box.corners() for box in body])) if body else asset.box
+    inside = {end: _shared(Box.around(transform_points(moved.motion(end), corners)), whole) for end in (lower, upper)}
+    return max((lower, upper), key=lambda end: inside[end])
+
+
+def _shared(a: Box, b: Box) -> float:
+    """Returns the volume that two boxes share."""
+    return float(np.prod(np.maximum(-a.axis_gaps(b), 0.0)))

@@ -1,0 +1,152 @@
+"""The drawer frame, and the body region of a drawer: where its container runs, behind the pulling board.
+
+X runs across the drawer (right-handed with Z up), Y from the front into the cabinet, against the sliding direction. The
+origin is the middle of the drawer's front side: it fills |x| <= width / 2, 0 <= y <= depth, |z| <= height / 2.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, frozen_array, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.geometry.transform import from_rotation, transform_points
+from grafu.realization.hinge.border import part_axes
+
+_SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
+_SHORTEST = 0.3  # a body shorter than this share of the drawer's depth is no container (official 7.4)
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class DrawerFrame(ArrayValue):
+    """See the module's docstring; `rotation` has X, Y, Z as columns in the object frame."""
+
+    origin: Vec3
+    rotation: Mat3
+    width: float
+    depth: float
+    height: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "origin", frozen_array(self.origin))
+        object.__setattr__(self, "rotation", frozen_array(self.rotation))
+
+    @property
+    def T_object_drawer(self) -> Mat4:
+        """Maps drawer coordinates to the object frame."""
+        return from_rotation(self.rotation, self.origin)
+
+    @property
+    def slide(self) -> Vec3:
+        """The unit direction in which the drawer opens, in the object frame."""
+        return -self.rotation[:, 1]
+
+    def to_object(self, points: Points) -> Points:
+        """Returns points of the drawer frame in the object frame."""
+        return transform_points(self.T_object_drawer, points)
+
+    def to_drawer(self, points: Points) -> Points:
+        """Returns points of the object frame in the drawer frame."""
+        return (points - self.origin) @ self.rotation
+
+
+def drawer_frame(mesh: TriangleMesh, direction: Vec3) -> DrawerFrame | None:
+    """Returns the frame of a drawer that slides along a unit direction; None where it slides up or down.
+
+    The direction is snapped to the nearest level axis of the drawer's own box within 8 degrees, else kept.
+    """
+    if abs(float(direction[2])) > 0.5:
+        return None
+    axes = part_axes(mesh)
+    nearest = int(np.argmax(np.abs(axes.T @ direction)))
+    snapped = axes[:, nearest] * np.sign(float(axes[:, nearest] @ direction))
+    slide = snapped if float(snapped @ direction) > np.cos(np.radians(8.0)) else direction
+    up = vec3(0.0, 0.0, 1.0)
+    y = -slide / np.linalg.norm(slide)
+    x = np.cross(y, up)
+    x /= np.linalg.norm(x)
+    rotation = np.column_stack([x, y, np.cross(x, y)])
+    local = Box.around(mesh.vertices @ rotation)
+    center = local.center
+    origin = rotation @ vec3(float(center[0]), float(local.low[1]), float(center[2]))
+    width, depth, height = (float(s) for s in local.size)
+    return DrawerFrame(origin, rotation, width, depth, height)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class BodyRegion:
+    """The container: half its outer width, its extent [front, back] along y, and the flank's extent over z."""
+
+    half_width: float
+    front: float
+    back: float
+    bottom: float
+    top: float
+
+    @property
+    def length(self) -> float:
+        """The body's length along the slide."""
+        return self.back - self.front
+
+
+def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> BodyRegion | None:
+    """Returns the region around the median of the outer-width profile (supplement, eq. body region); None if no body.
+
+    `tolerance` is a share of the drawer's width.
+    """
+    widths = _outer_half_widths(mesh, frame)
+    columns = np.array([np.median(c[c > 0]) if (c > 0).any() else np.nan for c in widths])
+    if np.isfinite(columns).sum() < _SHORTEST * _SLIDE:
+        return None
+    median = float(np.nanmedian(columns))
+    band = max(tolerance * frame.width, 2e-3)
+    in_body = np.abs(widths - median) < band
+    run = _longest_run(in_body.sum(axis=1) >= max(2, 0.2 * in_body.sum(axis=1).max()))
+    rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
+    if run[1] - run[0] + 1 < _SHORTEST * _SLIDE or rows[1] < rows[0]:
+        return None
+    y, z = _grid(frame)
+    step = frame.depth / _SLIDE / 2
+    lift = frame.height / _HEIGHT / 2
+    half = float(np.median(widths[in_body]))
+    return BodyRegion(
+        half, float(y[run[0]] - step), float(y[run[1]] + step), float(z[rows[0]] - lift), float(z[rows[1]] + lift)
+    )
+
+
+def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the y and the z of the cells' centres."""
+    y = (np.arange(_SLIDE) + 0.5) / _SLIDE * frame.depth
+    z = ((np.arange(_HEIGHT) + 0.5) / _HEIGHT - 0.5) * frame.height
+    return y, z
+
+
+def _outer_half_widths(mesh: TriangleMesh, frame: DrawerFrame) -> np.ndarray:
+    """Returns half the outer width at each (slide, height) cell; 0 where a ray from either side meets nothing."""
+    y, z = _grid(frame)
+    grid_y, grid_z = (a.ravel() for a in np.meshgrid(y, z, indexing="ij"))
+    outside = frame.width / 2 + 0.01
+    caster = RayCaster(mesh)
+    sides = []
+    for sign in (-1.0, 1.0):
+        origins = frame.to_object(np.column_stack([np.full_like(grid_y, sign * outside), grid_y, grid_z]))
+        distance = caster.along(origins, -sign * frame.rotation[:, 0])
+        sides.append(np.where(distance < outside, outside - distance, 0.0))
+    both = np.minimum(*sides)
+    return both.reshape(_SLIDE, _HEIGHT)
+
+
+def _longest_run(flags: np.ndarray) -> tuple[int, int]:
+    """Returns first and last index of the longest run of True; (0, -1) where there is none."""
+    padded = np.concatenate([[False], flags, [False]])
+    starts = np.flatnonzero(~padded[:-1] & padded[1:])
+    ends = np.flatnonzero(padded[:-1] & ~padded[1:]) - 1
+    if not len(starts):
+        return 0, -1
+    longest = int(np.argmax(ends - starts))
+    return int(starts[longest]), int(ends[longest])

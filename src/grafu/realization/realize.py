@@ -1,0 +1,186 @@
+"""`realize`: a plan on an asset becomes an articulated object and a report. It reads and writes no files.
+
+Doors come first, then drawers, whose rails must respect what the doors already need. One part that cannot be built does
+not cost the others theirs.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.asset.part import Asset, Part
+from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.mesh import merge_meshes
+from grafu.realization.build import Built, build_joint
+from grafu.realization.clearance.make import adopt
+from grafu.realization.clearance.path import Path, blockers
+from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.border import part_axes
+from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
+from grafu.realization.order import Moving, Order, order_joints
+from grafu.realization.plan import JointRequest, RealizationPlan
+from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
+from grafu.realization.scene import Mover, Scene
+from grafu.templates.template import Gallery
+from grafu.vocabulary import JointType
+
+_MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
+
+
+@final
+@dataclass(frozen=True)
+class Realized:
+    """The working object and what came of each request."""
+
+    object: ArticulatedObject
+    report: RealizationReport
+
+
+def realize(
+    plan: RealizationPlan, asset: Asset, gallery: Gallery, config: RealizationConfig = RealizationConfig()
+) -> Realized:
+    """Returns the asset with every joint of the plan built that can be built."""
+    started = perf_counter()
+    requests = _in_order(plan.joints)
+    scene, closed = _closed_scene(asset, requests, config)
+    built: list[Built] = []
+    skipped = [Skipped(r.part, SkipReason.NO_MOTION, r.why) for r in plan.refused]
+    for request in requests:
+        outcome = build_joint(request, scene, gallery, config)
+        if isinstance(outcome, Skipped):
+            skipped.append(outcome)
+            continue
+        scene = outcome.scene
+        built.append(outcome)
+    orders = order_joints([_moving(b) for b in built], scene, config)
+    installed = [_installed(b, orders[b.request.moving], scene, closed, config) for b in built]
+    articulated = _assembled(asset, scene, built, orders)
+    timings = (("realize", perf_counter() - started),)
+    return Realized(articulated, RealizationReport((*installed, *skipped), timings))
+
+
+def _in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
+    """Returns one request per part (the first), doors before drawers, riders never on their own."""
+    first: dict[str, JointRequest] = {}
+    for request in joints:
+        first.setdefault(request.moving, request)
+    ridden = {rider for request in first.values() for rider in request.riders}
+    kept = [request for request in first.values() if request.moving not in ridden]
+    return sorted(kept, key=lambda r: r.type is not JointType.REVOLUTE)
+
+
+def _closed_scene(
+    asset: Asset, requests: list[JointRequest], config: RealizationConfig
+) -> tuple[Scene, dict[str, tuple[Clearance, ...]]]:
+    """Returns the scene with every part that is drawn ajar closed, and what was noted about it."""
+    movers = {r.moving: Mover(r.moving, (r.moving, *r.riders)) for r in requests}
+    scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, movers, asset.unit)
+    notes: dict[str, tuple[Clearance, ...]] = {}
+    for request in requests:
+        if request.drawn_at <= 0:
+            continue
+        motion = motion_about(request.axis, request.type)
+        axes = part_axes(scene.parts[request.moving].mesh)
+        path = Path(request.moving, motion, 1e-6, axes, request.type is JointType.REVOLUTE)
+        scene, joined = adopt(scene, path, blockers(scene, path, config), config)
+        T = motion(-request.drawn_at)
+        members = scene.movers[request.moving].members
+        scene = scene.replaced(_moved(scene.parts[m], T) for m in members)
+        note = Clearance(request.moving, "closed", request.drawn_at, 0.0, "was drawn ajar")
+        notes[request.moving] = (*joined, note)
+    return scene, notes
+
+
+def _moved(part: Part, T: np.ndarray) -> Part:
+    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
+
+
+def _moving(built: Built) -> Moving:
+    placement = built.placement
+    motion = motion_about(placement.axis, built.request.type)
+    return Moving(built.request.moving, motion, placement.upper, placement.in_way)
+
+
+def _installed(
+    built: Built, order: Order, scene: Scene, closed: dict[str, tuple[Clearance, ...]], config: RealizationConfig
+) -> Installed:
+    request, placement = built.request, built.placement
+    share, gap = _measured(built, order.upper, scene, config)
+    waits = tuple(joint_id(name) for name in order.after)
+    return Installed(
+        moving=request.moving,
+        joint=joint_id(request.moving),
+        type=request.type,
+        mount=placement.mount,
+        mechanism=placement.mechanism,
+        template=placement.template,
+        count=placement.count,
+        source=request.source,
+        initial_axis=request.axis,
+        axis=placement.axis,
+        opening=order.upper,
+        reference=request.reference,
+        restricted=order.upper < config.restricted * built.wanted,
+        collision_share=share,
+        largest_gap=gap,
+        after=waits,
+        clearances=(*closed.get(request.moving, ()), *built.clearances),
+    )
+
+
+def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig) -> tuple[float, float]:
+    """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
+    mover = built.request.moving
+    motion = motion_about(built.placement.axis, built.request.type)
+    mesh = scene.moving_mesh(mover)
+    near = in_the_way(scene.static_obstacles, swept_box(mesh.box, motion, upper))
+    share = sweep(MovingBody(mesh, config.depth * scene.unit), motion, upper, near, _MEASURED_POSES).share
+    ends = MeshCollider(merge_meshes([v.mesh for v in scene.hardware_of(mover)]))
+    held = MeshCollider(merge_meshes([v.mesh for v in built.placement.static]))
+    gap = 0.0
+    for value in np.linspace(0.0, upper, 11):
+        ends.place(motion(value))
+        gap = max(gap, ends.distance(held))
+    return share, gap
+
+
+def joint_id(moving: str) -> str:
+    """Returns the id of the joint above a moving part."""
+    return f"{moving}_joint"
+
+
+def _assembled(
+    asset: Asset, scene: Scene, built: list[Built], orders: dict[str, Order]
+) -> ArticulatedObject:
+    """Returns the tree: one static root, one link per mover; movers without a joint stand with the static body."""
+    moving = {b.request.moving: b for b in built}
+    at_home = {m for mover in moving for m in scene.movers[mover].members}
+    static = [_part_visual(p) for p in scene.parts.values() if p.id not in at_home]
+    static += [visual for owner, visual in scene.hardware if not owner]
+    root = _free_name("body", {*scene.parts, *moving})
+    links = [Link(root, tuple(static))]
+    joints = []
+    for mover, b in moving.items():
+        parts = [_part_visual(scene.parts[m]) for m in scene.movers[mover].members]
+        links.append(Link(mover, (*parts, *scene.hardware_of(mover))))
+        order = orders[mover]
+        limits = JointLimits(0.0, order.upper)
+        after = tuple(joint_id(name) for name in order.after)
+        joints.append(Joint(joint_id(mover), b.request.type, root, mover, b.placement.axis, limits, after))
+    return ArticulatedObject(asset.name, root, tuple(links), tuple(joints))
+
+
+def _part_visual(part: Part) -> Visual:
+    return Visual(part.id, part.surfaces, label=part.label)
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    while name in taken:
+        name += "_"
+    return name
+
+
