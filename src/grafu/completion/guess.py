@@ -10,12 +10,12 @@ from typing import final
 
 import numpy as np
 
-from grafu.completion.scene import overlap_share
+from grafu.completion.scene import offset_share, overlap_share
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision
 from grafu.graph.edges import SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.motion import code_to_direction
+from grafu.graph.motion import code_to_direction, opposite
 from grafu.vocabulary import PartLabel
 
 _FRONTS: tuple[SignedAxis, ...] = (2, 3, 0, 1)
@@ -53,7 +53,7 @@ def guess_labels(graph: FunctionalGraph) -> tuple[dict[str, PartLabel], tuple[De
         own = [h for h in (*handles, *graph.labelled(PartLabel.HANDLE)) if _sits_in_front(h.box, front, graph)]
         found |= {h.id: (PartLabel.HANDLE, _WITH_HANDLE) for h in own if h.label is PartLabel.UNKNOWN}
         if own:
-            found[front.node.id] = (front.label, _WITH_HANDLE)
+            found[front.node.id] = (_label_with_handles(front, own), _WITH_HANDLE)
         elif _mostly_unknown(graph) and front.way == 2 and front.node.id not in found and _closes(front, graph):
             found[front.node.id] = (front.label, _WITHOUT)
     named = {part: label for part, (label, _) in found.items()}
@@ -62,6 +62,15 @@ def guess_labels(graph: FunctionalGraph) -> tuple[dict[str, PartLabel], tuple[De
         for part, (label, score) in found.items()
     )
     return named, tuple(decisions)
+
+
+def _label_with_handles(front: _Front, handles: list[PartNode]) -> PartLabel:
+    """Returns the front's label: a wide plate with its handle in the very middle is the front of a drawer."""
+    box, across = front.node.box, 1 - front.way // 2
+    middle = np.mean([h.box.center for h in handles], axis=0)
+    centred = abs(offset_share(box, middle, across)) < 0.15 and abs(offset_share(box, middle, 2)) < 0.3
+    wide = float(box.size[across]) >= 1.2 * float(box.size[2])
+    return PartLabel.DRAWER if centred and wide else front.label
 
 
 def _mostly_unknown(graph: FunctionalGraph) -> bool:
@@ -81,7 +90,7 @@ def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_Front]:
             continue
         if depth <= _PLATE and min(across, size[2]) >= max(_LEAST_SIDE, 2.5 * depth):
             found += [_Front(node, way, PartLabel.DOOR)] if not _is_frame(node, way, graph) else []
-        elif depth >= _LEAST_DEPTH and across >= _LEAST_SIDE and 0.03 <= size[2] <= 0.4 and not _is_case(node, graph):
+        elif depth >= _LEAST_DEPTH and across >= _LEAST_SIDE and 0.03 <= size[2] <= 0.55 and not _is_case(node, graph):
             found.append(_Front(node, way, PartLabel.DRAWER))
     return found
 
@@ -135,12 +144,12 @@ def _sits_in_front(handle: Box, front: _Front, graph: FunctionalGraph) -> bool:
     box, way, unit = front.node.box, front.way, _unit(graph)
     axis, outward = way // 2, code_to_direction(way)
     others = [a for a in range(3) if a != axis]
-    ahead = float((handle.center - box.face_center(way)) @ outward)
-    away = float((handle.face_center(way ^ 1) - box.face_center(way)) @ outward)
+    out = float((handle.face_center(way) - box.face_center(way)) @ outward)
+    away = float((handle.face_center(opposite(way)) - box.face_center(way)) @ outward)
     inside = all(overlap_share(handle, box, a) > 0.95 for a in others)
     widest = 0.9 if way == 2 else 0.6  # on the sides and the back, posts and battens are more common than handles
     smaller = all(handle.size[a] < widest * box.size[a] for a in others)
-    return inside and smaller and ahead > 0 and away <= _TOUCH * unit
+    return inside and smaller and out > 0 and away <= _TOUCH * unit
 
 
 def _closes(front: _Front, graph: FunctionalGraph) -> bool:
