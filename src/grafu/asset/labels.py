@@ -4,6 +4,7 @@ The words cover PartNet's and PartNet-Mobility's part names (storage furniture, 
 `<category>_<n>`, plain English, Blender's `.001` and camelCase. The first row of the table that matches decides.
 """
 
+from functools import lru_cache
 from typing import Final
 
 from grafu.asset.names import words
@@ -48,6 +49,7 @@ _PLURALS = frozenset({"doors", "drawers"})
 _CONTAINERS = frozenset({"unit", "set", "group", "stack", "chest", "cabinet", "collection", "compartment", "section"})
 
 
+@lru_cache(maxsize=20_000)
 def label_of(name: str) -> PartLabel:
     """Returns the label that a name gives, `unknown` where it gives none."""
     spoken = tuple(_singular(w) for w in words(name))

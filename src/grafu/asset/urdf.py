@@ -91,12 +91,9 @@ def read_bodies(path: Path, options: LoadOptions, mesh_frame: bool = False) -> U
     T_base_root = invert(tree.T_root_link[base])
     shapes = ShapeReader(path, options.limits, _materials(tree.robot))
     visuals: dict[str, list[Visual]] = {}
-    for link in tree.links:
-        found = _link_visuals(tree, link, shapes, T_base_root)
-        visuals.setdefault(heads[link], []).extend(found)
-    bodies = tuple(
-        _body(tree, head, tuple(visuals.get(head, ())), T_base_root) for head in dict.fromkeys(heads.values())
-    )
+    for link in sorted(tree.links, key=lambda name: tree.links[name].find("visual") is None):
+        visuals.setdefault(heads[link], []).extend(_link_visuals(tree, link, shapes, T_base_root))
+    bodies = tuple(_body(tree, head, tuple(found), T_base_root) for head, found in visuals.items())
     if not any(body.visuals for body in bodies):
         missing = f" ({shapes.notes[0]})" if shapes.notes else ""
         raise UnreadableAsset(f"{path} has no visual shape that can be read{missing}: expected visuals with meshes")
