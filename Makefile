@@ -1,7 +1,8 @@
 # What a person runs, and what CI runs. Only Python 3.11+ and make are needed; everything goes into .venv.
 #   make demo    install, and make the sample furniture work
 #   make test    install the development tools, and run the tests
-#   make check   formatting, lint, types, layers
+#   make check   lint, formatting, types, layers, pages drawn from code
+#   make format  mend formatting and what lint can mend
 #   make bench   speed, memory, growth
 #   make clean   remove what these made
 
@@ -41,6 +42,7 @@ check: .venv/installed-dev
 	$(BIN)/ruff format --check src tests scripts
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python scripts/docs.py --check
 
 format: .venv/installed-dev
 	$(BIN)/ruff check --fix src tests scripts

@@ -78,7 +78,6 @@ def test_overwrite_replaces_an_earlier_result(tmp_path: Path) -> None:
     [
         (["--formats", "dwg"], "dwg"),
         (["--templates", "nowhere"], "nowhere"),
-        (["--motion", "annotation"], "annotation"),
         (["--up", "Q"], "--up"),
     ],
 )
@@ -91,6 +90,15 @@ def test_wrong_choices_write_nothing(
     assert word in said
     assert said.count("\n") == 1
     assert not out.exists()
+
+
+def test_without_an_annotation_nothing_moves_and_the_report_says_so(tmp_path: Path) -> None:
+    source, out = str(write_cabinet(tmp_path)), tmp_path / "out"
+    assert main(["functionalize", source, "--out", str(out), "--motion", "annotation"]) == 0
+    report = Report.model_validate_json((out / "cabinet" / "report.json").read_text())
+
+    assert report.joints == ()
+    assert {skip.request: skip.reason for skip in report.skipped} == {"door": "no motion", "drawer": "no motion"}
 
 
 def test_two_inputs_of_one_name_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

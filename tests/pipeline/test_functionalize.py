@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
-from grafu.errors import AssetError
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -40,9 +39,11 @@ def test_auto_takes_the_annotation_where_there_is_one(asset: Asset) -> None:
     assert choose_source(asset, MotionSource.RULE) is MotionSource.RULE
 
 
-def test_an_annotation_that_is_not_there_cannot_be_used(asset: Asset) -> None:
-    with pytest.raises(AssetError, match="states no joints"):
-        functionalize(asset.without_annotation(), MotionSource.ANNOTATION, builtin_gallery())
+def test_an_annotation_that_is_not_there_moves_nothing(asset: Asset) -> None:
+    found = functionalize(asset.without_annotation(), MotionSource.ANNOTATION, builtin_gallery())
+
+    assert found.object.joints == ()
+    assert {skip.request for skip in found.report.skipped} == {p.id for p in asset.parts if p.label.is_movable}
 
 
 def test_annotated_joints_are_built(asset: Asset, result: Functionalized) -> None:
@@ -96,5 +97,5 @@ def test_every_part_is_in_a_link(result: Functionalized) -> None:
     link_of = {part.id: part.link for part in report_of(result).parts}
     moving = {joint.child for joint in result.object.moving_joints}
 
-    assert {link for link in link_of.values()} == moving | {result.object.root}
+    assert set(link_of.values()) == moving | {result.object.root}
     assert all(link_of[link] == link for link in moving)

@@ -73,7 +73,7 @@ def _joint_notes(joint: JointRecord) -> list[str]:
     notes = ["restricted"] if joint.restricted else []
     if joint.collision_share > 0:
         notes.append(f"still touches in {joint.collision_share:.0%} of its poses")
-    notes += [f"{c.part} {c.kind} by {c.amount * 1000:.1f} mm" for c in joint.clearances]
+    notes += [f"{c.part} {c.kind}" for c in joint.clearances]
     if joint.after:
         notes.append(f"opens after {', '.join(joint.after)}")
     return notes + list(joint.notes)

@@ -8,7 +8,6 @@ from typing import TypeVar, final
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
-from grafu.errors import AssetError
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
@@ -75,8 +74,7 @@ def functionalize(
 ) -> Functionalized:
     """Returns the asset as an object that works, and how it came about.
 
-    Raises:
-        AssetError: if the motions are to come from an annotation that the asset does not have.
+    A door or drawer that cannot be made to move is no error: the report says which, and why.
     """
     clock = _Clock()
     chosen = choose_source(asset, source)
@@ -89,16 +87,10 @@ def functionalize(
 
 
 def choose_source(asset: Asset, source: MotionSource) -> MotionSource:
-    """Returns the source to use: `auto` takes the annotation where the asset has one.
-
-    Raises:
-        AssetError: if the annotation is asked for and there is none.
-    """
-    if source is MotionSource.AUTO:
-        return MotionSource.ANNOTATION if asset.joints else MotionSource.RULE
-    if source is MotionSource.ANNOTATION and not asset.joints:
-        raise AssetError(f"`{asset.path or asset.name}` states no joints of its own: use --motion rule or auto")
-    return source
+    """Returns the source to use: `auto` takes the annotation where the asset has one, else the rule."""
+    if source is not MotionSource.AUTO:
+        return source
+    return MotionSource.ANNOTATION if asset.joints else MotionSource.RULE
 
 
 class _Clock:
