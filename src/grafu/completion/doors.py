@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.completion.ballot import Ballot, Verdict
 from grafu.completion.rows import across_axis, pair_side, row_size, slides_past
-from grafu.completion.scene import CARRIES, Scene, offset_share, overlap_share
+from grafu.completion.scene import CARRIES, Scene, offset_share
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, Question, RefusedMotion
 from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
@@ -184,14 +184,13 @@ def _carriers(door: PartNode, border: HingeBorder, scene: Scene) -> list[tuple[P
     """Returns the parts near a border with a score each, 0..1: near, alongside, of a label that carries."""
     edge = _border_box(door.box, border)
     along = next(a for a in plane_axes(door.box.thin_axis) if a != border_to_face(door.box.thin_axis, border) // 2)
+    gaps = scene.support_boxes.gaps(edge) / scene.unit
+    alongside = scene.support_boxes.overlap_shares(edge)[:, along]
     found = []
-    for node in scene.supports:
-        gap = edge.gap(node.box) / scene.unit
-        if gap > _REACH:
-            continue
-        alongside = overlap_share(edge, node.box, along)
-        nearness = float(np.exp(-gap / _NEAR)) * (1.0 if scene.touch(door, node) else 0.8)
-        found.append((node, nearness * (0.1 + 0.9 * alongside) * CARRIES[node.label]))
+    for k in np.flatnonzero(gaps <= _REACH):
+        node = scene.supports[k]
+        nearness = float(np.exp(-gaps[k] / _NEAR)) * (1.0 if scene.touch(door, node) else 0.8)
+        found.append((node, nearness * (0.1 + 0.9 * float(alongside[k])) * CARRIES[node.label]))
     return found
 
 

@@ -7,19 +7,17 @@ between two flanks where there are two, else on whatever is near.
 import numpy as np
 
 from grafu.completion.ballot import Ballot, Verdict
-from grafu.completion.scene import CARRIES, Scene, offset_share, overlap_share
+from grafu.completion.scene import CARRIES, Scene
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, Question, RefusedMotion
 from grafu.graph.edges import Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import code_to_direction, opposite, signed_axis
-from grafu.vocabulary import PartLabel
 
 _WAYS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
 _NEAR = 0.03  # shares of the object
 _REACH = 0.15
 _LEAST_FLANK = 0.05
-_BLOCKERS = frozenset(CARRIES) - {PartLabel.FACE_FRAME, PartLabel.MISC}
 
 
 def run_drawer(drawer: PartNode, scene: Scene) -> tuple[tuple[Rail, ...], tuple[Decision, ...]] | RefusedMotion:
@@ -41,10 +39,11 @@ def vote_way(drawer: PartNode, scene: Scene) -> Verdict[SignedAxis]:
     for handle in scene.handles_of(drawer):
         for way in _WAYS:
             ballot.vote(way, 5.0 * _sits_on(handle.box, drawer.box, way))
+    blocked = _blocked_shares(drawer, scene)
     for way in _WAYS:
         inside = max(_depth_inside(drawer.box, scene.body, way) / scene.unit, 0.0)
         ballot.vote(way, 1.5 * float(np.exp(-inside / 0.05)))
-        ballot.vote(way, -4.0 * _blocked_share(drawer, way, scene))
+        ballot.vote(way, -4.0 * blocked[way])
     return ballot.verdict()
 
 
@@ -62,22 +61,21 @@ def _depth_inside(box: Box, body: Box, way: SignedAxis) -> float:
     return float((body.face_center(way) - box.face_center(way)) @ code_to_direction(way))
 
 
-def _blocked_share(drawer: PartNode, way: SignedAxis, scene: Scene) -> float:
-    """Returns the share of the drawer's section that static parts and other drawers cover on its way out, 0..1.
+def _blocked_shares(drawer: PartNode, scene: Scene) -> dict[SignedAxis, float]:
+    """Returns for each way the share of the drawer's section that parts cover on its way out, 0..1.
 
     A part that lies within the drawer's box close to its face counts half: it may be the panel that an overlaid front
     covers. Face frames leave the drawer its opening.
     """
-    axis, sense = way // 2, float(code_to_direction(way)[way // 2])
-    others = [a for a in range(3) if a != axis]
-    covered = 0.0
-    for node in scene.graph.nodes:
-        if node.id == drawer.id or not (node.label in _BLOCKERS or node.label is PartLabel.DRAWER):
-            continue
-        place = sense * offset_share(drawer.box, node.box.center, axis)
-        weight = 1.0 if place > 1.0 else 0.5 if place > 0.8 else 0.0
-        covered += weight * float(np.prod([overlap_share(drawer.box, node.box, a) for a in others]))
-    return min(covered, 1.0)
+    shares = scene.blocker_boxes.overlap_shares(drawer.box)
+    places = scene.blocker_boxes.offset_shares(drawer.box)
+    found: dict[SignedAxis, float] = {}
+    for way in _WAYS:
+        place = places[:, way // 2] * code_to_direction(way)[way // 2]
+        weight = np.where(place > 1.0, 1.0, np.where(place > 0.8, 0.5, 0.0))
+        section = np.delete(shares, way // 2, axis=1).prod(axis=1)
+        found[way] = min(float((weight * section).sum()), 1.0)
+    return found
 
 
 def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[Verdict[str]]:
@@ -88,17 +86,21 @@ def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[Verdict[str
 
 
 def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) -> Verdict[str] | None:
-    scored = {node.id: _flank_score(drawer, node, (side, slide), scene) for node in scene.supports}
-    return _elect({node_id: score for node_id, score in scored.items() if score > _LEAST_FLANK})
+    shares = scene.support_boxes.overlap_shares(drawer.box)
+    alongside = shares[:, 2] * shares[:, slide]
+    scored = {
+        node.id: alongside[k] * CARRIES[node.label] * _nearness(drawer, node, side, scene)
+        for k, node in enumerate(scene.supports)
+        if alongside[k] > _LEAST_FLANK
+    }
+    return _elect({node_id: float(score) for node_id, score in scored.items() if score > _LEAST_FLANK})
 
 
-def _flank_score(drawer: PartNode, node: PartNode, where: tuple[SignedAxis, int], scene: Scene) -> float:
-    """Returns how well a part carries a rail on one side of the drawer, 0..1: near its flank and alongside it.
+def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: Scene) -> float:
+    """Returns how near a part is to one flank of the drawer, 0..1.
 
-    `where` is the side's face and the axis of the slide. A part may lie within the drawer's box, where an overlaid
-    front is wider than the drawer.
+    It may lie within the drawer's box, where an overlaid front is wider than the drawer.
     """
-    side, slide = where
     outward, flank = code_to_direction(side), drawer.box.face_center(side)
     inner = float((node.box.face_center(opposite(side)) - flank) @ outward)
     outer = float((node.box.face_center(side) - flank) @ outward)
@@ -107,15 +109,13 @@ def _flank_score(drawer: PartNode, node: PartNode, where: tuple[SignedAxis, int]
         return 0.0
     surrounds = outer > 0 and inner < -0.5 * width
     away = inner if inner > 0 else -0.3 * inner
-    near = 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.unit)))
-    alongside = overlap_share(drawer.box, node.box, 2) * overlap_share(drawer.box, node.box, slide)
-    return near * alongside * CARRIES[node.label]
+    return 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.unit)))
 
 
 def _nearest(drawer: PartNode, scene: Scene) -> list[Verdict[str]]:
     """Returns the one part that carries a drawer without flanks: a tray hangs under its top."""
-    gaps = {node: drawer.box.gap(node.box) / scene.unit for node in scene.supports}
-    found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps.items() if gap <= _REACH})
+    gaps = zip(scene.supports, scene.support_boxes.gaps(drawer.box) / scene.unit, strict=True)
+    found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps if gap <= _REACH})
     return [] if found is None else [found]
 
 

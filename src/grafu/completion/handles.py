@@ -5,6 +5,8 @@ from typing import final
 
 import numpy as np
 
+from grafu.completion.scene import BoxStack
+from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, RefusedMotion
 from grafu.graph.edges import Attached
@@ -29,7 +31,7 @@ class Attachments:
 
 def attach_handles(graph: FunctionalGraph) -> Attachments:
     """Returns the graph with an attached edge per handle; handles that are attached already stay as they are."""
-    movable = graph.labelled(PartLabel.DOOR, PartLabel.DRAWER)
+    movable = BoxStack(graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
     held = {edge.child for edge in graph.attachments}
     edges: list[Attached] = []
     decisions: list[Decision] = []
@@ -37,7 +39,8 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
     for handle in graph.labelled(PartLabel.HANDLE):
         if handle.id in held:
             continue
-        ranked = sorted(((_misfit(handle, part, graph), part.id) for part in movable), key=lambda item: item[0])
+        misfits = _misfits(handle, movable, graph) if movable.nodes else []
+        ranked = sorted(zip(misfits, (n.id for n in movable.nodes), strict=True), key=lambda item: item[0])
         if not ranked or ranked[0][0] > _FAR:
             refused.append(RefusedMotion(handle.id, _NO_PARENT))
             continue
@@ -46,20 +49,18 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
     return Attachments(with_edges(graph, edges), tuple(decisions), tuple(refused))
 
 
-def _misfit(handle: PartNode, part: PartNode, graph: FunctionalGraph) -> float:
-    """Returns how badly a handle fits a part, as a share of the object: its gap, and how far it hangs over."""
+def _misfits(handle: PartNode, parts: BoxStack, graph: FunctionalGraph) -> list[float]:
+    """Returns how badly a handle fits each part, as a share of the object: its gap, and how far it hangs over."""
     unit = max(float(graph.box.size.max()), 1e-9)
-    touching = part.id in graph.neighbours[handle.id]
-    overhang = (1.0 - _share_in_front(handle.box, part.box)) * float(handle.box.size.max())
-    return (handle.box.gap(part.box) + overhang) / unit - 0.002 * touching
+    touching = [part.id in graph.neighbours[handle.id] for part in parts.nodes]
+    overhang = (1.0 - _shares_in_front(handle.box, parts)) * float(handle.box.size.max())
+    return ((parts.gaps(handle.box) + overhang) / unit - 0.002 * np.array(touching)).tolist()
 
 
-def _share_in_front(handle: Box, part: Box) -> float:
-    """Returns the largest share of the handle that one face of the part lies behind, seen along an axis."""
-    low, high = np.maximum(handle.low, part.low), np.minimum(handle.high, part.high)
-    inside = np.clip((high - low) / np.maximum(handle.size, 1e-9), 0.0, 1.0)
-    inside = np.where(handle.size <= 1e-9, (high >= low).astype(float), inside)
-    return max(float(np.prod(np.delete(inside, axis))) for axis in range(3))
+def _shares_in_front(handle: Box, parts: BoxStack) -> Scalars:
+    """Returns for each part the largest share of the handle that one of its faces lies behind, seen along an axis."""
+    inside = parts.overlap_shares(handle)
+    return np.max([np.delete(inside, axis, axis=1).prod(axis=1) for axis in range(3)], axis=0)
 
 
 def _decision(handle: PartNode, ranked: list[tuple[float, str]]) -> Decision:

@@ -1,15 +1,18 @@
 """What the rules ask of a graph again and again: the static body, its size, who may carry, whose handle is whose."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
+from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
+
+_FLAT = 1e-9  # metres: an extent below this has no length to take shares of
 
 # How likely a part of this label carries a door's hinge or a drawer's rail, other things equal.
 CARRIES: Mapping[PartLabel, float] = {
@@ -28,6 +31,31 @@ CARRIES: Mapping[PartLabel, float] = {
 
 
 @final
+class BoxStack:
+    """The boxes of some nodes as arrays, so that one of them is compared with all at once; not a value."""
+
+    def __init__(self, nodes: Sequence[PartNode]) -> None:
+        self.nodes = tuple(nodes)
+        self._low = np.array([n.box.low for n in nodes]).reshape(-1, 3)
+        self._high = np.array([n.box.high for n in nodes]).reshape(-1, 3)
+
+    def gaps(self, box: Box) -> Scalars:
+        """Returns the distance of each box from `box`, metres, 0 where they touch or overlap."""
+        apart = np.maximum(np.maximum(self._low - box.high, box.low - self._high), 0.0)
+        return np.linalg.norm(apart, axis=1)
+
+    def overlap_shares(self, box: Box) -> Points:
+        """Returns which share of `box` along each axis each box covers; a flat extent is covered or not."""
+        lengths = np.minimum(self._high, box.high) - np.maximum(self._low, box.low)
+        flat = box.size <= _FLAT
+        return np.where(flat, lengths >= 0, np.clip(lengths / np.where(flat, 1.0, box.size), 0.0, 1.0))
+
+    def offset_shares(self, box: Box) -> Points:
+        """Returns where the middle of each box lies along each axis of `box`: -1 and 1 are its ends."""
+        return ((self._low + self._high) / 2 - box.center) / np.maximum(box.half, _FLAT)
+
+
+@final
 @dataclass(frozen=True)
 class Scene:
     """A graph whose handles are attached, prepared for the rules. Lengths are metres, `unit` the largest side."""
@@ -43,6 +71,18 @@ class Scene:
     def supports(self) -> tuple[PartNode, ...]:
         """The parts that may carry a mechanism."""
         return tuple(n for n in self.graph.nodes if n.label.is_support)
+
+    @cached_property
+    def support_boxes(self) -> BoxStack:
+        """The boxes of the supports."""
+        return BoxStack(self.supports)
+
+    @cached_property
+    def blocker_boxes(self) -> BoxStack:
+        """The boxes of what a drawer cannot pass through: solid static parts and other drawers."""
+        passable = (PartLabel.FACE_FRAME, PartLabel.MISC)
+        solid = (n for n in self.graph.nodes if n.label.is_support and n.label not in passable)
+        return BoxStack([*solid, *self.graph.labelled(PartLabel.DRAWER)])
 
     @cached_property
     def body(self) -> Box:
@@ -76,13 +116,11 @@ class Scene:
 
 def overlap_share(a: Box, b: Box, axis: int) -> float:
     """Returns which share of a's extent along an axis b covers, 0..1; a flat extent is covered or not."""
-    low, high = max(a.low[axis], b.low[axis]), min(a.high[axis], b.high[axis])
-    length = float(a.size[axis])
-    if length <= 1e-9:
-        return float(high >= low)
-    return float(np.clip((high - low) / length, 0.0, 1.0))
+    shared = float(min(a.high[axis], b.high[axis])) - float(max(a.low[axis], b.low[axis]))
+    length = float(a.high[axis]) - float(a.low[axis])
+    return float(shared >= 0) if length <= _FLAT else min(max(shared / length, 0.0), 1.0)
 
 
 def offset_share(box: Box, point: np.ndarray, axis: int) -> float:
     """Returns where a point lies along an axis of a box: -1 and 1 are its ends, 0 its middle."""
-    return float((point[axis] - box.center[axis]) / max(float(box.half[axis]), 1e-9))
+    return float((point[axis] - box.center[axis]) / max(float(box.half[axis]), _FLAT))

@@ -5,6 +5,7 @@ touch things that they only surround. Here the boxes choose the pairs and the di
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, final
 
 import numpy as np
@@ -101,16 +102,26 @@ class _Triangles:
         self.corners = mesh.triangles[largest_first]
         self._low, self._high = self.corners.min(axis=1), self.corners.max(axis=1)
 
+    @cached_property
+    def whole(self) -> MeshCollider:
+        """All triangles, ready for queries."""
+        return _collider(self.corners)
+
     def near(self, box: Box, margin: float) -> np.ndarray:
         """Returns the corners of the triangles that come near a box, the largest triangles first."""
         return self.corners[np.all((self._low <= box.high + margin) & (self._high >= box.low - margin), axis=1)]
 
 
 def _touch(a: _Triangles, b: _Triangles, tolerance: float) -> bool:
-    """Whether two meshes come within `tolerance`; only triangles near the other's box are looked at.
+    """Whether two meshes come within `tolerance`.
 
-    Building the trees costs most, and parts mostly touch with their large faces: these are tried first.
+    Building the trees costs most. Small meshes keep theirs; of large ones only triangles near the other's box are
+    looked at, and the largest of these first, because parts mostly touch with their large faces.
     """
+    if not (len(a.corners) and len(b.corners)):
+        return False
+    if max(len(a.corners), len(b.corners)) <= _FEW:
+        return a.whole.distance(b.whole) <= tolerance
     near_a, near_b = a.near(b.box, tolerance), b.near(a.box, tolerance)
     if not (len(near_a) and len(near_b)):
         return False
