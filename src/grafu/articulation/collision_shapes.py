@@ -4,18 +4,19 @@ Hinges and rails carry no shape: their knuckles and channels interlock, and only
 file format.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.convex_pieces import DEFAULT_PIECE_CONFIG, PieceConfig, convex_pieces, hull_of
+from grafu.articulation.convex_pieces import DEFAULT_PIECE_CONFIG, PieceConfig, convex_pieces, few_corners, hull_of
 from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.geometry.transform import rotation_matrix
+from grafu.vocabulary import PartLabel
 
 CollisionShape = OrientedBox | ConvexSolid
 
@@ -27,12 +28,14 @@ class CollisionConfig:
 
     Every side of a shape moves in by `margin`, so that parts that touch at rest do not push one another. No shape is
     thinner than `least_thickness`: thin hulls fall through in PhysX. A hull that fills its box to `box_share` becomes
-    that box. A link has at most `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
+    that box. Gaps in handles are kept down to a depth of `grip`, so that a finger fits. A link has at most
+    `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
     """
 
     margin: float = 0.0005
     least_thickness: float = 0.004
     box_share: float = 0.85
+    grip: float = 0.008
     most_shapes: int = 48
     most_corners: int = 48
     pieces: PieceConfig = DEFAULT_PIECE_CONFIG
@@ -43,7 +46,7 @@ DEFAULT_COLLISION_CONFIG = CollisionConfig()
 
 def collision_shapes(link: Link, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> tuple[CollisionShape, ...]:
     """Returns the collision shapes of a link in the object frame at rest, the largest first."""
-    shapes = [shape for visual in link.visuals if _collides(visual) for shape in _shapes_of(visual.mesh, config)]
+    shapes = [shape for visual in link.visuals for shape in _shapes_of(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
     kept: list[CollisionShape] = []
     for shape in shapes:
@@ -67,13 +70,21 @@ def _collides(visual: Visual) -> bool:
     return visual.role is not VisualRole.HARDWARE or visual.name.startswith("support_")
 
 
-def _shapes_of(mesh: TriangleMesh, config: CollisionConfig) -> list[CollisionShape]:
-    if not len(mesh.faces):
+def _shapes_of(visual: Visual, config: CollisionConfig) -> list[CollisionShape]:
+    mesh = visual.mesh
+    if not len(mesh.faces) or not _collides(visual):
         return []
     R = _yaw_rotation(mesh.vertices)
-    pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), config.pieces)
+    pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), _fineness(visual.label, config))
     made = (_shape_around(piece.vertices @ R.T, R, config) for piece in pieces)
     return [shape for shape in made if shape is not None]
+
+
+def _fineness(label: PartLabel, config: CollisionConfig) -> PieceConfig:
+    if label in (PartLabel.LEG, PartLabel.BAR):  # nothing reaches inside, and turned legs would fall into many slices
+        return replace(config.pieces, cuts=False)
+    tolerance = min(config.pieces.tolerance, config.grip) if label is PartLabel.HANDLE else config.pieces.tolerance
+    return replace(config.pieces, tolerance=tolerance)
 
 
 def _yaw_rotation(points: Points) -> Mat3:
@@ -99,22 +110,10 @@ def _smaller(half: Vec3, config: CollisionConfig) -> Vec3:
 
 
 def _smaller_hull(hull: ConvexSolid, R: Mat3, config: CollisionConfig) -> ConvexSolid | None:
-    local = _few_corners(hull.vertices, config.most_corners) @ R
+    local = few_corners(hull.vertices, config.most_corners) @ R
     box = Box.around(local)
     factor = np.minimum(1.0, _smaller(box.half, config) / np.maximum(box.half, 1e-9))
     return ConvexSolid.around(((local - box.center) * factor + box.center) @ R.T)
-
-
-def _few_corners(points: Points, most: int) -> Points:
-    """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
-    if len(points) <= most:
-        return points
-    turn = np.arange(most) * np.pi * (3.0 - np.sqrt(5.0))
-    height = 1.0 - (2.0 * np.arange(most) + 1.0) / most
-    ring = np.sqrt(1.0 - height**2)
-    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
-    size = np.maximum(np.ptp(points, axis=0), 1e-9)
-    return points[np.unique(np.argmax((points / size) @ directions.T, axis=0))]
 
 
 def _volume(hull: ConvexSolid) -> float:

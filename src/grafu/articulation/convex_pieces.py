@@ -6,6 +6,7 @@ along an axis and which is far from every face. It knows no links; coordinates a
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, final
 
 import manifold3d
@@ -23,6 +24,7 @@ _DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -
 _PAST_THE_WALL = 0.0005  # metres: faces on a cut belong to the board that is cut off
 _GRID = 10  # points per side at most: pits narrower than a tenth of the part are filled
 _slice: Any = slice_faces_plane  # trimesh states no types
+_TRIES = 4  # walls of one pit that are tried for a clean cut
 _SPECK = 0.004  # pieces smaller than this (metres) carry no load and stop no hand
 
 
@@ -31,13 +33,13 @@ _SPECK = 0.004  # pieces smaller than this (metres) carry no load and stop no ha
 class PieceConfig:
     """How finely a mesh is taken apart.
 
-    Pits less deep than `tolerance` metres, or than `share` of the piece's middle side (the gap behind a bar handle is
-    small), are filled. At most `most` pieces come of one mesh.
+    Pits less deep than `tolerance` metres are filled. At most `most` pieces come of one mesh; without `cuts`, connected
+    parts stay whole.
     """
 
     tolerance: float = 0.02
-    share: float = 0.15
-    most: int = 32
+    most: int = 16
+    cuts: bool = True
 
 
 DEFAULT_PIECE_CONFIG = PieceConfig()
@@ -55,6 +57,18 @@ def convex_pieces(mesh: TriangleMesh, config: PieceConfig = DEFAULT_PIECE_CONFIG
 def hull_of(points: Points, least_thickness: float) -> ConvexSolid | None:
     """Returns the convex hull of points; flat ones are thickened to `least_thickness` metres. None for fewer than 3."""
     return ConvexSolid.around(_thickened(points, least_thickness))
+
+
+def few_corners(points: Points, most: int) -> Points:
+    """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
+    if len(points) <= most:
+        return points
+    turn = np.arange(most) * np.pi * (3.0 - np.sqrt(5.0))
+    height = 1.0 - (2.0 * np.arange(most) + 1.0) / most
+    ring = np.sqrt(1.0 - height**2)
+    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
+    size = np.maximum(np.ptp(points, axis=0), 1e-9)
+    return points[np.unique(np.argmax((directions / size) @ points.T, axis=1))]
 
 
 @final
@@ -118,21 +132,29 @@ def _apart_once(piece: _Piece, config: PieceConfig) -> list[_Piece]:
     if pit is None:
         return []
     parts = piece.parts()
-    return parts if len(parts) > 1 else _cut(parts[0], pit, config) if parts else []
+    return _cut(parts[0], pit, config) if len(parts) == 1 and config.cuts else parts
 
 
 def _deepest_pit(mesh: TriangleMesh, config: PieceConfig) -> Vec3 | None:
     """Returns the point of the deepest pit, None where every pit is within the tolerance."""
     sides = np.sort(mesh.box.size)
-    tolerance = min(config.tolerance, config.share * float(sides[1]))
-    solid = hull_of(mesh.vertices, _SPECK)
-    if solid is None or sides[2] < 4 * _SPECK:
+    solid = (
+        None if sides[2] < 2 * config.tolerance or _is_box(mesh) else hull_of(few_corners(mesh.vertices, 96), _SPECK)
+    )
+    if solid is None:
         return None
-    points = _inside(solid, _grid(solid.box, tolerance))
+    points = _inside(solid, _grid(solid.box, config.tolerance))
     depth = _depths(RayCaster(mesh), points, float(sides[2]))
-    if not len(depth) or depth.max() <= tolerance:
+    if not len(depth) or depth.max() <= config.tolerance:
         return None
     return points[int(np.argmax(depth))]
+
+
+def _is_box(mesh: TriangleMesh) -> bool:
+    """Whether a mesh is the plain closed box that most boards are: a quick answer to spare the long question."""
+    at_low, at_high = np.abs(mesh.vertices - mesh.box.low) < 1e-6, np.abs(mesh.vertices - mesh.box.high) < 1e-6
+    a, b, c = mesh.box.size
+    return bool(np.all(at_low | at_high)) and mesh.area > 1.98 * float(a * b + b * c + c * a)
 
 
 def _grid(box: Box, spacing: float) -> Points:
@@ -160,7 +182,7 @@ def _depths(caster: RayCaster, points: Points, most: float) -> Scalars:
 def _cut(piece: _Piece, pit: Vec3, config: PieceConfig) -> list[_Piece]:
     """Returns both sides of a wall of the pit: at best one where what lies beyond it has no pit."""
     fallback: list[_Piece] = []
-    for axis, sign, position in _walls(piece.mesh, pit):
+    for axis, sign, position in islice(_walls(piece.mesh, pit), _TRIES):
         board, rest = piece.halves(axis, sign, position - sign * _PAST_THE_WALL)
         if not len(board.mesh.faces) or not len(rest.mesh.faces):
             continue
@@ -192,10 +214,9 @@ def _sliced(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
 
 def _thickened(points: Points, least: float) -> Points:
     """Returns points that are at least `least` apart in every direction: flat sets are doubled along their normal."""
-    center = points.mean(axis=0)
-    axes = np.linalg.svd(points - center, full_matrices=False)[2] if len(points) > 2 else np.zeros((0, 3))
-    for axis in axes:
-        extent = np.ptp(points @ axis)
+    offsets = points - points.mean(axis=0)
+    for axis in np.linalg.eigh(offsets.T @ offsets)[1].T:
+        extent = float(np.ptp(points @ axis))
         if extent < least:
             points = np.vstack([points - axis * (least - extent) / 2, points + axis * (least - extent) / 2])
     return points
