@@ -17,7 +17,7 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
 
 ROOT = Path(__file__).parent.parent
-COLOURS = 160  # a palette is a third of the bytes, and nobody sees it on plain wood
+COLOURS = 256  # a palette is a third of the bytes, and nobody sees it on plain wood
 
 
 def main() -> int:

@@ -88,9 +88,21 @@ def test_no_file_names_a_place_on_one_machine() -> None:
     assert found == []
 
 
-def test_the_base_install_has_neither_torch_nor_blender() -> None:
+def imported_packages() -> set[str]:
+    trees = [ast.parse(p.read_text()) for p in SOURCES]
+    nodes = [node for tree in trees for node in ast.walk(tree)]
+    names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level}
+    return {name.split(".")[0] for name in names} - set(sys.stdlib_module_names) - {"grafu"}
+
+
+def test_the_base_install_is_what_is_imported() -> None:
     stated = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
-    assert not [name for name in stated if re.match(r"(torch|bpy)\b", name)]
+    modules = {"python-fcl": "fcl", "pillow": "PIL", "mapbox-earcut": "mapbox_earcut"}
+    names = {re.split(r"[<>=]", line)[0] for line in stated}
+
+    assert {modules.get(name, name) for name in names} == imported_packages()
+    assert not names & {"torch", "bpy"}
 
 
 def test_the_pipeline_imports_neither_torch_nor_blender() -> None:
