@@ -12,12 +12,13 @@ import numpy as np
 
 from grafu.asset.clean import cleaned
 from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
-from grafu.asset.frame import settle_frame
+from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
 from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import AnnotatedJoint, Asset, Frame, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
+from grafu.asset.pieces import with_joined_pieces
 from grafu.asset.reading import Reading
 from grafu.asset.riders import with_riders
 from grafu.asset.urdf import read_urdf
@@ -53,6 +54,7 @@ def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
     kind, place = detect(path)
     reading = cleaned(READERS[kind](place, options))
     _check_parts(reading, path, options)
+    reading = reading if reading.joints else _joined(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
     parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))
@@ -124,6 +126,11 @@ def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
     if count == 1:
         only = reading.parts[0].source.name
         raise UnsegmentedAsset(f"{path} is one part ({only}): expected several; segment it into parts first")
+
+
+def _joined(reading: Reading) -> Reading:
+    parts, notes = with_joined_pieces(reading.parts, whole_box(reading.parts))
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
 
 
 def _without_labels(reading: Reading) -> Reading:

@@ -1,0 +1,125 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grafu.asset.edit import as_static_object, yawed
+from grafu.asset.frame import settle_frame
+from grafu.asset.load import load_asset
+from grafu.asset.options import DIRECTIONS, LoadOptions
+from grafu.asset.orientation import decide_front, front_votes, up_from_parts, vector
+from grafu.asset.part import Asset
+from grafu.asset.reading import Convention, Reading
+from grafu.asset.riders import with_riders
+from grafu.asset.scale import estimate_scale, likely_unit
+from grafu.errors import AssetError
+from grafu.export.files import write_files
+from grafu.export.glb import export_glb
+from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.vocabulary import PartLabel
+from strategies import cabinet_specs
+
+UNKNOWN = Convention("nothing")
+
+
+def cabinet() -> Asset:
+    return make_cabinet(Cabinet())
+
+
+def reading_of(asset: Asset, T: np.ndarray) -> Reading:
+    parts = tuple(
+        type(p)(p.id, p.label, tuple(s.transformed(T) for s in p.surfaces), p.source, p.labelled_by, p.rides_on)
+        for p in asset.parts
+    )
+    return Reading("made", parts, UNKNOWN)
+
+
+def turned(up: str, front: str) -> np.ndarray:
+    """Returns the rotation from the object frame to coordinates with this up and front."""
+    u, f = vector(up), vector(front)
+    T = np.eye(4)
+    T[:3, :3] = np.column_stack([np.cross(-f, u), -f, u])
+    return T
+
+
+@pytest.mark.parametrize(("up", "front"), [(u, f) for u in DIRECTIONS for f in DIRECTIONS if u[1] != f[1]])
+def test_labels_tell_up_and_front_in_all_24_poses(up, front):
+    frame = settle_frame(reading_of(cabinet(), turned(up, front)), LoadOptions())
+    assert (frame.up, frame.front) == (up, front)
+    np.testing.assert_allclose(frame.input_to_output[:3, :3] @ turned(up, front)[:3, :3] / frame.scale, np.eye(3))
+
+
+@settings(max_examples=25)
+@given(st.floats(1e-4, 1e4))
+def test_the_estimate_answers_scale_with_its_inverse(factor):
+    asset = cabinet()
+    T = np.diag([factor, factor, factor, 1.0])
+    plain = estimate_scale(asset.parts, asset.box, 2, None)
+    other = reading_of(asset, T)
+    box = type(asset.box)(asset.box.low * factor, asset.box.high * factor)
+    assert estimate_scale(other.parts, box, 2, None).scale * factor == pytest.approx(plain.scale, rel=1e-9)
+
+
+@pytest.mark.parametrize("turns", [1, 2, 3])
+def test_the_estimate_ignores_quarter_turns(turns):
+    asset = cabinet()
+    other = yawed(asset, turns * math.pi / 2)
+    scales = [estimate_scale(a.parts, a.box, 2, None).scale for a in (asset, other)]
+    assert scales[0] == pytest.approx(scales[1], rel=1e-9)
+
+
+@settings(max_examples=15)
+@given(cabinet_specs)
+def test_made_cabinets_are_estimated_within_a_factor_of_two(spec):
+    asset = make_cabinet(spec)
+    assert 0.5 < estimate_scale(asset.parts, asset.box, 2, None).scale < 2.0
+
+
+def test_units_are_told_by_plausible_sizes():
+    asset = cabinet()
+    estimate = estimate_scale(asset.parts, asset.box, 2, None)
+    size = asset.box.size.max()
+    assert likely_unit(size, estimate) == ("metres", 1.0)
+    tiny = type(estimate)(estimate.scale * 0.12, estimate.kind, estimate.measures)
+    assert likely_unit(size / 0.12, tiny) is None
+
+
+def test_a_convention_holds_unless_nearly_all_speaks_against_it():
+    assert decide_front({"+X": 0.0, "-X": 0.0, "-Y": 3.0, "+Y": 0.0}, "-Y", "-Y") == ("-Y", "convention")
+    assert decide_front({"+X": 3.0, "-X": 0.0, "-Y": 0.0, "+Y": 0.5}, "-Y", "-Y") == ("+X", "geometry")
+    assert decide_front({"+X": 3.0, "-X": 0.0, "-Y": 1.0, "+Y": 0.0}, "-Y", "-Y") == ("-Y", "convention")
+    assert decide_front({"+X": 1.0, "-X": 1.0, "-Y": 0.0, "+Y": 0.0}, None, "-Y") == ("-Y", "habit")
+
+
+def test_without_labels_nothing_is_claimed():
+    asset = cabinet().with_labels({p.id: PartLabel.UNKNOWN for p in cabinet().parts})
+    assert up_from_parts(asset.parts, asset.box) is None
+    assert not any(front_votes(asset.parts, (), asset.box, "+Z").values())
+    frame = settle_frame(reading_of(asset, np.eye(4)), LoadOptions())
+    assert (frame.up, frame.front) == ("+Y", "+Z")
+    assert any("--up changes it" in said for said in frame.assumed)
+
+
+def test_a_front_on_the_upright_axis_is_refused():
+    with pytest.raises(AssetError, match="axis that is up"):
+        settle_frame(reading_of(cabinet(), np.eye(4)), LoadOptions(front="+Z"))
+
+
+@settings(max_examples=15)
+@given(cabinet_specs)
+def test_handles_are_found_on_what_carries_them(spec):
+    asset = make_cabinet(spec)
+    stated = {p.id: p.rides_on for p in asset.parts}
+    found = {p.id: p.rides_on for p in with_riders(asset.without_annotation().parts)}
+    assert found == stated
+
+
+def test_a_glb_that_was_written_reads_back_as_its_parts(tmp_path):
+    asset = cabinet()
+    write_files(export_glb(as_static_object(asset)), tmp_path / "m")
+    back = load_asset(tmp_path / "m")
+    assert [(p.id, p.label, p.rides_on) for p in back.parts] == [(p.id, p.label, p.rides_on) for p in asset.parts]
+    for a, b in zip(asset.parts, back.parts, strict=True):
+        np.testing.assert_allclose([b.box.low, b.box.high], [a.box.low, a.box.high], atol=1e-6)

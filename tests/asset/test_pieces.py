@@ -1,0 +1,65 @@
+import numpy as np
+import pytest
+
+from grafu.asset.part import Part, PartSource
+from grafu.asset.pieces import with_joined_pieces
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.vocabulary import PartLabel
+
+WHOLE = Box(np.zeros(3), np.ones(3))
+
+
+def part(name, low, high, label=PartLabel.DRAWER, rides_on=None):
+    mesh = TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+    return Part(name, label, (Surface(mesh),), PartSource(name), rides_on=rides_on)
+
+
+def drawer(tag, low, high):
+    """A drawer in five pieces that opens to -Y, its front at y = 0."""
+    z = (low + high) / 2
+    return [
+        part(f"drawer_front{tag}", (0, 0, low), (1, 0.02, high)),
+        part(f"drawer_side{tag}a", (0.05, 0.02, low + 0.02), (0.06, 0.5, high - 0.02)),
+        part(f"drawer_side{tag}b", (0.94, 0.02, low + 0.02), (0.95, 0.5, high - 0.02)),
+        part(f"drawer_bottom{tag}", (0.06, 0.02, low + 0.03), (0.94, 0.5, low + 0.04)),
+        part(f"drawer_handle{tag}", (0.4, -0.03, z), (0.6, 0, z + 0.01), PartLabel.HANDLE, f"drawer_side{tag}a"),
+    ]
+
+
+def test_pieces_join_the_front_that_covers_them():
+    parts, notes = with_joined_pieces((*drawer("A", 0.0, 0.3), *drawer("B", 0.31, 0.6)), WHOLE)
+    assert [p.id for p in parts] == ["drawer_frontA", "drawer_handleA", "drawer_frontB", "drawer_handleB"]
+    assert [len(p.surfaces) for p in parts] == [4, 1, 4, 1]
+    assert parts[1].rides_on == "drawer_frontA"
+    assert len(notes) == 2
+
+
+def test_a_two_sided_desk_joins_each_piece_to_the_nearer_front():
+    near, far = part("drawer_front1", (0, 0, 0), (1, 0.02, 0.3)), part("drawer_front2", (0, 0.98, 0), (1, 1, 0.3))
+    side = part("drawer_side", (0.1, 0.6, 0.02), (0.12, 0.98, 0.28))
+    parts, _ = with_joined_pieces((near, side, far), WHOLE)
+    assert {p.id: len(p.surfaces) for p in parts} == {"drawer_front1": 1, "drawer_front2": 2}
+
+
+def test_pieces_without_a_front_stay_apart():
+    alone = (part("drawer_side1", (0, 0, 0), (0.02, 0.5, 0.2)), part("drawer_bottom1", (0, 0, 0), (0.5, 0.5, 0.01)))
+    parts, notes = with_joined_pieces(alone, WHOLE)
+    assert parts == alone
+    assert not notes
+
+
+@pytest.mark.parametrize(("y", "count"), [(0.005, 1), (0.2, 2)])
+def test_a_pane_joins_the_door_frame_around_it_only_where_they_touch(y, count):
+    frame = part("door_frame1", (0, 0, 0), (0.5, 0.02, 1), PartLabel.DOOR)
+    pane = part("door_glass1", (0.05, y, 0.05), (0.45, y + 0.004, 0.95), PartLabel.DOOR)
+    parts, _ = with_joined_pieces((pane, frame), WHOLE)
+    assert len(parts) == count
+    assert "door_frame1" in {p.id for p in parts}
+
+
+def test_neighbouring_doors_and_whole_drawers_are_left_alone():
+    doors = tuple(part(f"door_panel{i}", (i * 0.5, 0, 0), (i * 0.5 + 0.5, 0.02, 1), PartLabel.DOOR) for i in range(2))
+    wholes = (part("drawer_1", (0, 0, 0), (1, 0.5, 0.3)), part("drawer_2", (0, 0, 0.01), (1, 0.5, 0.29)))
+    assert with_joined_pieces(doors + wholes, WHOLE)[0] == doors + wholes
