@@ -38,7 +38,7 @@ class Camera(ArrayValue):
     def rotation(self) -> Mat3:
         """The camera's axes in the object frame as columns: right, down, forward."""
         forward = (self.target - self.eye) / np.linalg.norm(self.target - self.eye)
-        right = np.cross(forward, vec3(0, 0, 1))
+        right = np.cross(forward, vec3(0.0, 0.0, 1.0))
         right /= np.linalg.norm(right)
         return np.stack([right, np.cross(forward, right), forward], axis=1)
 

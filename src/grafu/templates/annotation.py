@@ -158,9 +158,9 @@ def snap_plane(note: PlaneNote, T: Mat4, normal: Vec3, name: str) -> SnapPlane:
 def hinge_normals(mechanism: MechanismClass) -> tuple[Vec3, Vec3]:
     """Returns the normals of the static and the dynamic snap plane of a hinge class."""
     return {
-        MechanismClass.C: (vec3(-1, 0, 0), vec3(1, 0, 0)),
-        MechanismClass.F: (vec3(0, -1, 0), vec3(0, -1, 0)),
-        MechanismClass.P: (vec3(-1, 0, 0), vec3(0, -1, 0)),
+        MechanismClass.C: (vec3(-1.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)),
+        MechanismClass.F: (vec3(0.0, -1.0, 0.0), vec3(0.0, -1.0, 0.0)),
+        MechanismClass.P: (vec3(-1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)),
     }[mechanism]
 
 

@@ -1,7 +1,6 @@
 """Metal and plastic finishes, and surfaces with smooth curved sides and sharp edges. It makes no shapes."""
 
 import numpy as np
-from scipy.sparse import coo_matrix
 
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.mesh import TriangleMesh
@@ -24,31 +23,38 @@ def finished(mesh: TriangleMesh, material: Material) -> Surface:
     if not len(mesh.faces):
         return Surface(mesh, material)
     corners = mesh.faces.reshape(-1)
-    count = len(corners)
-    faces = np.repeat(np.arange(len(mesh.faces)), 3)
-    order = np.argsort(corners, kind="stable")
-    normals = _corner_normals(mesh, corners, faces, order)
+    normals = _corner_normals(mesh, corners)
     rows = np.c_[corners, np.round(normals * 1e6)].astype(np.int64)
     _, first, index = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    split = TriangleMesh(mesh.vertices[corners[first]], index.reshape(count // 3, 3))
+    split = TriangleMesh(mesh.vertices[corners[first]], index.reshape(-1, 3))
     return Surface(split, material, normals=normals[first])
 
 
-def _corner_normals(mesh: TriangleMesh, corners: np.ndarray, faces: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """Returns for each face corner the area-weighted mean over the faces at its vertex that are nearly coplanar."""
-    at = coo_matrix((np.ones(len(order)), (faces, corners)), shape=(len(mesh.faces), len(mesh.vertices))).tocsr()
-    pairs = (at @ at.T).tocoo()  # faces that share a vertex
+def _corner_normals(mesh: TriangleMesh, corners: np.ndarray) -> np.ndarray:
+    """Returns for each face corner the mean, weighted by corner angles, over nearly coplanar faces at its vertex."""
+    one, other = _corner_pairs(corners)
     unit = mesh.face_normals
-    smooth = np.einsum("ij,ij->i", unit[pairs.row], unit[pairs.col]) > _CREASE
-    near = coo_matrix((np.ones(int(smooth.sum())), (pairs.row[smooth], pairs.col[smooth])), shape=pairs.shape).tocsr()
-    total = np.zeros((len(corners), 3))
-    for corner in range(3):
-        total[corner::3] = _mean_normals(mesh, near, at, mesh.faces[:, corner])
+    weighted = np.repeat(unit, 3, axis=0) * _corner_angles(mesh)[:, None]  # so a quad counts alike however it is split
+    smooth = np.einsum("ij,ij->i", unit[one // 3], unit[other // 3]) > _CREASE
+    one, other = one[smooth], other[smooth]
+    total = np.stack([np.bincount(one, weighted[other, k], len(corners)) for k in range(3)], axis=1)
     return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
 
 
-def _mean_normals(mesh: TriangleMesh, near: coo_matrix, at: coo_matrix, vertices: np.ndarray) -> np.ndarray:
-    """Returns for each face the summed cross products of its near faces that hold the given vertex of it."""
-    weighted = mesh.face_normals * mesh.face_areas[:, None]
-    holds = at[:, vertices].T.minimum(1.0)  # row i: the faces around vertex i
-    return near.multiply(holds).tocsr() @ weighted
+def _corner_angles(mesh: TriangleMesh) -> np.ndarray:
+    """Returns the angle of each face at each of its corners, radians."""
+    ahead = np.roll(mesh.triangles, -1, axis=1) - mesh.triangles
+    ahead = ahead / np.maximum(np.linalg.norm(ahead, axis=2, keepdims=True), 1e-300)
+    back = -np.roll(ahead, 1, axis=1)
+    return np.arccos(np.clip(np.einsum("fck,fck->fc", ahead, back), -1.0, 1.0)).reshape(-1)
+
+
+def _corner_pairs(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns all ordered pairs of corners at the same vertex, each corner with itself too."""
+    order = np.argsort(corners, kind="stable")
+    counts = np.bincount(corners)
+    starts = np.cumsum(counts) - counts
+    repeats = counts[corners]
+    one = np.repeat(np.arange(len(corners)), repeats)
+    within = np.arange(len(one)) - np.repeat(np.cumsum(repeats) - repeats, repeats)
+    return one, order[np.repeat(starts[corners], repeats) + within]

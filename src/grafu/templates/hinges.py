@@ -16,6 +16,7 @@ from typing import final
 
 import numpy as np
 from shapely.geometry import Polygon, box
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from grafu.errors import TemplateError
@@ -113,7 +114,7 @@ def _require_buildable(id: str, size: HingeSize) -> None:  # noqa: A002
 
 
 def _sides(mechanism: MechanismClass, size: HingeSize) -> tuple[_Side, _Side]:
-    x, y = vec3(1, 0, 0), vec3(0, 1, 0)
+    x, y = vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0)
     seam = min(SEAM_GAP, 0.05 * size.thickness)
     inner = size.radius - size.thickness
     if mechanism is MechanismClass.C:
@@ -127,7 +128,7 @@ def _sides(mechanism: MechanismClass, size: HingeSize) -> tuple[_Side, _Side]:
 
 def _snap(side: _Side, size: HingeSize) -> SnapPlane:
     middle = side.d * side.far + side.s * (size.leaf / 2)
-    return SnapPlane(middle, side.d, side.s * (size.leaf / 2), vec3(0, 0, size.length / 2))
+    return SnapPlane(middle, side.d, side.s * (size.leaf / 2), vec3(0.0, 0.0, size.length / 2.0))
 
 
 def _knuckle_spans(style: HingeStyle, size: HingeSize) -> list[tuple[float, float]]:
@@ -148,7 +149,7 @@ def _clearance(size: HingeSize) -> float:
 
 def _leaf_plan(
     style: HingeStyle, size: HingeSize, side: _Side, own: list[tuple[float, float]], moving: bool
-) -> Polygon:
+) -> BaseGeometry:
     """Returns a leaf's flat shape: its outline clear of the barrel, and a tongue into each of its own knuckles."""
     area = LeafArea(size.radius + min(KNUCKLE_GAP, 0.05 * size.radius), size.leaf, size.length / 2)
     outline = (style.dynamic_leaf if moving else style.static_leaf)(area)
@@ -165,7 +166,7 @@ def _leaf_surfaces(
     radius, holes = area.screw_radius(), style.screws(area)
     plan = _leaf_plan(style, size, side, own, moving)
     drilled = plan.difference(unary_union([disc(c, radius) for c in holes]))
-    z = vec3(0, 0, 1)
+    z = vec3(0.0, 0.0, 1.0)
     leaf = placed(extrude(drilled, side.near, side.far), side.s, z, side.d)
     heads = placed(_screw_heads(holes, radius, (side.near, side.far), slotted=style.pitch is None), side.s, z, side.d)
     return [finished(leaf, style.material), finished(heads, SCREW)]

@@ -118,7 +118,7 @@ def screws_on_upright(area: LeafArea) -> list[tuple[float, float]]:
 def screws_along(area: LeafArea) -> list[tuple[float, float]]:
     """Three screws in a row away from the pin."""
     first = area.start + max(0.14 * area.width, 1.5 * area.screw_radius())
-    return [(first, 0.0), (area.s(0.52), 0.0), (area.s(0.82), 0.0)]
+    return [(first, 0.0), (area.s(0.5), 0.0), (area.s(0.78), 0.0)]
 
 
 def screws_in_triangle(area: LeafArea) -> list[tuple[float, float]]:

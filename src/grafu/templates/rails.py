@@ -18,6 +18,7 @@ from typing import final
 import numpy as np
 import trimesh
 from shapely.geometry import Polygon, box
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from grafu.errors import TemplateError
@@ -103,9 +104,9 @@ def build_rail(id: str, style: RailStyle, size: RailSize) -> RailTemplate:  # no
     if min(size.length, size.height, size.thickness) <= 0:
         raise TemplateError(f"rail `{id}` needs positive sizes: got {size}")
     section, corner = _section(size), style.mechanism is MechanismClass.CORNER
-    u, v = vec3(0, size.length / 2, 0), vec3(0, 0, size.height / 2)
-    static = TemplateEnd(_static_surfaces(style, size, section), SnapPlane(np.zeros(3), vec3(-1, 0, 0), u, v))
-    flank = SnapPlane(vec3(size.thickness, 0, 0), vec3(1, 0, 0), u, v)
+    u, v = vec3(0.0, size.length / 2.0, 0.0), vec3(0.0, 0.0, size.height / 2.0)
+    static = TemplateEnd(_static_surfaces(style, size, section), SnapPlane(np.zeros(3), vec3(-1.0, 0.0, 0.0), u, v))
+    flank = SnapPlane(vec3(size.thickness, 0.0, 0.0), vec3(1.0, 0.0, 0.0), u, v)
     dynamic = TemplateEnd(_dynamic_surfaces(style, size, section), flank)
     support = _support_plane(size) if corner else None
     return RailTemplate(id, style.mechanism, static, dynamic, TRAVEL * size.length, size, support)
@@ -113,8 +114,8 @@ def build_rail(id: str, style: RailStyle, size: RailSize) -> RailTemplate:  # no
 
 def _support_plane(size: RailSize) -> SnapPlane:
     width, _ = shelf_of(size)
-    center = vec3(size.thickness + width / 2, 0, -size.height / 2)
-    return SnapPlane(center, vec3(0, 0, 1), vec3(0, size.length / 2, 0), vec3(width / 2, 0, 0))
+    center = vec3(size.thickness + width / 2.0, 0.0, -size.height / 2.0)
+    return SnapPlane(center, vec3(0.0, 0.0, 1.0), vec3(0.0, size.length / 2.0, 0.0), vec3(width / 2.0, 0.0, 0.0))
 
 
 def _static_surfaces(style: RailStyle, size: RailSize, c: _Section) -> tuple[Surface, ...]:
@@ -130,7 +131,7 @@ def _static_surfaces(style: RailStyle, size: RailSize, c: _Section) -> tuple[Sur
     return tuple(finished(mesh, material) for mesh, material in parts)
 
 
-def _channel_plan(c: _Section) -> Polygon:
+def _channel_plan(c: _Section) -> BaseGeometry:
     """Returns the channel's flanges and lips in (x, z); the drilled back is made apart and laps them."""
     flange = box(0.5 * c.wall, c.half - c.wall, c.a, c.half)
     lip = box(c.a - c.wall, c.lip, c.a, c.half)
@@ -162,7 +163,7 @@ def _dynamic_surfaces(style: RailStyle, size: RailSize, c: _Section) -> tuple[Su
     return (finished(merge_meshes(solids), style.dynamic_material),)
 
 
-def _hollow(bar: Polygon, c: _Section) -> Polygon:
+def _hollow(bar: Polygon, c: _Section) -> BaseGeometry:
     """Returns the bar's own section: a U open to the wall, so that it looks like bent sheet."""
     x0, _, x1, top = bar.bounds
     groove = box(x0 - c.wall, -top + 1.5 * c.wall, x1 - 1.5 * c.wall, top - 1.5 * c.wall)
@@ -194,16 +195,18 @@ def _rollers(size: RailSize, c: _Section) -> TriangleMesh:
     radius = c.lane / 2 - c.g
     x0, x1 = c.bar_x
     wheel = tube(0.0, radius, 0.0, x1 - x0 + 0.5 * c.wall, 14)
-    across = placed(wheel, vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 0, 0))
+    across = placed(wheel, vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0))
     z = -c.half + c.wall + 0.95 * radius
     return merge_meshes([across.translated(vec3(x0, y, z)) for y in (-0.47 * size.length, -0.35 * size.length)])
 
 
-def _along(plan: Polygon, size: RailSize) -> TriangleMesh:
+def _along(plan: BaseGeometry, size: RailSize) -> TriangleMesh:
     """Returns a cross-section in (x, z) drawn out along the whole rail."""
-    return placed(extrude(plan, -size.length / 2, size.length / 2), vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, 1, 0))
+    return placed(
+        extrude(plan, -size.length / 2, size.length / 2), vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 1.0, 0.0)
+    )
 
 
 def _across(plate: TriangleMesh) -> TriangleMesh:
     """Returns a plate drawn in (y, z, x)."""
-    return placed(plate, vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 0, 0))
+    return placed(plate, vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0))

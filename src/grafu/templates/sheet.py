@@ -31,12 +31,12 @@ def as_articulated(template: Template) -> ArticulatedObject:
     the front (-Y).
     """
     low = min(float(end.mesh.box.low[2]) for end in (template.static, template.dynamic))
-    T = translation(vec3(0, 0, -low))
+    T = translation(vec3(0.0, 0.0, -low))
     if isinstance(template, HingeTemplate):
-        T = T @ rotation_about(np.zeros(3), vec3(0, 0, 1), np.pi)
-        joint_type, axis = JointType.REVOLUTE, Axis(vec3(0, 0, 0), vec3(0, 0, 1))
+        T = T @ rotation_about(np.zeros(3), vec3(0.0, 0.0, 1.0), np.pi)
+        joint_type, axis = JointType.REVOLUTE, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
     else:
-        joint_type, axis = JointType.PRISMATIC, Axis(vec3(0, 0, 0), vec3(0, -1, 0))
+        joint_type, axis = JointType.PRISMATIC, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0))
     prefix = "hinge" if joint_type is JointType.REVOLUTE else "rail"
     links = []
     for name, end in (("static", template.static), ("dynamic", template.dynamic)):

@@ -72,7 +72,7 @@ def turned(profile: Sequence[tuple[float, float]], segments: int = 16) -> Triang
     ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     on_axis = rows[:, 0] < 1e-12
     sizes = np.where(on_axis, 1, segments)
-    starts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    starts = (np.cumsum(sizes) - sizes).tolist()
     vertices = [
         np.array([[0.0, 0.0, z]]) if r < 1e-12 else np.c_[ring * r, np.full(segments, z)] for r, z in rows.tolist()
     ]

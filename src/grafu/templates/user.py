@@ -142,10 +142,10 @@ def _rail_model(
 ) -> RailModel:
     mechanism, T = MechanismClass(note.mechanism), rail_frame(note)
     placed = (
-        _placed(static, T, snap_plane(note.static_snap, T, vec3(-1, 0, 0), "static_snap")),
-        _placed(dynamic, T, snap_plane(note.dynamic_snap, T, vec3(1, 0, 0), "dynamic_snap")),
+        _placed(static, T, snap_plane(note.static_snap, T, vec3(-1.0, 0.0, 0.0), "static_snap")),
+        _placed(dynamic, T, snap_plane(note.dynamic_snap, T, vec3(1.0, 0.0, 0.0), "dynamic_snap")),
     )
-    support = snap_plane(note.support_snap, T, vec3(0, 0, 1), "support_snap") if note.support_snap else None
+    support = snap_plane(note.support_snap, T, vec3(0.0, 0.0, 1.0), "support_snap") if note.support_snap else None
     if (support is None) is (mechanism is MechanismClass.CORNER):
         raise TemplateError("`support_snap` must be given for class corner-mount, and for that alone")
     natural = RailSize(*(note.unit * value for value in (note.length, note.height, note.thickness)))
