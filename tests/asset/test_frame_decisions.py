@@ -6,14 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.asset.edit import as_static_object, yawed
-from grafu.asset.frame import settle_frame
+from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.load import load_asset
 from grafu.asset.options import DIRECTIONS, LoadOptions
 from grafu.asset.orientation import decide_front, front_votes, up_from_parts, vector
 from grafu.asset.part import Asset
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.riders import with_riders
-from grafu.asset.scale import estimate_scale, likely_unit
+from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
 from grafu.errors import AssetError
 from grafu.export.files import write_files
 from grafu.export.glb import export_glb
@@ -84,6 +84,16 @@ def test_units_are_told_by_plausible_sizes():
     assert likely_unit(size, estimate) == ("metres", 1.0)
     tiny = type(estimate)(estimate.scale * 0.12, estimate.kind, estimate.measures)
     assert likely_unit(size / 0.12, tiny) is None
+
+
+def test_a_unit_sphere_about_the_origin_is_normalised_and_a_floor_is_not():
+    asset = cabinet()
+    hung = reading_of(asset, turned("+Z", "-Y") - np.outer([0, 0, asset.box.center[2], 0], [0, 0, 0, 1.0])).parts
+    radius = max(np.linalg.norm(p.mesh.vertices, axis=1).max() for p in hung)
+    for factor, expected in ((1.02 / radius, True), (1.3 / radius, False)):
+        parts = reading_of(Asset("a", "", "made", hung), np.diag([factor, factor, factor, 1.0])).parts
+        assert is_normalised(parts, whole_box(parts)) is expected
+    assert not is_normalised(asset.parts, asset.box)
 
 
 def test_a_convention_holds_unless_nearly_all_speaks_against_it():

@@ -107,7 +107,7 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
     size = float(whole.size.max())
     if unit is not None and 0.1 <= size * unit <= 8.0:
         return unit, f"scale {unit:g} m per unit: stated by {reading.convention.origin}"
-    if not reading.convention.normalised and not is_normalised(whole):
+    if not reading.convention.normalised and not is_normalised(reading.parts, whole):
         common = likely_unit(size, estimate)
         if common is not None:
             return common[1], f"scale {common[1]:g} m per unit: {common[0]} make a {estimate.kind} of plausible size"

@@ -93,10 +93,19 @@ def likely_unit(size: float, estimate: Estimate, spread: float = 2.5) -> tuple[s
     return (best, unit) if plausible else None
 
 
-def is_normalised(whole: Box) -> bool:
-    """Whether a box looks scaled by a data set: largest side or diagonal 1 or 2 units to a thousandth."""
+def is_normalised(parts: tuple[Part, ...], whole: Box) -> bool:
+    """Whether an object looks scaled by a data set, so that its unit means nothing.
+
+    That is: its largest side or diagonal is 1 or 2 units to a thousandth, or it hangs about the origin within a sphere
+    of radius 1 (ShapeNet and PartNet: 0.99 to 1.08), where real furniture stands on a floor.
+    """
     lengths = (float(whole.size.max()), float(whole.diagonal))
-    return any(abs(length - unit) < 1e-3 * unit for length in lengths for unit in (1.0, 2.0))
+    if any(abs(length - unit) < 1e-3 * unit for length in lengths for unit in (1.0, 2.0)):
+        return True
+    if not np.all(np.abs(whole.center) < 0.85 * whole.half):
+        return False
+    radius = max(float(np.linalg.norm(p.mesh.vertices, axis=1).max()) for p in parts)
+    return 0.99 < radius < 1.08
 
 
 def _kind(parts: tuple[Part, ...], whole: Box, up: int) -> Furniture:
