@@ -4,6 +4,7 @@ The models are found by the variable GRAFU_MODELS, else beside the repository.
 """
 
 import os
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,12 @@ from grafu.vocabulary import JointType, PartLabel
 
 MODELS = Path(os.environ.get("GRAFU_MODELS", Path(__file__).parents[2].parent / "shared" / "models")) / "pnm"
 pytestmark = pytest.mark.skipif(not MODELS.is_dir(), reason="the real furniture is not here")
+
+
+@cache
+def loaded(name: str) -> tuple[Asset, FunctionalGraph]:
+    asset = load_asset(MODELS / name)
+    return asset, parse_graph(asset)
 
 
 def true_motions(asset: Asset) -> dict[str, Motion]:
@@ -45,8 +52,7 @@ def found_motions(graph: FunctionalGraph) -> dict[str, Motion]:
 def agreements(masked: bool, ids: list[str]) -> list[Agreement]:
     results: list[Agreement] = []
     for name in ids:
-        asset = load_asset(MODELS / name)
-        graph = parse_graph(asset)
+        asset, graph = loaded(name)
         labels = {n.id: PartLabel.UNKNOWN for n in graph.nodes} if masked else {}
         completion = complete_by_rule(relabelled(graph, labels))
         results += compare_motions(found_motions(completion.completed), true_motions(asset))
