@@ -12,6 +12,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
+from grafu.articulation.collision_clearance import ClearanceConfig, cleared
 from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape, collision_shapes
 from grafu.articulation.dynamics import DynamicsConfig, JointDynamics, joint_dynamics
 from grafu.articulation.link_frames import link_origins
@@ -31,6 +32,7 @@ class UrdfConfig:
 
     mass: MassConfig = field(default_factory=MassConfig)
     collision: CollisionConfig = field(default_factory=CollisionConfig)
+    clearance: ClearanceConfig = field(default_factory=ClearanceConfig)
     dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
     crease_angle: float = CREASE_ANGLE
     mujoco: bool = True
@@ -53,6 +55,8 @@ class _UrdfWriter:
         self._config = config
         self._origins = link_origins(articulated)
         self._masses = {link.id: mass_of_link(link, config.mass) for link in articulated.links}
+        shapes = {link.id: collision_shapes(link, config.collision) for link in articulated.links}
+        self._shapes = cleared(articulated, shapes, config.clearance)
         self._meshes = ObjFolder(config.crease_angle)
 
     def to_files(self) -> ExportFiles:
@@ -77,7 +81,7 @@ class _UrdfWriter:
             if len(visual.mesh.faces):
                 child = ET.SubElement(element, "visual", name=visual.name)
                 _add_mesh(child, self._meshes.add_visual(visual, origin))
-        for number, shape in enumerate(collision_shapes(link, self._config.collision)):
+        for number, shape in enumerate(self._shapes[link.id]):
             self._add_collision(element, f"{link.id}_collision_{number}", shape, origin)
 
     def _add_collision(self, link: ET.Element, name: str, shape: CollisionShape, origin: Vec3) -> None:
