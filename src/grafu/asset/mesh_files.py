@@ -149,7 +149,8 @@ def _read_with_trimesh(path: Path, data: bytes, limits: Limits) -> MeshFile:
     except Exception:  # trimesh raises whatever its parsers meet
         raise UnreadableAsset(f"{path} is damaged or not {kind.upper()}: expected a triangle mesh") from None
     mesh = loaded if isinstance(loaded, trimesh.Trimesh) else None
-    if mesh is None or not np.isfinite(mesh.vertices).all():
+    fits = mesh is not None and (not len(mesh.faces) or 0 <= mesh.faces.min() <= mesh.faces.max() < len(mesh.vertices))
+    if mesh is None or not fits or not np.isfinite(mesh.vertices).all():
         raise UnreadableAsset(f"{path} holds no triangle mesh with finite coordinates; re-export it")
     visual: Any = mesh.visual
     colors = np.asarray(visual.vertex_colors) if visual.kind == "vertex" else None

@@ -78,6 +78,8 @@ def _numbers(rows: list[bytes], where: str) -> np.ndarray:
     if len(flat) != width * len(rows) or len({len(r.split()) for r in rows[:: max(1, len(rows) // 50)]}) > 1:
         split = [r.split() for r in rows]
         width = min(len(s) for s in split)
+        if width == 0:
+            raise UnreadableAsset(f"{where} is not a readable OBJ: a line without its numbers; re-export the mesh")
         flat = _parse_flat(b" ".join(b" ".join(s[:width]) for s in split), float, where)
     table = flat.reshape(len(rows), width)
     if not np.isfinite(table).all():
