@@ -13,7 +13,7 @@ from grafu.export.camera import Camera
 from grafu.export.light import key_direction, key_share, shade, sky_share
 from grafu.export.ray_scene import Hits, RayScene
 
-Samples = Float32[np.ndarray, "h w 4"]
+Samples = Float32[np.ndarray, "_ _ 4"]
 
 _LAYERS = 4  # panes of glass that are seen through
 _CREASE = float(np.cos(np.radians(38.0)))
@@ -75,7 +75,7 @@ class Exposure:
         near = replace(hits, ray=rays)
         if outlined:
             sky, key = (self._smoothed(values, near) for values in (sky, key))
-        light = shade(near, self.directions, sky, key, self.toward)
+        light = shade(near, self.directions[rays], sky, key, self.toward)
         if outlined and self.style.outlines:
             light *= self._ink(near, points)[:, None]
         weight = through[rays] * hits.alpha
@@ -83,7 +83,7 @@ class Exposure:
         color[rays, 3] += weight
         through[rays] -= weight
 
-    def _grid(self, rays: np.ndarray, values: np.ndarray, empty: float) -> np.ndarray:
+    def _grid(self, rays: np.ndarray, values: np.ndarray, empty: float | int) -> np.ndarray:
         grid = np.full((self.size[0] * self.size[1], *values.shape[1:]), empty, values.dtype)
         grid[rays] = values
         return grid.reshape(self.size[1], self.size[0], *values.shape[1:])

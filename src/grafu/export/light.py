@@ -54,8 +54,8 @@ def key_share(scene: RayScene, points: Rays, pattern: Pattern, toward: np.ndarra
 
 
 def shade(hits: Hits, directions: Rays, sky: Values, key: Values, toward: np.ndarray) -> Rgb:
-    """Returns the light that each hit sends back along its ray."""
-    view = -directions[hits.ray]
+    """Returns the light that each hit sends back along its ray, whose unit direction is given per hit."""
+    view = -directions
     facing = np.einsum("nk,nk->n", hits.normal, view)
     mirror = 2 * facing[:, None] * hits.normal - view
     lambert = np.maximum(hits.normal @ toward, 0.0)

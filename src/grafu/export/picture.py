@@ -21,7 +21,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
-Picture = UInt8[np.ndarray, "h w 4"]
+Picture = UInt8[np.ndarray, "_ _ 4"]
 
 _SIDE = 2  # samples a side of each pixel
 _INK = (38, 38, 40)

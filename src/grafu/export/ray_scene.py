@@ -64,8 +64,9 @@ class RayScene:
         self._uvs: np.ndarray = _stacked([_corner_uvs(s) for s in surfaces], (3, 2))
         self._table = _material_table(self._materials)
         self._images = {k: _decode(m.base_color_texture) for k, m in enumerate(self._materials) if m.base_color_texture}
-        self._embree: Any = EmbreeScene()
-        EmbreeMesh(self._embree, self.triangles if len(self.triangles) else np.zeros((1, 3, 3), np.float32))
+        self._embree = _embree_scene(self.triangles)
+        solid = self._table[self._material, 6] >= 0  # light goes through what is blended: glass casts no shadow
+        self._solid = self._embree if solid.all() else _embree_scene(self.triangles[solid])
 
     def cast(self, origins: Rays, directions: Rays) -> Hits:
         """Returns what each ray meets first; directions are unit vectors."""
@@ -86,7 +87,7 @@ class RayScene:
         if not len(self.triangles):
             return np.zeros(len(origins), bool)
         limit = np.full(len(origins), reach, np.float32)
-        return self._embree.run(origins, directions, limit, query="OCCLUDED") == 0
+        return self._solid.run(origins, directions, limit, query="OCCLUDED") == 0
 
     def _rgba(self, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
         material = self._material[face]
@@ -99,6 +100,12 @@ class RayScene:
         cutoff = self._table[material, 6]
         rgba[:, 3] = np.where(cutoff >= 0, rgba[:, 3] >= cutoff, rgba[:, 3])
         return rgba
+
+
+def _embree_scene(triangles: np.ndarray) -> Any:
+    scene = EmbreeScene()
+    EmbreeMesh(scene, triangles if len(triangles) else np.zeros((1, 3, 3), np.float32))
+    return scene
 
 
 def _stacked(blocks: list[np.ndarray], tail: tuple[int, int]) -> np.ndarray:
