@@ -155,7 +155,9 @@ def _json_motion(link: dict[str, Any]) -> Motion | None:
     if joint is JointType.REVOLUTE:
         low, high = math.radians(low), math.radians(high)
     origin = _numbers(stated.get("origin")) or [0.0, 0.0, 0.0]
-    return Motion(joint, Axis(vec3(*origin), vec3(*direction)), low, high, not limit.get("noLimit", False))
+    return Motion(
+        joint, Axis(vec3(*origin), vec3(*direction)), low, high, low != high and not limit.get("noLimit", False)
+    )
 
 
 def _numbers(values: Any) -> list[float] | None:

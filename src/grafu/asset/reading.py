@@ -1,6 +1,6 @@
 """What a reader hands on: parts as the input has them, before the frame is settled. It decides nothing."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, final
 
 from grafu.asset.part import AnnotatedJoint, AssetKind, Part
@@ -28,14 +28,11 @@ class Convention:
 @final
 @dataclass(frozen=True)
 class Reading:
-    """An input in its own coordinates: every `Part` and joint here is still to be mapped to the object frame.
-
-    `fronts` are hints on where the front is, as directions of opening in input coordinates, found in the annotation.
-    """
+    """An input in its own coordinates: every `Part` and joint here is still to be mapped to the object frame."""
 
     kind: AssetKind
     parts: tuple[Part, ...]
     convention: Convention
     joints: tuple[AnnotatedJoint, ...] = ()
     furniture: Furniture | None = None
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = ()
