@@ -29,12 +29,13 @@ class ClearanceConfig:
     """How shapes give way; lengths in metres.
 
     Each motion is looked at in `poses` poses. A cut leaves `margin`; a shape that would keep less than `least_share` of
-    its volume, or become thinner than `least_thickness`, is left out instead. Cuts are repeated `rounds` times.
+    its volume, or become thinner than `least_thickness`, is not cut: then the one that stands still is left out, for a
+    drawer without a bottom is worse than a frame without a rail. Cuts are repeated `rounds` times.
     """
 
     poses: int = 9
     margin: float = 0.0005
-    least_share: float = 0.6
+    least_share: float = 0.25
     least_thickness: float = 0.002
     rounds: int = 4
 
@@ -66,10 +67,14 @@ class _Body:
 @final
 @dataclass(frozen=True, slots=True)
 class _Conflict:
-    """Two bodies that meet, and the pose of the second against the first in each pose where they do."""
+    """Two bodies that meet, and the pose of the second against the first in each pose where they do.
+
+    `still_moves` says that the second moves with another joint.
+    """
 
     moving: _Body
     still: _Body
+    still_moves: bool
     Ts_moving_still: tuple[Mat4, ...]
 
 
@@ -109,7 +114,8 @@ def _conflicts(articulated: ArticulatedObject, bodies: list[_Body], poses: int) 
             for a, b in _meeting(moving, still, T_object_link):
                 T = invert(T_object_link[moving[a].link]) @ T_object_link[still[b].link]
                 met.setdefault((a, b), []).append(T)
-        yield from (_Conflict(moving[a], still[b], tuple(Ts)) for (a, b), Ts in met.items())
+        for (a, b), Ts in met.items():
+            yield _Conflict(moving[a], still[b], still[b].link != articulated.root, tuple(Ts))
 
 
 def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
@@ -134,7 +140,7 @@ def _meeting(moving: list[_Body], still: list[_Body], poses: Mapping[str, Mat4])
 
 
 def _resolved(bodies: list[_Body], conflicts: list[_Conflict], config: ClearanceConfig | None) -> list[_Body]:
-    """Returns the bodies after one cut per conflict; with no config the smaller of two is left out instead.
+    """Returns the bodies after one cut per conflict; with no config one of the two is left out instead.
 
     A body that has been cut already waits for the next round: the cut may have settled its other conflicts.
     """
@@ -142,13 +148,15 @@ def _resolved(bodies: list[_Body], conflicts: list[_Conflict], config: Clearance
     for conflict in conflicts:
         if conflict.moving in changed or conflict.still in changed:
             continue
-        body, shape = _cut(conflict, config) if config is not None else (_smaller(conflict), None)
+        body, shape = _cut(conflict, config) if config is not None else (_left_out(conflict), None)
         changed[body] = shape
     kept = ((body, changed[body]) if body in changed else (body, body.shape) for body in bodies)
     return [body if body.shape is shape else _Body(body.link, shape) for body, shape in kept if shape is not None]
 
 
-def _smaller(conflict: _Conflict) -> _Body:
+def _left_out(conflict: _Conflict) -> _Body:
+    if not conflict.still_moves:
+        return conflict.still
     return min(conflict.moving, conflict.still, key=lambda body: extent_of(body.shape))
 
 
@@ -160,7 +168,7 @@ def _cut(conflict: _Conflict, config: ClearanceConfig) -> tuple[_Body, Collision
     options = [(moving, *_cut_back(moving.shape, onto_moving, config))]
     options.append((still, *_cut_back(still.shape, onto_still, config)))
     body, shape, share = max(options, key=lambda option: option[2])
-    return (body, shape) if share >= config.least_share else (_smaller(conflict), None)
+    return (body, shape) if share >= config.least_share else (_left_out(conflict), None)
 
 
 def _cut_back(shape: CollisionShape, obstacle: Points, config: ClearanceConfig) -> tuple[CollisionShape | None, float]:

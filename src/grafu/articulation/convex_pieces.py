@@ -117,7 +117,7 @@ def _as_solid(mesh: TriangleMesh) -> _Piece:
 def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
     waiting, done = [whole], list[_Piece]()
     while waiting:
-        piece = waiting.pop()
+        piece = waiting.pop(int(np.argmax([w.mesh.box.diagonal for w in waiting])))  # large ones first: room is scarce
         parts = _apart_once(piece, config) if len(done) + len(waiting) + 1 < config.most else []
         if len(parts) > 1:
             waiting += parts
@@ -203,7 +203,7 @@ def _walls(mesh: TriangleMesh, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     for k in order:
         if np.isfinite(seen[k]):
             yield k // 2, float(_DIRECTIONS[k, k // 2]), float(pit[k // 2] + _DIRECTIONS[k, k // 2] * seen[k])
-    for axis in np.argsort(-size):
+    for axis in np.argsort(-size)[:2]:
         yield int(axis), 1.0, float(pit[axis])
 
 
