@@ -4,8 +4,8 @@ A BVH of triangles has no inside: a mesh that lies wholly within another does no
 through one another cut surfaces, which is what is asked here.
 """
 
-from functools import cached_property
 from typing import final
+from weakref import finalize
 
 import fcl
 import numpy as np
@@ -17,6 +17,22 @@ from grafu.geometry.transform import transform_points
 
 # A mesh is never shrunk to less than this share of its side: thin hardware keeps a core.
 _CORE = 0.2
+_MOST_CONTACTS = 5000
+
+_models: dict[int, fcl.BVHModel] = {}
+
+
+def _bvh(mesh: TriangleMesh) -> fcl.BVHModel:
+    """Returns the mesh's BVH, built once in the mesh's life."""
+    key = id(mesh)
+    if key not in _models:
+        model = fcl.BVHModel()
+        model.beginModel(len(mesh.vertices), len(mesh.faces))
+        model.addSubModel(mesh.vertices, mesh.faces)
+        model.endModel()
+        _models[key] = model
+        finalize(mesh, _models.pop, key, None)
+    return _models[key]
 
 
 @final
@@ -30,28 +46,41 @@ class MeshCollider:
         self.box: Box = mesh.box
         self._mesh = mesh
         self._corners = mesh.box.corners()
-        self._posed_box = mesh.box
+        self._low, self._high = mesh.box.low, mesh.box.high
+        self._pose: tuple[Mat3, Vec3] | None = None
+        self._made: fcl.CollisionObject | None = None
 
-    @cached_property
+    @property
     def _object(self) -> fcl.CollisionObject:
-        model = fcl.BVHModel()
-        model.beginModel(len(self._mesh.vertices), len(self._mesh.faces))
-        model.addSubModel(self._mesh.vertices, self._mesh.faces)
-        model.endModel()
-        return fcl.CollisionObject(model)
+        """The FCL object in its present pose; the BVH is built when first asked for."""
+        if self._made is None:
+            self._made = fcl.CollisionObject(_bvh(self._mesh))
+        if self._pose is not None:
+            self._made.setTransform(fcl.Transform(*self._pose))
+            self._pose = None
+        return self._made
 
     def place(self, T: Mat4, shift: Vec3 | None = None) -> None:
         """Poses the mesh at T, then moved by `shift` metres."""
         offset = T[:3, 3] if shift is None else T[:3, 3] + shift
-        self._object.setTransform(fcl.Transform(T[:3, :3], offset))
+        self._pose = (T[:3, :3], offset)
         corners = self._corners @ T[:3, :3].T + offset
-        self._posed_box = Box(corners.min(axis=0), corners.max(axis=0))
+        self._low, self._high = corners.min(axis=0), corners.max(axis=0)
 
     def intersects(self, other: "MeshCollider") -> bool:
         """Whether the two, as posed, share a point."""
-        if not self._posed_box.overlaps(other._posed_box):
+        if (self._low > other._high).any() or (other._low > self._high).any():
             return False
         return bool(fcl.collide(self._object, other._object, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
+
+    def faces_in_contact(self, other: "MeshCollider") -> set[int]:
+        """Returns the numbers of this mesh's faces that intersect the other as posed."""
+        if not self.intersects(other):
+            return set()
+        request = fcl.CollisionRequest(num_max_contacts=_MOST_CONTACTS, enable_contact=True)
+        result = fcl.CollisionResult()
+        fcl.collide(self._object, other._object, request, result)
+        return {int(contact.b1) for contact in result.contacts}
 
     def distance(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the two as posed, 0 where they intersect."""
@@ -87,10 +116,10 @@ class MovingBody:
     """
 
     def __init__(self, mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> None:
-        self._plain = MeshCollider(mesh)
-        self._shrunk = MeshCollider(shrunk(mesh, depth, rotation))
-        self._T: Mat4 = np.eye(4)
         axes = np.eye(3) if rotation is None else rotation
+        self._plain = MeshCollider(mesh)
+        self._shrunk = MeshCollider(shrunk(mesh, depth, axes))
+        self._T: Mat4 = np.eye(4)
         self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
 
     def place(self, T: Mat4) -> None:
@@ -111,6 +140,10 @@ class MovingBody:
             if not self._shrunk.intersects(obstacle):
                 return False
         return True
+
+    def faces_in_contact(self, obstacle: MeshCollider) -> set[int]:
+        """Returns the numbers of the body's faces that, as posed, intersect the obstacle."""
+        return self._plain.faces_in_contact(obstacle)
 
     def distance(self, obstacle: MeshCollider) -> float:
         """Returns the distance in metres of the body, as posed, from the obstacle; 0 where they intersect."""

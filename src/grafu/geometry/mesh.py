@@ -40,8 +40,11 @@ class TriangleMesh(ArrayValue):
     @cached_property
     def box(self) -> Box:
         """The axis-aligned box around the vertices that a face uses (all vertices, where there is no face)."""
-        used = self.vertices[np.unique(self.faces)] if len(self.faces) else self.vertices
-        return Box.around(used)
+        if not len(self.faces):
+            return Box.around(self.vertices)
+        used = np.zeros(len(self.vertices), dtype=bool)
+        used[self.faces] = True
+        return Box.around(self.vertices[used])
 
     @cached_property
     def triangles(self) -> np.ndarray:

@@ -6,6 +6,7 @@ triangle: what lies inside goes, the rest stays as it was, and the cut is left o
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import manifold3d
@@ -23,7 +24,7 @@ _SLIVER = 1e-7
 
 
 @final
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class ConvexSolid(ArrayValue):
     """A convex polyhedron: its corners, its faces, and its half-spaces `normal . x <= offset` as rows (normal, offset)."""
 
@@ -48,7 +49,7 @@ class ConvexSolid(ArrayValue):
         flipped = np.column_stack([planes[:, :3], -planes[:, 3]])
         return cls(frozen_array(points[hull.vertices]), frozen_array(faces, np.int64), frozen_array(flipped))
 
-    @property
+    @cached_property
     def box(self) -> Box:
         """The axis-aligned box around the solid."""
         return Box.around(self.vertices)
@@ -71,11 +72,6 @@ def subtract(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     for solid in near:
         surface = _clip(surface, solid)
     return surface
-
-
-def enclosed_area(mesh: TriangleMesh, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the surface area of the mesh that lies inside the solids, in square metres."""
-    return mesh.area - subtract(Surface(mesh), solids).mesh.area if len(mesh.faces) else 0.0
 
 
 def _cross(triangles: np.ndarray) -> Points:

@@ -4,13 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import final
 
-import numpy as np
-
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.realization.clearance.make import make_clearance
 from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.border import part_axes
 from grafu.realization.hinge.place import HingePlacement, best_bare_axis, door_search, free_share, place_hinges
 from grafu.realization.limits import motion_about
 from grafu.realization.plan import JointRequest
@@ -45,7 +44,7 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     clearances: tuple[Clearance, ...] = ()
     share = free_share(search)
     if share < 1.0:
-        axis, axes = best_bare_axis(search), np.asarray(search.frame.rotation)
+        axis, axes = best_bare_axis(search), part_axes(scene.parts[request.moving].mesh)
         cleared, clearances = _cleared(request, scene, axis, axes, search.wanted, config)
         again = door_search(request, cleared, config)
         if free_share(again) > share:
@@ -66,7 +65,7 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     share = free_travel(search)
     if share < 1.0:
         reach = 0.77 * search.frame.depth
-        axes = np.asarray(search.frame.rotation)
+        axes = part_axes(search.mesh)
         cleared, clearances = _cleared(request, scene, search.axis, axes, reach, config)
         again = drawer_search(request, cleared, config)
         if again is not None and free_travel(again) > share:

@@ -56,14 +56,39 @@ def sweep(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Ob
     return SweepVerdict(free, len(hits) / poses, names)
 
 
+def free_opening(
+    body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> tuple[float, float]:
+    """Returns the opening before the first blocked pose, and for a body that is blocked at rest the share of such poses.
+
+    It stops at the first blocked pose, unless that is the first of all.
+    """
+    values = np.linspace(0.0, reach, poses)
+    if _first_blocker(body, motion(0.0), obstacles) is not None:
+        hits = [_first_blocker(body, motion(v), obstacles) is not None for v in values]
+        return 0.0, sum(hits) / poses
+    first = next((k for k, v in enumerate(values) if _first_blocker(body, motion(v), obstacles)), None)
+    return (reach, 0.0) if first is None else (float(values[first - 1]), 0.0)
+
+
+def all_blockers(
+    body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> tuple[str, ...]:
+    """Returns the ids of the obstacles that the body cuts into anywhere from 0 to `reach`, sorted."""
+    left, found = list(obstacles), []
+    for value in np.linspace(0.0, reach, poses):
+        hit = _blockers(body, motion(value), left)
+        found += hit
+        left = [o for o in left if o.id not in hit]
+    return tuple(sorted(found))
+
+
 def is_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
     """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
     return not any(_first_blocker(body, motion(v), obstacles) for v in np.linspace(0.0, reach, poses)[::-1])
 
 
-def widest_free(
-    body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
-) -> float:
+def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
     """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection."""
     values = np.linspace(0.0, reach, poses)
     for before, after in zip(values[:-1], values[1:], strict=True):

@@ -41,18 +41,18 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
     requests = []
     for hinge in graph.hinges:
         axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
-        requests.append(_request(hinge.child, JointType.REVOLUTE, axis, completion.source, (hinge.parent,), riders))
+        rides = riders.get(hinge.child, ())
+        requests.append(
+            JointRequest(hinge.child, JointType.REVOLUTE, axis, completion.source, None, (hinge.parent,), rides)
+        )
     for child in dict.fromkeys(rail.child for rail in graph.rails):
         edges = [rail for rail in graph.rails if rail.child == child]
         axis = rail_to_axis(graph.node(child).box, edges[0].axis)
         mounts = tuple(rail.parent for rail in edges)
-        requests.append(_request(child, JointType.PRISMATIC, axis, completion.source, mounts, riders))
+        rides = riders.get(child, ())
+        requests.append(JointRequest(child, JointType.PRISMATIC, axis, completion.source, None, mounts, rides))
     refused = tuple(Refusal(r.part, r.why) for r in completion.refused)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
-
-
-def _request(moving, kind, axis, source, mounts, riders):  # type: ignore[no-untyped-def]
-    return JointRequest(moving, kind, axis, source, None, mounts, riders.get(moving, ()))
 
 
 def _riders(asset: Asset, attached: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:

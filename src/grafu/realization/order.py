@@ -8,12 +8,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
-from grafu.geometry.intersection import MovingBody
-from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import Motion, in_the_way, sweep, swept_box
 from grafu.realization.scene import Obstacle, Scene
-from grafu.geometry.intersection import MeshCollider
 
 
 @final
@@ -74,7 +74,8 @@ def _open(other: Moving, scene: Scene) -> Obstacle:
 
 
 def _body(moving: Moving, scene: Scene, config: RealizationConfig) -> MovingBody:
-    return MovingBody(scene.moving_mesh(moving.mover), config.depth * scene.unit)
+    axes = part_axes(scene.parts[moving.mover].mesh)
+    return scene.moving_body(moving.mover, config.depth * scene.unit, axes)
 
 
 def _free_of(moving: Moving, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
@@ -83,9 +84,9 @@ def _free_of(moving: Moving, obstacle: Obstacle, scene: Scene, config: Realizati
     ).blockers
 
 
-def _until(moving: Moving, mesh, scene: Scene, config: RealizationConfig) -> float:  # type: ignore[no-untyped-def]
+def _until(moving: Moving, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:
     """Returns how far a mover opens before it meets a neighbour that stays closed."""
-    obstacle = Obstacle("", scene.collider(mesh))
+    obstacle = Obstacle("", MeshCollider(mesh))
     way = swept_box(scene.moving_mesh(moving.mover).box, moving.motion, moving.upper)
     verdict = sweep(
         _body(moving, scene, config), moving.motion, moving.upper, in_the_way([obstacle], way), config.fine_poses

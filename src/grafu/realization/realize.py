@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.asset.part import Asset, Part
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
 from grafu.realization.build import Built, build_joint
 from grafu.realization.clearance.make import adopt
@@ -138,7 +138,8 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
     motion = motion_about(built.placement.axis, built.request.type)
     mesh = scene.moving_mesh(mover)
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, motion, upper))
-    share = sweep(MovingBody(mesh, config.depth * scene.unit), motion, upper, near, _MEASURED_POSES).share
+    body = scene.moving_body(mover, config.depth * scene.unit, part_axes(scene.parts[mover].mesh))
+    share = sweep(body, motion, upper, near, _MEASURED_POSES).share
     ends = MeshCollider(merge_meshes([v.mesh for v in scene.hardware_of(mover)]))
     held = MeshCollider(merge_meshes([v.mesh for v in built.placement.static]))
     gap = 0.0
@@ -153,9 +154,7 @@ def joint_id(moving: str) -> str:
     return f"{moving}_joint"
 
 
-def _assembled(
-    asset: Asset, scene: Scene, built: list[Built], orders: dict[str, Order]
-) -> ArticulatedObject:
+def _assembled(asset: Asset, scene: Scene, built: list[Built], orders: dict[str, Order]) -> ArticulatedObject:
     """Returns the tree: one static root, one link per mover; movers without a joint stand with the static body."""
     moving = {b.request.moving: b for b in built}
     at_home = {m for mover in moving for m in scene.movers[mover].members}
@@ -182,5 +181,3 @@ def _free_name(name: str, taken: set[str]) -> str:
     while name in taken:
         name += "_"
     return name
-
-

@@ -1,7 +1,7 @@
 """The parts as they stand during realization: static body, movers, installed hardware, and their colliders.
 
-A scene is never changed: replacing a part or adding hardware returns a new scene, which shares the colliders of whatever
-stayed the same.
+A scene is never changed: replacing a part or adding hardware returns a new scene, which shares whatever was worked out
+on the meshes that stayed the same.
 """
 
 from collections.abc import Iterable, Mapping
@@ -13,8 +13,9 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
+from grafu.geometry.arrays import Mat3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 
@@ -45,7 +46,10 @@ class Scene:
     movers: Mapping[str, Mover]
     unit: float
     hardware: tuple[tuple[str, Visual], ...] = ()
-    _colliders: dict[int, tuple[TriangleMesh, MeshCollider]] = field(default_factory=dict, repr=False)
+    _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
+        default_factory=dict, repr=False
+    )
+    _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, MovingBody]] = field(default_factory=dict, repr=False)
 
     @cached_property
     def moving_ids(self) -> frozenset[str]:
@@ -57,37 +61,48 @@ class Scene:
         """The parts that stay where they are."""
         return tuple(part for part in self.parts.values() if part.id not in self.moving_ids)
 
-    def collider(self, mesh: TriangleMesh) -> MeshCollider:
-        """Returns the mesh's collider, made once."""
-        found = self._colliders.get(id(mesh))
-        if found is None:
-            found = self._colliders[id(mesh)] = (mesh, MeshCollider(mesh))
-        return found[1]
-
     @cached_property
     def static_obstacles(self) -> tuple[Obstacle, ...]:
         """One obstacle per static part, at rest."""
-        return tuple(self._resting(part.id, part.mesh) for part in self.static_parts if len(part.mesh.faces))
+        return tuple(Obstacle(part.id, MeshCollider(part.mesh)) for part in self.static_parts if len(part.mesh.faces))
 
     @cached_property
     def static_hardware(self) -> tuple[Obstacle, ...]:
         """One obstacle per installed static piece of hardware."""
-        return tuple(self._resting(v.name, v.mesh) for owner, v in self.hardware if not owner)
-
-    def _resting(self, name: str, mesh: TriangleMesh) -> Obstacle:
-        collider = self.collider(mesh)
-        collider.place(np.eye(4))
-        return Obstacle(name, collider)
+        return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for owner, v in self.hardware if not owner)
 
     def moving_mesh(self, mover_id: str) -> TriangleMesh:
         """Returns the mover with all that rides on it, without hardware, as one mesh."""
-        return self._moving_meshes[mover_id]
+        meshes = tuple(self.parts[member].mesh for member in self.movers[mover_id].members)
+        key = tuple(id(mesh) for mesh in meshes)
+        if key not in self._merged:
+            self._merged[key] = (meshes, merge_meshes(meshes))
+        return self._merged[key][1]
 
-    @cached_property
-    def _moving_meshes(self) -> dict[str, TriangleMesh]:
-        return {
-            mover.id: merge_meshes([self.parts[m].mesh for m in mover.members]) for mover in self.movers.values()
-        }
+    def moving_body(self, mover_id: str, depth: float, axes: Mat3) -> MovingBody:
+        """Returns the mover as a body that tells a touch from a penetration deeper than `depth` along its box's axes."""
+        mesh = self.moving_mesh(mover_id)
+        key = (id(mesh), np.append(axes, depth).tobytes())
+        if key not in self._bodies:
+            self._bodies[key] = (mesh, MovingBody(mesh, depth, axes))
+        return self._bodies[key][1]
+
+    def other_movers(self, mover_id: str) -> tuple[Obstacle, ...]:
+        """Returns the other movers as obstacles, at rest, without hardware."""
+        others = (other for other in self.movers if other != mover_id)
+        return tuple(Obstacle(other, MeshCollider(self.moving_mesh(other))) for other in others)
+
+    def distance_to_static(self, mesh: TriangleMesh, enough: float) -> float:
+        """Returns the distance of a mesh from the static parts; anything up to `enough` counts as found."""
+        collider = MeshCollider(mesh)
+        nearest = float("inf")
+        for obstacle in self.static_obstacles:
+            if obstacle.collider.box.gap(mesh.box) > min(nearest, max(enough, 0.1 * self.unit)):
+                continue
+            nearest = min(nearest, collider.distance(obstacle.collider))
+            if nearest <= enough:
+                break
+        return nearest
 
     def hardware_of(self, mover_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a mover."""

@@ -91,4 +91,4 @@ def _center(box: Box) -> np.ndarray:
     return np.asarray(box.center)
 
 
-_STEPS: tuple[_Step, ...] = (adopt, trim, partial(ease, 0.8), carve, partial(ease, 1.6), trim, carve)
+_STEPS: tuple[_Step, ...] = (adopt, trim, partial(ease, 1.0), carve, partial(ease, 1.6), trim, carve)

@@ -8,11 +8,10 @@ import numpy as np
 
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MovingBody
-from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.components import connected_parts
+from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
-from grafu.realization.limits import Motion, in_the_way, sweep, swept_box
+from grafu.realization.limits import Motion, all_blockers, in_the_way, swept_box
 from grafu.realization.scene import Scene
 
 
@@ -31,9 +30,9 @@ class Path:
 def blockers(scene: Scene, path: Path, config: RealizationConfig) -> tuple[str, ...]:
     """Returns the ids of the static parts that the mover runs into."""
     mesh = scene.moving_mesh(path.mover)
-    body = MovingBody(mesh, config.depth * scene.unit, path.axes)
+    body = scene.moving_body(path.mover, config.depth * scene.unit, path.axes)
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
-    return sweep(body, path.motion, path.reach, near, config.coarse_poses).blockers
+    return all_blockers(body, path.motion, path.reach, near, config.fine_poses)
 
 
 def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:

@@ -9,8 +9,8 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.components import part_numbers
+from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.clearance.path import Path, box_in, piece_boxes
 from grafu.realization.config import RealizationConfig
 from grafu.realization.report import Clearance
@@ -34,7 +34,7 @@ def trim(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
     """Returns the scene with the moving part's pieces pressed back where they cut into static pieces."""
     part = scene.parts[path.mover]
     most = config.max_trim * box_in(path.axes, part.mesh).size
-    play = 1.5 * config.depth * scene.unit
+    play = 2.5 * config.depth * scene.unit
     theirs = [box for name in ids for box in piece_boxes(path.axes, scene.parts[name].mesh)]
     depth = 0.0
     surfaces = []

@@ -15,7 +15,7 @@ from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.realization.hinge.fit import FittedHinge
 from grafu.realization.limits import Motion, in_the_way, is_free, swept_box
-from grafu.realization.scene import Obstacle
+from grafu.realization.scene import Obstacle, Scene
 from grafu.realization.support_block import METAL, Footing, block, shortest_bridge
 from grafu.templates.template import SnapPlane
 
@@ -30,7 +30,8 @@ class Site:
     frame: BorderFrame
     door: TriangleMesh
     door_body: MovingBody
-    static_near: TriangleMesh
+    scene: Scene
+    static_rays: RayCaster
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Obstacle, ...]
     motion: Motion
@@ -83,14 +84,14 @@ def _dynamic_in_the_way(dynamic: tuple[Visual, ...], site: Site) -> bool:
 
 def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
-    body = MeshCollider(site.static_near)
     if pin.let_in:
         tongue = _tongue(hinge, pin, site.frame)
-        return (hinge.static, tongue) if MeshCollider(tongue.mesh).distance(body) <= site.anchor else None
-    if MeshCollider(hinge.static.mesh).distance(body) <= site.anchor:
+        held = site.scene.distance_to_static(tongue.mesh, site.anchor) <= site.anchor
+        return (hinge.static, tongue) if held else None
+    if site.scene.distance_to_static(hinge.static.mesh, site.anchor) <= site.anchor:
         return (hinge.static,)
     snap = hinge.template.static.snap.transformed(hinge.T_object_template)
-    return _bridged(hinge.static, snap, RayCaster(site.static_near), site)
+    return _bridged(hinge.static, snap, site.static_rays, site)
 
 
 def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | None:
@@ -98,12 +99,9 @@ def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | No
     if MeshCollider(hinge.dynamic.mesh).distance(MeshCollider(site.door)) <= site.anchor:
         return (hinge.dynamic,)
     snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
-    return _bridged(hinge.dynamic, snap, RayCaster(site.door), replace_reach(site, 0.5 * site.frame.width))
-
-
-def replace_reach(site: Site, reach: float) -> Site:
-    """Returns the site with another longest support block."""
-    return replace(site, reach=min(reach, site.reach))
+    return _bridged(
+        hinge.dynamic, snap, RayCaster(site.door), replace(site, reach=min(0.5 * site.frame.width, site.reach))
+    )
 
 
 def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:

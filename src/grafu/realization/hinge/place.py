@@ -5,6 +5,7 @@ initial axis) is taken, and its pin becomes the rectified axis.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import radians
 from typing import final
 
@@ -15,12 +16,12 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
-from grafu.realization.hinge.border import BorderFrame, border_frame
+from grafu.realization.hinge.border import BorderFrame, border_frame, part_axes
 from grafu.realization.hinge.candidates import PinCandidate, Tolerances, pin_candidates
 from grafu.realization.hinge.fit import barrel_radius, fit_hinge, hinge_count, hinge_heights, hinge_size
 from grafu.realization.hinge.hardware import InstalledHinge, Site, install
 from grafu.realization.hinge.survey import survey
-from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box, widest_free
+from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, swept_box, widest_free
 from grafu.realization.plan import JointRequest
 from grafu.realization.scene import Obstacle, Scene
 from grafu.templates.template import Gallery, HingeModel
@@ -77,22 +78,30 @@ class DoorSearch:
         """The tolerated penetration in metres."""
         return self.config.depth * self.scene.unit
 
+    @cached_property
+    def pins(self) -> "list[_Judged]":
+        """All pins, best first."""
+        return _judged_pins(self)
+
+    @cached_property
+    def static_rays(self) -> RayCaster:
+        """The static body around the door, prepared for rays."""
+        box = self.scene.parts[self.request.moving].box
+        return RayCaster(self.scene.static_mesh_near(box, 0.25 * float(box.size.max())))
+
 
 def door_search(request: JointRequest, scene: Scene, config: RealizationConfig) -> DoorSearch:
     """Returns the search for one request."""
     part = scene.parts[request.moving]
     frame = border_frame(part.mesh, request.axis)
-    mesh = scene.moving_mesh(request.moving)
-    others = tuple(
-        Obstacle(mover, scene.collider(scene.moving_mesh(mover))) for mover in scene.movers if mover != request.moving
-    )
+    others = scene.other_movers(request.moving)
     wanted = min(request.reference or radians(90), config.door_opening)
     return DoorSearch(
         request,
         scene,
         config,
         frame,
-        MovingBody(mesh, config.depth * scene.unit, np.asarray(frame.rotation)),
+        scene.moving_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
         scene.static_obstacles + scene.static_hardware,
         others,
         max(wanted, radians(30)),
@@ -102,7 +111,7 @@ def door_search(request: JointRequest, scene: Scene, config: RealizationConfig) 
 def place_hinges(search: DoorSearch, gallery: Gallery) -> HingePlacement | None:
     """Returns the best placement that works; None where no pin can be given hardware."""
     tried = 0
-    for judged in _judged_pins(search):
+    for judged in search.pins:
         if judged.free < 0.3 * search.wanted or tried > _ENOUGH:
             break
         tried += judged.pin.preference > 3
@@ -114,19 +123,18 @@ def place_hinges(search: DoorSearch, gallery: Gallery) -> HingePlacement | None:
 
 def free_share(search: DoorSearch) -> float:
     """Returns how much of the wanted opening the best pin leaves free, without hardware, in 0..1."""
-    return max((j.free for j in _judged_pins(search)), default=0.0) / search.wanted
+    return max((j.free for j in search.pins), default=0.0) / search.wanted
 
 
 def best_bare_axis(search: DoorSearch) -> Axis:
     """Returns the axis of the best pin whether or not it is free: what clearance is made for."""
-    return _judged_pins(search)[0].axis
+    return search.pins[0].axis
 
 
 def _judged_pins(search: DoorSearch) -> list[_Judged]:
     """Returns all pins, best first; makeshift ones are swept only where no class opens freely."""
     tol = _tolerances(search)
-    near = search.scene.static_mesh_near(search.scene.parts[search.request.moving].box, 4 * tol.contact)
-    pins = pin_candidates(search.frame, survey(search.frame, RayCaster(near), 4 * tol.contact), tol)
+    pins = pin_candidates(search.frame, survey(search.frame, search.static_rays, 4 * tol.contact), tol)
     ruled = [_judge(pin, search) for pin in pins if pin.preference < 4]
     clean = [j for j in ruled if j.free >= search.wanted and not j.neighbours]
     makeshift = [] if clean else [_judge(pin, search) for pin in pins if pin.preference >= 4]
@@ -143,11 +151,9 @@ def _judge(pin: PinCandidate, search: DoorSearch) -> _Judged:
     motion = motion_about(axis, JointType.REVOLUTE)
     box = swept_box(search.scene.moving_mesh(search.request.moving).box, motion, search.wanted)
     poses = search.config.coarse_poses
-    static = sweep(search.body, motion, search.wanted, in_the_way(search.obstacles, box), poses)
-    neighbours = sweep(search.body, motion, search.wanted, in_the_way(search.neighbours, box), poses).blockers
-    free = static.free if static.share else search.wanted
-    shortfall = round(1.0 - free / search.wanted, 2) + round(static.share, 2)
-    rank = (shortfall, len(neighbours), pin.preference, search.request.axis.distance_to(axis.point))
+    free, share = free_opening(search.body, motion, search.wanted, in_the_way(search.obstacles, box), poses)
+    neighbours = all_blockers(search.body, motion, search.wanted, in_the_way(search.neighbours, box), poses)
+    rank = (round(1.0 - free / search.wanted, 2) + round(share, 2), len(neighbours), pin.preference, search.request.axis.distance_to(axis.point))
     return _Judged(pin, axis, free, neighbours, rank)
 
 
@@ -178,13 +184,13 @@ def _site(judged: _Judged, upper: float, search: DoorSearch) -> Site:
     door = search.scene.moving_mesh(search.request.moving)
     box = search.scene.parts[search.request.moving].box
     unit = search.scene.unit
-    near = search.scene.static_mesh_near(box, 0.25 * float(box.size.max()))
     others = tuple(o for o in search.neighbours if o.collider.box.overlaps(box, 0.1 * unit))
     return Site(
         frame=search.frame,
         door=door,
         door_body=search.body,
-        static_near=near,
+        scene=search.scene,
+        static_rays=search.static_rays,
         obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
         neighbours=others,
         motion=motion_about(judged.axis, JointType.REVOLUTE),

@@ -6,18 +6,20 @@ between a rail and the wall.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
-from grafu.geometry.arrays import Mat4, Vec3, vec3
+from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
-from grafu.geometry.transform import from_rotation, reflection, translation
+from grafu.geometry.transform import from_rotation, reflection
 from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import in_the_way, is_free, motion_about, sweep, swept_box, widest_free
 from grafu.realization.plan import JointRequest
 from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame
@@ -68,6 +70,17 @@ class DrawerSearch:
         """The sliding axis through the drawer's middle."""
         return Axis(self.mesh.box.center, self.frame.slide)
 
+    @cached_property
+    def static_rays(self) -> RayCaster:
+        """The static body around the drawer, prepared for rays."""
+        box = self.mesh.box
+        return RayCaster(self.scene.static_mesh_near(box, 0.5 * float(box.size.max())))
+
+    @cached_property
+    def region(self) -> BodyRegion | None:
+        """The container's region; None where the drawer is only a front."""
+        return body_region(self.mesh, self.frame, self.config.body_tolerance)
+
 
 def drawer_search(request: JointRequest, scene: Scene, config: RealizationConfig) -> DrawerSearch | None:
     """Returns the search for one request; None where the drawer would slide up or down."""
@@ -75,10 +88,8 @@ def drawer_search(request: JointRequest, scene: Scene, config: RealizationConfig
     frame = drawer_frame(mesh, np.asarray(request.axis.direction))
     if frame is None:
         return None
-    others = tuple(
-        Obstacle(mover, scene.collider(scene.moving_mesh(mover))) for mover in scene.movers if mover != request.moving
-    )
-    body = MovingBody(scene.moving_mesh(request.moving), config.depth * scene.unit, np.asarray(frame.rotation))
+    others = scene.other_movers(request.moving)
+    body = scene.moving_body(request.moving, config.depth * scene.unit, part_axes(mesh))
     wanted = min(request.reference or frame.depth, 0.75 * frame.depth)
     obstacles = scene.static_obstacles + scene.static_hardware
     return DrawerSearch(request, scene, config, frame, body, obstacles, others, max(wanted, 1e-3))
@@ -86,9 +97,9 @@ def drawer_search(request: JointRequest, scene: Scene, config: RealizationConfig
 
 def place_rails(search: DrawerSearch, gallery: Gallery) -> RailPlacement | None:
     """Returns the first placement whose rails hold on both sides and are in nothing's way; None where none does."""
-    near = RayCaster(_static_near(search))
+    near = search.static_rays
     for model in gallery.rails:
-        region = _region(search, model, near)
+        region = _region(search, model)
         if region is None:
             continue
         walls = find_walls(search.frame, region, near, 0.25 * search.scene.unit)
@@ -101,22 +112,16 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> RailPlacement | None:
 
 def free_travel(search: DrawerSearch) -> float:
     """Returns the share of the wanted travel that the bare drawer slides freely, 0..1."""
-    motion = motion_about(search.axis, JointType.PRISMATIC)
-    return _travel(search, search.wanted) / search.wanted if search.wanted > 0 and motion else 0.0
+    return _travel(search, search.wanted) / search.wanted
 
 
-def _static_near(search: DrawerSearch) -> TriangleMesh:
-    box = search.scene.parts[search.request.moving].box
-    return search.scene.static_mesh_near(box, 0.5 * float(box.size.max()))
-
-
-def _region(search: DrawerSearch, model: RailModel, near: RayCaster) -> BodyRegion | None:
+def _region(search: DrawerSearch, model: RailModel) -> BodyRegion | None:
     """Returns the container's region, or the one behind a front that has no container."""
-    found = body_region(search.mesh, search.frame, search.config.body_tolerance)
-    if found is not None:
-        return found
+    if search.region is not None:
+        return search.region
     reach = 1.5 * search.scene.unit
-    return front_only_region(search.frame, search.frame.depth, near, reach, model.natural.thickness)
+    thickness = model.natural.thickness
+    return front_only_region(search.frame, search.frame.depth, search.static_rays, reach, thickness)
 
 
 def _travel(search: DrawerSearch, reach: float) -> float:
@@ -167,9 +172,8 @@ def _anchored(
     static, dynamic = template.static.transformed(T), template.dynamic.transformed(T)
     held_static = [_visual(f"rail_{name}_{side}_static", static)]
     held_dynamic = [_visual(f"rail_{name}_{side}_dynamic", dynamic)]
-    near = _static_near(search)
-    if MeshCollider(static.mesh).distance(MeshCollider(near)) > anchor:
-        bridge = shortest_bridge(_footings(static, T), RayCaster(near), search.config.bridge * search.scene.unit)
+    if search.scene.distance_to_static(static.mesh, anchor) > anchor:
+        bridge = shortest_bridge(_footings(static, T), search.static_rays, search.config.bridge * search.scene.unit)
         if bridge is None:
             return None
         held_static.append(block(f"support_{name}_{side}_static", *bridge))
@@ -235,8 +239,3 @@ def _mount(rail: Visual, search: DrawerSearch) -> str:
     near = [o for o in search.scene.static_obstacles if o.collider.box.overlaps(collider.box, 0.1 * search.scene.unit)]
     ranked = sorted((round(collider.distance(o.collider), 4), o.id not in search.request.mounts, o.id) for o in near)
     return ranked[0][2] if ranked else ""
-
-
-def offset(T: Mat4, shift: Vec3) -> Mat4:
-    """Returns a pose moved by `shift` metres in the object frame."""
-    return translation(shift) @ T

@@ -15,6 +15,8 @@ from grafu.templates.template import RailModel, RailSize
 
 _THINNEST = 0.0025  # thinner rails are let into the flank and the wall by what is missing
 _LOWEST = 0.004
+_DYNAMIC_REACH = 0.86  # share of a rail's thickness that its moving member takes, from the drawer's side
+_MOST_LET_IN = 0.5  # a rail let in deeper than this share would have its static member cut into the drawer
 _GRID = (12, 5)
 
 
@@ -32,10 +34,14 @@ class RailSpot:
 @final
 @dataclass(frozen=True, slots=True)
 class Walls:
-    """The gap in metres from each flank outwards to the static body; infinity where no wall is in reach."""
+    """The gap in metres from each flank outwards to the static body; infinity where no wall is in reach.
+
+    `passage` is the narrowest that the drawer's way out leaves beside it: a face frame may stand in before the walls.
+    """
 
     left: float
     right: float
+    passage: float
 
     @property
     def nearer(self) -> float:
@@ -45,20 +51,29 @@ class Walls:
 
 def find_walls(frame: DrawerFrame, body: BodyRegion, static: RayCaster, reach: float) -> Walls:
     """Returns how far the walls are, seen from within both flanks; negative where the drawer cuts into one."""
+    margin = 0.05 * body.length
+    beside = [
+        _gaps(frame, body, static, reach, (body.front + margin, body.back - margin), sign) for sign in (-1.0, 1.0)
+    ]
+    left, right = (float(g[len(g) // 10]) if len(g) >= 0.2 * _GRID[0] * _GRID[1] else float("inf") for g in beside)
+    ahead = [_gaps(frame, body, static, reach, (-0.02 - 0.1 * body.length, body.front), sign) for sign in (-1.0, 1.0)]
+    passage = min((float(g[0]) for g in (*ahead, *beside) if len(g)), default=float("inf"))
+    return Walls(left, right, max(passage, 0.0))
+
+
+def _gaps(
+    frame: DrawerFrame, body: BodyRegion, static: RayCaster, reach: float, span: tuple[float, float], sign: float
+) -> np.ndarray:
+    """Returns the gaps from one flank (sign of x) to the static body over a span of y, ascending, those in reach."""
     y, z = np.meshgrid(
-        np.linspace(body.front + 0.05 * body.length, body.back - 0.05 * body.length, _GRID[0]),
+        np.linspace(*span, _GRID[0]),
         np.linspace(0.8 * body.bottom + 0.2 * body.top, 0.2 * body.bottom + 0.8 * body.top, _GRID[1]),
     )
     inside = min(0.01, 0.2 * body.half_width)
-    gaps = []
-    for sign in (-1.0, 1.0):
-        x = np.full(y.size, sign * (body.half_width - inside))
-        origins = frame.to_object(np.column_stack([x, y.ravel(), z.ravel()]))
-        distances = np.sort(static.along(origins, sign * frame.rotation[:, 0]))
-        distances = distances[distances <= reach + inside]
-        enough = len(distances) >= 0.2 * y.size
-        gaps.append(float(distances[len(distances) // 10]) - inside if enough else float("inf"))
-    return Walls(*gaps)
+    x = np.full(y.size, sign * (body.half_width - inside))
+    origins = frame.to_object(np.column_stack([x, y.ravel(), z.ravel()]))
+    distances = np.sort(static.along(origins, sign * frame.rotation[:, 0]))
+    return distances[distances <= reach + inside] - inside
 
 
 def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -> Iterator[RailSpot]:
@@ -68,8 +83,9 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -
     """
     flank = body.top - body.bottom
     length = share * body.length
-    for thickness in _thicknesses(model, walls.nearer):
-        let_in = max(0.0, thickness - max(walls.nearer, 0.0)) / 2
+    for thickness in _thicknesses(model, walls):
+        tight = (thickness - min(max(walls.nearer, 0.0), thickness)) / 2
+        let_in = min(max(tight, _DYNAMIC_REACH * thickness - walls.passage, 0.0), _MOST_LET_IN * thickness)
         height = max(min(model.natural.height, 0.6 * flank, 4.0 * thickness + 0.01), min(_LOWEST, flank))
         for level in (0.5, 0.3, 0.7, 0.15, 0.85):
             z = body.bottom + level * flank
@@ -78,14 +94,12 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -
             yield RailSpot(size, -body.half_width - thickness + let_in, body.back - length / 2, z)
 
 
-def _thicknesses(model: RailModel, gap: float) -> list[float]:
-    """Returns the thicknesses to try: what the gap holds, then thinner ones that are let in."""
-    natural = model.natural.thickness
-    if gap >= natural:
-        return [natural, natural / 2, _THINNEST]
-    if gap > _THINNEST:
-        return [gap, gap / 2, _THINNEST]
-    return [_THINNEST, 0.0015, 0.001]
+def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
+    """Returns the thicknesses to try: what gap and passage hold, then thinner ones that are let in."""
+    full = min(model.natural.thickness, walls.nearer)
+    through = min(full, walls.passage / (_DYNAMIC_REACH - _MOST_LET_IN))
+    fitting = [t for t in (full, min(full, walls.passage), through, through / 2) if t > _THINNEST]
+    return [*dict.fromkeys(fitting), _THINNEST, *((0.0018, 0.001) if through <= _THINNEST else ())]
 
 
 def front_only_region(
