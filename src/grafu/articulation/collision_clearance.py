@@ -1,7 +1,7 @@
 """Collision shapes trimmed until no joint is jammed: shapes of different links that meet along a motion give way.
 
 Boxes and hulls stand for meshes that pass one another by a hair; where the stand-ins overlap, a simulator would push
-doors open or stop drawers. The shape that keeps the larger share of itself is cut back. It knows no file format.
+doors open or stop drawers. They are cut back where it takes the least surface away. It knows no file format.
 """
 
 from collections.abc import Iterator, Mapping
@@ -28,9 +28,9 @@ Shapes = dict[str, tuple[CollisionShape, ...]]
 class ClearanceConfig:
     """How shapes give way; lengths in metres.
 
-    Each motion is looked at in `poses` poses. A cut leaves `margin`; a shape that would keep less than `least_share` of
-    its volume, or become thinner than `least_thickness`, is not cut: then the one that stands still is left out, for a
-    drawer without a bottom is worse than a frame without a rail. Cuts are repeated `rounds` times.
+    Each motion is looked at in `poses` poses. A cut leaves `margin`; where a shape would keep less than `least_share`
+    of a side, or become thinner than `least_thickness`, it is not cut. Of a pair that cannot be cut the one that stands
+    still is left out: a drawer without a bottom is worse than a frame without a rail. Cuts are repeated `rounds` times.
     """
 
     poses: int = 9
@@ -161,18 +161,23 @@ def _left_out(conflict: _Conflict) -> _Body:
 
 
 def _cut(conflict: _Conflict, config: ClearanceConfig) -> tuple[_Body, CollisionShape | None]:
-    """Returns the body that gives way and what is left of it: the one that keeps the larger share of itself."""
+    """Returns the body that gives way and what is left of it: whatever takes the least surface away."""
     moving, still = conflict.moving, conflict.still
     onto_moving = np.vstack([transform_points(T, still.corners) for T in conflict.Ts_moving_still])
     onto_still = np.vstack([transform_points(invert(T), moving.corners) for T in conflict.Ts_moving_still])
-    options = [(moving, *_cut_back(moving.shape, onto_moving, config))]
-    options.append((still, *_cut_back(still.shape, onto_still, config)))
-    body, shape, share = max(options, key=lambda option: option[2])
-    return (body, shape) if share >= config.least_share else (_left_out(conflict), None)
+    options: list[tuple[_Body, CollisionShape | None]] = [(_left_out(conflict), None)]
+    for body, obstacle in ((moving, onto_moving), (still, onto_still)):
+        rest = _cut_back(body.shape, obstacle, config)
+        options += [(body, rest)] if rest is not None else []
+    return min(options, key=lambda option: _loss(*option))
 
 
-def _cut_back(shape: CollisionShape, obstacle: Points, config: ClearanceConfig) -> tuple[CollisionShape | None, float]:
-    """Returns the largest rest of a shape on one side of the box around the obstacle, and the share it is."""
+def _loss(body: _Body, rest: CollisionShape | None) -> float:
+    return extent_of(body.shape) - (0.0 if rest is None else extent_of(rest))
+
+
+def _cut_back(shape: CollisionShape, obstacle: Points, config: ClearanceConfig) -> CollisionShape | None:
+    """Returns the largest rest of a shape on one side of the box around the obstacle, if it is worth keeping."""
     R = shape.rotation if isinstance(shape, OrientedBox) else np.eye(3)
     own, local = corners_of(shape) @ R, obstacle @ R
     low, high = own.min(axis=0), own.max(axis=0)
@@ -181,11 +186,11 @@ def _cut_back(shape: CollisionShape, obstacle: Points, config: ClearanceConfig) 
     room = np.stack([below, above], axis=1)
     share = room / np.maximum(high - low, 1e-12)[:, None]
     axis, side = np.unravel_index(int(np.argmax(share)), share.shape)
-    if room[axis, side] < config.least_thickness:
-        return None, 0.0
+    if room[axis, side] < config.least_thickness or share[axis, side] < config.least_share:
+        return None
     normal = R[:, axis] * (1.0 if side == 0 else -1.0)
     offset = float(low[axis] + room[axis, 0]) if side == 0 else -float(high[axis] - room[axis, 1])
-    return _halved(shape, normal, offset, int(axis)), float(share[axis, side])
+    return _halved(shape, normal, offset, int(axis))
 
 
 def _halved(shape: CollisionShape, normal: np.ndarray, offset: float, axis: int) -> CollisionShape | None:

@@ -11,6 +11,7 @@ from typing import Any, final
 
 import manifold3d
 import numpy as np
+from jaxtyping import Float
 from trimesh.intersections import slice_faces_plane
 
 from grafu.geometry.arrays import Points, Scalars, Vec3
@@ -59,7 +60,7 @@ def hull_of(points: Points, least_thickness: float) -> ConvexSolid | None:
     return ConvexSolid.around(_thickened(points, least_thickness))
 
 
-def few_corners(points: Points, most: int) -> Points:
+def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
     """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
     if len(points) <= most:
         return points
@@ -163,7 +164,7 @@ def _grid(box: Box, spacing: float) -> Points:
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _inside(solid: ConvexSolid, points: Points) -> Points:
+def _inside(solid: ConvexSolid, points: Points) -> Float[np.ndarray, "k 3"]:
     return points[np.all(points @ solid.planes[:, :3].T <= solid.planes[:, 3] - 1e-6, axis=1)]
 
 
@@ -212,7 +213,7 @@ def _sliced(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
     return TriangleMesh(np.asarray(vertices).reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3))
 
 
-def _thickened(points: Points, least: float) -> Points:
+def _thickened(points: np.ndarray, least: float) -> Points:
     """Returns points that are at least `least` apart in every direction: flat sets are doubled along their normal."""
     offsets = points - points.mean(axis=0)
     for axis in np.linalg.eigh(offsets.T @ offsets)[1].T:
