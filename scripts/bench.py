@@ -33,11 +33,12 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 @dataclass(frozen=True)
 class Timing:
-    """One model: seconds of each run and of its stages (the median run's), parts, peak memory of its process."""
+    """One model: seconds of each run on the clock and on the processor, stages of the median run, peak memory."""
 
     name: str
     parts: int
     runs: list[float]
+    cpu: list[float]
     stages: dict[str, float]
     peak_mb: float
 
@@ -133,10 +134,15 @@ def time_wall(parts: str, repeats: int) -> Timing:
 def repeated(name: str, run: Callable[[], tuple[float, int, dict[str, float]]], repeats: int) -> Timing:
     """Returns the timing of `repeats` runs after one that only warms up."""
     run()
-    runs = sorted((run() for _ in range(repeats)), key=lambda r: r[0])
+    runs, cpu = [], []
+    for _ in range(repeats):
+        started = time.process_time()
+        runs.append(run())
+        cpu.append(round(time.process_time() - started, 4))
+    runs.sort(key=lambda r: r[0])
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (2**20 if sys.platform == "darwin" else 2**10)
     middle = runs[len(runs) // 2]
-    return Timing(name, middle[1], [round(r[0], 4) for r in runs], middle[2], round(peak, 1))
+    return Timing(name, middle[1], [round(r[0], 4) for r in runs], sorted(cpu), middle[2], round(peak, 1))
 
 
 def summary(models: list[Timing], walls: list[Timing]) -> dict[str, float]:
@@ -173,13 +179,13 @@ def page(figures: dict[str, float], models: list[Timing], walls: list[Timing]) -
 
 
 def table(title: str, timings: list[Timing]) -> str:
-    """Returns one table: the median of the runs, their spread, and where the time went."""
+    """Returns one table: the median run, the spread, the processor's own time (less on a busy machine), the stages."""
     rows = [
-        f"| {t.name} | {t.parts} | {t.seconds:.2f} | {t.runs[0]:.2f} .. {t.runs[-1]:.2f} | {t.peak_mb:.0f} "
-        f"| {stages(t)} |"
+        f"| {t.name} | {t.parts} | {t.seconds:.2f} | {t.runs[0]:.2f} .. {t.runs[-1]:.2f} | {median(t.cpu):.2f} "
+        f"| {t.peak_mb:.0f} | {stages(t)} |"
         for t in timings
     ]
-    head = f"## {title}\n\n| name | parts | seconds | spread | peak MB | stages |\n|---|---|---|---|---|---|\n"
+    head = f"## {title}\n\n| name | parts | seconds | spread | processor | peak MB | stages |\n{'|---' * 7}|\n"
     return head + "\n".join(rows) + "\n"
 
 
