@@ -4,6 +4,7 @@ A BVH of triangles has no inside: a mesh that lies wholly within another does no
 through one another cut surfaces, which is what is asked here.
 """
 
+from collections.abc import Sequence
 from typing import final
 from weakref import finalize
 
@@ -133,17 +134,30 @@ class MovingBody:
 
     def penetrates(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, cuts into the obstacle by more than the depth."""
-        if not self._plain.intersects(obstacle):
-            return False
-        for shift in (None, *self._shifts):
-            self._shrunk.place(self._T, shift)
-            if not self._shrunk.intersects(obstacle):
-                return False
-        return True
+        return bool(self.penetrated([obstacle]))
 
-    def faces_in_contact(self, obstacle: MeshCollider) -> set[int]:
-        """Returns the numbers of the body's faces that, as posed, intersect the obstacle."""
-        return self._plain.faces_in_contact(obstacle)
+    def penetrated(self, obstacles: Sequence[MeshCollider]) -> list[int]:
+        """Returns the numbers of the obstacles that the body, as posed, cuts into by more than the depth.
+
+        They count together: a body wedged between two obstacles comes free of each in some direction, of both in none.
+        """
+        if not any(self._plain.intersects(obstacle) for obstacle in obstacles):
+            return []
+        self._shrunk.place(self._T)
+        met = [k for k, obstacle in enumerate(obstacles) if self._shrunk.intersects(obstacle)]
+        if not met:
+            return []
+        for shift in self._shifts:
+            self._shrunk.place(self._T, shift)
+            if not any(self._shrunk.intersects(obstacle) for obstacle in obstacles):
+                return []
+        return met
+
+    def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
+        """Returns the numbers of the body's faces that, as posed, cut into the obstacles; none where none is penetrated."""
+        met = self.penetrated(obstacles)
+        self._shrunk.place(self._T)
+        return set().union(*(self._shrunk.faces_in_contact(obstacles[k]) for k in met))
 
     def distance(self, obstacle: MeshCollider) -> float:
         """Returns the distance in metres of the body, as posed, from the obstacle; 0 where they intersect."""

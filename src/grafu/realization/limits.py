@@ -64,10 +64,10 @@ def free_opening(
     It stops at the first blocked pose, unless that is the first of all.
     """
     values = np.linspace(0.0, reach, poses)
-    if _first_blocker(body, motion(0.0), obstacles) is not None:
-        hits = [_first_blocker(body, motion(v), obstacles) is not None for v in values]
+    if _blockers(body, motion(0.0), obstacles):
+        hits = [bool(_blockers(body, motion(v), obstacles)) for v in values]
         return 0.0, sum(hits) / poses
-    first = next((k for k, v in enumerate(values) if _first_blocker(body, motion(v), obstacles)), None)
+    first = next((k for k, v in enumerate(values) if _blockers(body, motion(v), obstacles)), None)
     return (reach, 0.0) if first is None else (float(values[first - 1]), 0.0)
 
 
@@ -75,28 +75,23 @@ def all_blockers(
     body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[str, ...]:
     """Returns the ids of the obstacles that the body cuts into anywhere from 0 to `reach`, sorted."""
-    left, found = list(obstacles), []
-    for value in np.linspace(0.0, reach, poses):
-        hit = _blockers(body, motion(value), left)
-        found += hit
-        left = [o for o in left if o.id not in hit]
-    return tuple(sorted(found))
+    return sweep(body, motion, reach, obstacles, poses).blockers
 
 
 def is_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
     """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
-    return not any(_first_blocker(body, motion(v), obstacles) for v in np.linspace(0.0, reach, poses)[::-1])
+    return not any(_blockers(body, motion(v), obstacles) for v in np.linspace(0.0, reach, poses)[::-1])
 
 
 def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
     """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection."""
     values = np.linspace(0.0, reach, poses)
     for before, after in zip(values[:-1], values[1:], strict=True):
-        if _first_blocker(body, motion(after), obstacles) is None:
+        if not _blockers(body, motion(after), obstacles):
             continue
         for _ in range(6):
             middle = (before + after) / 2
-            if _first_blocker(body, motion(middle), obstacles) is None:
+            if not _blockers(body, motion(middle), obstacles):
                 before = middle
             else:
                 after = middle
@@ -104,11 +99,7 @@ def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Seque
     return float(reach)
 
 
-def _first_blocker(body: MovingBody, T: Mat4, obstacles: Sequence[Obstacle]) -> str | None:
-    body.place(T)
-    return next((o.id for o in obstacles if body.penetrates(o.collider)), None)
-
-
 def _blockers(body: MovingBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
+    """Returns the ids of what the body, posed at T, cuts into."""
     body.place(T)
-    return [o.id for o in obstacles if body.penetrates(o.collider)]
+    return [obstacles[k].id for k in body.penetrated([o.collider for o in obstacles])]

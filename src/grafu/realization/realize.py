@@ -17,7 +17,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
 from grafu.realization.build import Built, build_joint
 from grafu.realization.clearance.make import adopt
-from grafu.realization.clearance.path import Path, blockers
+from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
@@ -86,7 +86,7 @@ def _closed_scene(
         motion = motion_about(request.axis, request.type)
         axes = part_axes(scene.parts[request.moving].mesh)
         path = Path(request.moving, motion, 1e-6, axes, request.type is JointType.REVOLUTE)
-        scene, joined = adopt(scene, path, blockers(scene, path, config), config)
+        scene, joined = adopt(scene, path, obstruction(scene, path, config).blockers, config)
         T = motion(-request.drawn_at)
         members = scene.movers[request.moving].members
         scene = scene.replaced(_moved(scene.parts[m], T) for m in members)

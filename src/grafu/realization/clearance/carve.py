@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts, part_numbers
-from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid, subtract
 from grafu.geometry.transform import transform_points
@@ -27,7 +27,7 @@ _MOST_TRIANGLES = 300  # a piece of which more triangles cut in is covered by it
 def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Returns the scene with the path cut out of those blockers that lose less than the limit."""
     play = 2.5 * config.depth * scene.unit
-    solids = list(_swept_solids(scene, path, ids, play))
+    solids = list(_swept_solids(scene, path, ids, play, config))
     carved: list[Part] = []
     done: list[Clearance] = []
     for name in ids:
@@ -89,12 +89,14 @@ def _depth(part: Part, surfaces: Sequence[Surface]) -> float:
     return float(np.sqrt(max(gone, default=0.0)))
 
 
-def _swept_solids(scene: Scene, path: Path, ids: Sequence[str], play: float) -> Iterator[ConvexSolid]:
+def _swept_solids(
+    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
+) -> Iterator[ConvexSolid]:
     """Yields convex solids that cover the way of whatever of the mover cuts into a blocker, with some play."""
     steps = max(2, int(np.ceil(path.reach / _TURN_STEP)) + 1) if path.is_turn else 2
     poses = [path.motion(v) for v in np.linspace(0.0, path.reach, steps)]
     boxes = [scene.parts[name].box for name in ids]
-    for points in _cutting_pieces(scene, path, ids, play):
+    for points in _cutting_pieces(scene, path, ids, play, config):
         for step in zip(poses[:-1], poses[1:], strict=True):
             way = np.vstack([transform_points(T, points) for T in step])
             if not any(Box.around(way).overlaps(box, play) for box in boxes):
@@ -104,10 +106,14 @@ def _swept_solids(scene: Scene, path: Path, ids: Sequence[str], play: float) -> 
                 yield solid
 
 
-def _cutting_pieces(scene: Scene, path: Path, ids: Sequence[str], play: float) -> Iterator[Points]:
+def _cutting_pieces(
+    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
+) -> Iterator[Points]:
     """Yields the corners of what cuts in: a convex piece's hull, or the triangles of other pieces that do."""
     mesh = scene.moving_mesh(path.mover)
-    cutting = _cutting_faces(mesh, path, [MeshCollider(scene.parts[name].mesh) for name in ids])
+    body = scene.moving_body(path.mover, config.depth * scene.unit, path.axes)
+    colliders = [MeshCollider(scene.parts[name].mesh) for name in ids]
+    cutting = _cutting_faces(body, path, colliders, config.fine_poses)
     numbers = part_numbers(mesh)
     for number in np.unique(numbers[cutting]):
         piece = mesh.with_faces(numbers == number)
@@ -119,14 +125,12 @@ def _cutting_pieces(scene: Scene, path: Path, ids: Sequence[str], play: float) -
             yield from mesh.triangles[faces]
 
 
-def _cutting_faces(mesh: TriangleMesh, path: Path, obstacles: Sequence[MeshCollider]) -> np.ndarray:
-    """Returns the numbers of the moving faces that meet an obstacle somewhere on the way."""
-    collider = MeshCollider(mesh)
+def _cutting_faces(body: MovingBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
+    """Returns the numbers of the moving faces that cut into an obstacle somewhere on the way."""
     found: set[int] = set()
-    for value in np.linspace(0.0, path.reach, 41):
-        collider.place(path.motion(value))
-        for obstacle in obstacles:
-            found |= collider.faces_in_contact(obstacle)
+    for value in np.linspace(0.0, path.reach, poses):
+        body.place(path.motion(value))
+        found |= body.cutting_faces(obstacles)
     return np.array(sorted(found), dtype=np.int64)
 
 

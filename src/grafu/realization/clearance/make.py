@@ -1,7 +1,7 @@
 """Makes a path free, step by step, only as far as needed (design, section 5).
 
 What lies enclosed in the moving part moves with it; the moving part is trimmed; a static part that fits without play is
-eased; a static part that intrudes into the path is carved. A step stays only if fewer parts block the path after it.
+eased; a static part that intrudes into the path is carved. A step stays only if it helps.
 """
 
 from collections.abc import Callable, Sequence
@@ -15,9 +15,10 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation
 from grafu.realization.clearance.carve import carve
-from grafu.realization.clearance.path import Path, blockers
+from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.clearance.trim import trim
 from grafu.realization.config import RealizationConfig
+from grafu.realization.limits import SweepVerdict
 from grafu.realization.report import Clearance
 from grafu.realization.scene import Mover, Scene
 
@@ -38,16 +39,23 @@ _Step = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, l
 def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Cleared:
     """Returns the scene in which the path is free, or as free as the limits allow."""
     done: list[Clearance] = []
-    left = blockers(scene, path, config)
+    left = obstruction(scene, path, config)
     for step in _STEPS if config.trim else (adopt,):
-        if not left:
+        if not left.blockers:
             break
-        tried, clearances = step(scene, path, left, config)
-        remaining = blockers(tried, path, config) if clearances else left
-        if len(remaining) < len(left):
+        tried, clearances = step(scene, path, left.blockers, config)
+        if not clearances:
+            continue
+        remaining = obstruction(tried, path, config)
+        if _is_better(remaining, left):
             scene, left = tried, remaining
             done += clearances
-    return Cleared(scene, tuple(done), left)
+    return Cleared(scene, tuple(done), left.blockers)
+
+
+def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
+    """Whether a step helped: fewer blockers, or as many in fewer poses."""
+    return (len(after.blockers), after.share) < (len(before.blockers), before.share)
 
 
 def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:

@@ -11,7 +11,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
-from grafu.realization.limits import Motion, all_blockers, in_the_way, swept_box
+from grafu.realization.limits import Motion, SweepVerdict, in_the_way, sweep, swept_box
 from grafu.realization.scene import Scene
 
 
@@ -27,12 +27,12 @@ class Path:
     is_turn: bool
 
 
-def blockers(scene: Scene, path: Path, config: RealizationConfig) -> tuple[str, ...]:
-    """Returns the ids of the static parts that the mover runs into."""
+def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
+    """Returns how far the static parts block the mover's way, and which of them do."""
     mesh = scene.moving_mesh(path.mover)
     body = scene.moving_body(path.mover, config.depth * scene.unit, path.axes)
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
-    return all_blockers(body, path.motion, path.reach, near, config.fine_poses)
+    return sweep(body, path.motion, path.reach, near, config.fine_poses)
 
 
 def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:

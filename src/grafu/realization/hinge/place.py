@@ -153,7 +153,12 @@ def _judge(pin: PinCandidate, search: DoorSearch) -> _Judged:
     poses = search.config.coarse_poses
     free, share = free_opening(search.body, motion, search.wanted, in_the_way(search.obstacles, box), poses)
     neighbours = all_blockers(search.body, motion, search.wanted, in_the_way(search.neighbours, box), poses)
-    rank = (round(1.0 - free / search.wanted, 2) + round(share, 2), len(neighbours), pin.preference, search.request.axis.distance_to(axis.point))
+    rank = (
+        round(1.0 - free / search.wanted, 2) + round(share, 2),
+        len(neighbours),
+        pin.preference,
+        search.request.axis.distance_to(axis.point),
+    )
     return _Judged(pin, axis, free, neighbours, rank)
 
 
