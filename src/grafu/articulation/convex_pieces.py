@@ -140,7 +140,7 @@ def _deepest_pit(mesh: TriangleMesh, config: PieceConfig) -> Vec3 | None:
     """Returns the point of the deepest pit, None where every pit is within the tolerance."""
     sides = np.sort(mesh.box.size)
     solid = (
-        None if sides[2] < 2 * config.tolerance or _is_box(mesh) else hull_of(few_corners(mesh.vertices, 96), _SPECK)
+        None if sides[2] < 2 * config.tolerance or _is_box(mesh) else hull_of(few_corners(mesh.vertices, 32), _SPECK)
     )
     if solid is None:
         return None
