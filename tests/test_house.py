@@ -73,6 +73,11 @@ def test_readme_links_lead_somewhere() -> None:
     assert [(page.name, link) for page, link in links if not (page.parent / link).exists()] == []
 
 
+def test_the_index_links_every_page_once() -> None:
+    linked = sorted(re.findall(r"\]\(([a-z]+\.md)\)", (ROOT / "docs" / "index.md").read_text()))
+    assert linked == sorted(p.name for p in (ROOT / "docs").glob("*.md") if p.name != "index.md")
+
+
 def test_the_changelog_knows_this_version() -> None:
     assert f"## [{__version__}]" in (ROOT / "CHANGELOG.md").read_text()
     assert grafu.__version__ == __version__
