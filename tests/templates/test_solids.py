@@ -45,16 +45,16 @@ def test_a_turned_profile_is_closed_and_outward_in_either_order():
 
 
 def test_a_tube_has_the_volume_of_its_polygonal_ring():
-    mesh = tube(1.0, 2.0, 0.0, 3.0, segments=12)
+    mesh = tube(1.0, 2.0, (0.0, 3.0), segments=12)
     ring = 12 / 2 * np.sin(2 * np.pi / 12) * (4 - 1)
     assert mesh.is_closed
     assert volume(mesh) == pytest.approx(3 * ring)
 
 
 def test_a_chamfer_takes_material_off_a_tube_and_leaves_it_closed():
-    mesh = tube(0.0, 2.0, 0.0, 3.0, chamfer=0.3)
+    mesh = tube(0.0, 2.0, (0.0, 3.0), chamfer=0.3)
     assert mesh.is_closed
-    assert volume(mesh) < volume(tube(0.0, 2.0, 0.0, 3.0))
+    assert volume(mesh) < volume(tube(0.0, 2.0, (0.0, 3.0)))
 
 
 def test_a_chamfer_never_eats_the_whole_rectangle():
@@ -69,7 +69,7 @@ def test_placing_in_a_left_handed_frame_keeps_solids_outward():
 
 
 def test_finishing_smooths_curves_and_keeps_edges():
-    surface = finished(tube(0.0, 1.0, 0.0, 1.0, segments=12), STEEL)
+    surface = finished(tube(0.0, 1.0, (0.0, 1.0), segments=12), STEEL)
     assert surface.normals is not None
     assert surface.mesh.is_closed
     flat = np.abs(surface.normals[:, 2])

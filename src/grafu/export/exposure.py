@@ -39,6 +39,8 @@ class Exposure:
         width, height = size
         self.origins = np.tile(camera.eye.astype(np.float32), (width * height, 1))
         self.directions = camera.rays(width, height)
+        self.color = np.zeros((width * height, 4), np.float32)
+        self.through = np.ones(width * height, np.float32)  # how much of each ray goes on behind the glass so far
         rows, columns = np.divmod(np.arange(width * height), width)
         self.pattern = (rows % 4) * 4 + columns % 4
         corners = scene.triangles.reshape(-1, 3)
@@ -47,13 +49,11 @@ class Exposure:
         self.reach = float(0.35 * np.linalg.norm(self.high - self.low))
 
     def samples(self) -> Samples:
-        """Returns premultiplied linear RGBA per sample, (height, width, 4)."""
-        color = np.zeros((len(self.directions), 4), np.float32)
-        through = np.ones(len(self.directions), np.float32)
+        """Returns premultiplied linear RGBA per sample, (height, width, 4). To be called once."""
         rays, start = np.arange(len(self.directions)), self.origins
         for layer in range(_LAYERS):
             hits = self.scene.cast(start[rays], self.directions[rays])
-            self._add(color, through, rays[hits.ray], hits, start, outlined=layer == 0)
+            self._add(rays[hits.ray], hits, start, outlined=layer == 0)
             glass = hits.alpha < 0.99
             if not glass.any() or layer == _LAYERS - 1:
                 break
@@ -62,12 +62,11 @@ class Exposure:
             start[behind] += self.directions[behind] * (hits.distance[glass, None] + 1e-4 * self.reach)
             rays = behind
         if self.style.shadow:
-            color[:, 3] += through * self._shadow(through)
-        return color.reshape(self.size[1], self.size[0], 4)
+            self.color[:, 3] += self.through * self._shadow(self.through)
+        return self.color.reshape(self.size[1], self.size[0], 4)
 
-    def _add(
-        self, color: np.ndarray, through: np.ndarray, rays: np.ndarray, hits: Hits, start: np.ndarray, outlined: bool
-    ) -> None:
+    def _add(self, rays: np.ndarray, hits: Hits, start: np.ndarray, outlined: bool) -> None:
+        """Adds what one layer of hits sends back, in front of what is still to come."""
         points = start[rays] + self.directions[rays] * hits.distance[:, None]
         lifted = points + hits.flat_normal * (3e-4 * self.reach)
         sky = sky_share(self.scene, lifted, hits.normal, self.pattern[rays], self.reach)
@@ -78,10 +77,10 @@ class Exposure:
         light = shade(near, self.directions[rays], sky, key, self.toward)
         if outlined and self.style.outlines:
             light *= self._ink(near, points)[:, None]
-        weight = through[rays] * hits.alpha
-        color[rays, :3] += light * weight[:, None]
-        color[rays, 3] += weight
-        through[rays] -= weight
+        weight = self.through[rays] * hits.alpha
+        self.color[rays, :3] += light * weight[:, None]
+        self.color[rays, 3] += weight
+        self.through[rays] -= weight
 
     def _grid(self, rays: np.ndarray, values: np.ndarray, empty: float | int) -> np.ndarray:
         grid = np.full((self.size[0] * self.size[1], *values.shape[1:]), empty, values.dtype)
@@ -97,7 +96,7 @@ class Exposure:
         for dy in range(-2, 2):
             for dx in range(-2, 2):
                 if dx or dy:
-                    _accumulate(total, count, grid, surface, dy, dx)
+                    _accumulate((total, count), grid, surface, (dy, dx))
         return (total / count).reshape(-1)[hits.ray]
 
     def _ink(self, hits: Hits, points: np.ndarray) -> np.ndarray:
@@ -120,24 +119,39 @@ class Exposure:
         return ink.reshape(-1)[hits.ray]
 
     def _shadow(self, through: np.ndarray) -> np.ndarray:
-        """Returns how dark the floor is behind each ray, 0..1."""
-        dark = np.zeros(len(through), np.float32)
-        fall = np.minimum(self.directions[:, 2], -1e-6)
-        distance = (self.low[2] - self.origins[:, 2]) / fall
-        points = self.origins + self.directions * distance[:, None]
-        margin = 1.2 * (self.high[2] - self.low[2]) + self.reach
-        inside = np.all((points[:, :2] > self.low[:2] - margin) & (points[:, :2] < self.high[:2] + margin), axis=1)
-        rays = np.flatnonzero((through > 0.01) & (self.directions[:, 2] < -1e-6) & inside)
-        lifted = (points[rays] + np.array([0, 0, 1e-4 * self.reach])).astype(np.float32)
+        """Returns how dark the floor is behind each ray, 0..1; found for one sample in four and smoothed."""
+        width, height = self.size
+        open_blocks = through.reshape(height // 2, 2, width // 2, 2).max(axis=(1, 3)) > 0.01
+        first = np.arange(width * height).reshape(height, width)[::2, ::2]
+        rays, points = self._floor_points(first[open_blocks])
+        lifted = points + np.array([0, 0, 1e-4 * self.reach], np.float32)
         up = np.tile(np.array([0, 0, 1], np.float32), (len(rays), 1))
-        sky = sky_share(self.scene, lifted, up, self.pattern[rays], 1.6 * self.reach)
-        key = key_share(self.scene, lifted, self.pattern[rays], self.toward)
-        dark[rays] = 1 - (1 - 0.24 * (1 - key)) * (1 - 0.42 * (1 - sky))
-        return _box_mean(dark.reshape(self.size[1], self.size[0])).reshape(-1)
+        rows, columns = np.divmod(rays, width)
+        pattern = (rows // 2 % 4) * 4 + columns // 2 % 4
+        sky = sky_share(self.scene, lifted, up, pattern, 1.6 * self.reach)
+        key = key_share(self.scene, lifted, pattern, self.toward)
+        dark, known = np.zeros((2, width * height), np.float32)
+        dark[rays], known[rays] = 1 - (1 - 0.24 * (1 - key)) * (1 - 0.42 * (1 - sky)), 1.0
+        dark, known = (_box_mean(grid.reshape(height, width)[::2, ::2]) for grid in (dark, known))
+        smooth = dark / np.maximum(known, 1e-3)  # what the object hides is not counted in
+        return np.repeat(np.repeat(smooth, 2, axis=0), 2, axis=1).reshape(-1)
+
+    def _floor_points(self, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns those of the rays that meet the floor near the object, and where they do."""
+        down = self.directions[rays, 2]
+        rays, down = rays[down < -1e-6], down[down < -1e-6]
+        distance = (self.low[2] - self.origins[rays, 2]) / down
+        points = self.origins[rays] + self.directions[rays] * distance[:, None]
+        margin = 1.2 * (self.high[2] - self.low[2]) + self.reach
+        near = np.all((points[:, :2] > self.low[:2] - margin) & (points[:, :2] < self.high[:2] + margin), axis=1)
+        return rays[near], points[near].astype(np.float32)
 
 
-def _accumulate(total: np.ndarray, count: np.ndarray, grid: np.ndarray, surface: np.ndarray, dy: int, dx: int) -> None:
-    """Adds to each sample its neighbour at (dy, dx), where both are on the same surface."""
+def _accumulate(
+    sums: tuple[np.ndarray, np.ndarray], grid: np.ndarray, surface: np.ndarray, step: tuple[int, int]
+) -> None:
+    """Adds to each sample its neighbour at a step (rows, columns), where both are on the same surface."""
+    (total, count), (dy, dx) = sums, step
     h, w = grid.shape
     here = (slice(max(0, -dy), h - max(0, dy)), slice(max(0, -dx), w - max(0, dx)))
     there = (slice(max(0, dy), h - max(0, -dy)), slice(max(0, dx), w - max(0, -dx)))

@@ -15,8 +15,8 @@ from grafu.geometry.arrays import Vec3
 Rgb = Float32[np.ndarray, "n 3"]
 Pattern = np.ndarray  # one number in 0..15 per ray: its place in the 4x4 pattern
 
-_KEY_LIGHT = np.array([-0.75, -0.6, -0.62])  # from the camera: to the left, up, and back towards it
-_KEY, _SKY, _FLOOR = 1.35, 0.78, 0.5
+_KEY_LIGHT = np.array([0.34, -0.72, -0.8])  # from the camera: to the right, up, and back towards it
+_KEY, _SKY, _FLOOR = 0.78, 0.5, 0.22  # white under all of it is just white
 _KEY_SPREAD = np.tan(radians(5))  # the key light's half angle: how soft a shadow's edge is
 _SKY_RAYS = 3  # per sample; four samples a pixel and the smoothing make about 100
 
@@ -33,7 +33,7 @@ _POINTS = _sphere_points(16 * _SKY_RAYS).reshape(16, _SKY_RAYS, 3)
 
 
 def key_direction(camera: Camera) -> Vec3:
-    """Returns the unit direction towards the key light, which stands up and to the left of the camera."""
+    """Returns the unit direction towards the key light, which stands up and to the right of the camera."""
     direction = camera.rotation @ _KEY_LIGHT + np.array([0, 0, 0.35])
     return (direction / np.linalg.norm(direction)).astype(np.float32)
 
@@ -60,11 +60,11 @@ def shade(hits: Hits, directions: Rays, sky: Values, key: Values, toward: np.nda
     mirror = 2 * facing[:, None] * hits.normal - view
     lambert = np.maximum(hits.normal @ toward, 0.0)
     up = 0.5 + 0.5 * hits.normal[:, 2]
-    diffuse = 0.62 * _KEY * key * lambert + sky * (_FLOOR + (_SKY - _FLOOR) * up)
+    diffuse = _KEY * key * lambert + sky * (_FLOOR + (_SKY - _FLOOR) * up)
     fresnel = 0.04 + 0.5 * (1 - np.clip(facing, 0, 1)) ** 5 * (1 - hits.roughness)
     gloss = _surroundings(mirror, hits.roughness, toward) * (0.35 + 0.65 * sky)
     matt = hits.color * diffuse[:, None] + (fresnel * (1 - hits.roughness) * gloss)[:, None]
-    metal = hits.color * (0.95 * gloss + 0.25 * diffuse)[:, None]
+    metal = hits.color * (1.15 * gloss + 0.3 * diffuse)[:, None]
     return matt + hits.metallic[:, None] * (metal - matt)
 
 

@@ -210,4 +210,4 @@ def _barrel_surfaces(
 
 def _knuckles(style: HingeStyle, size: HingeSize, bore: float, spans: list[tuple[float, float]]) -> TriangleMesh:
     chamfer = 0.0 if style.pitch else 0.1 * size.radius  # a continuous hinge has many knuckles and keeps them plain
-    return merge_meshes([tube(bore, size.radius, low, high, style.segments, chamfer) for low, high in spans])
+    return merge_meshes([tube(bore, size.radius, span, style.segments, chamfer) for span in spans])

@@ -194,7 +194,7 @@ def _rollers(size: RailSize, c: _Section) -> TriangleMesh:
     """Returns two nylon rollers in the lower lane, axles across; they stay with the channel."""
     radius = c.lane / 2 - c.g
     x0, x1 = c.bar_x
-    wheel = tube(0.0, radius, 0.0, x1 - x0 + 0.5 * c.wall, 14)
+    wheel = tube(0.0, radius, (0.0, x1 - x0 + 0.5 * c.wall), 14)
     across = placed(wheel, vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0))
     z = -c.half + c.wall + 0.95 * radius
     return merge_meshes([across.translated(vec3(x0, y, z)) for y in (-0.47 * size.length, -0.35 * size.length)])

@@ -102,8 +102,11 @@ def _signed_area(rows: Rows) -> float:
     return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y) / 2)
 
 
-def tube(inner: float, outer: float, low: float, high: float, segments: int = 12, chamfer: float = 0.0) -> TriangleMesh:
-    """Returns a tube about Z between two radii (`inner` 0: a full cylinder); `chamfer` cuts its outer edges."""
+def tube(
+    inner: float, outer: float, span: tuple[float, float], segments: int = 12, chamfer: float = 0.0
+) -> TriangleMesh:
+    """Returns a tube over `span` of Z between two radii (`inner` 0: a full cylinder); `chamfer` cuts outer edges."""
+    low, high = span
     edge = min(chamfer, 0.4 * (outer - inner), 0.2 * (high - low))
     if edge <= 0:
         return turned([(inner, low), (outer, low), (outer, high), (inner, high)], segments)
