@@ -1,0 +1,60 @@
+"""Whole furniture, made and real, through the pipeline into a simulator: closed it rests, pushed it opens fully."""
+
+import os
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from gltf_validation import issues_of
+
+from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.sweep import opening_stages
+from grafu.asset.load import load_asset
+from grafu.export.files import write_files
+from grafu.export.formats import export
+from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.templates.gallery import builtin_gallery
+
+_ROOT = Path(__file__).parents[2]
+_MODELS = Path(os.environ.get("GRAFU_MODELS", _ROOT.parent / "shared" / "models")) / "pnm"
+INPUTS = [
+    _ROOT / "samples" / "kitchen_base.glb",
+    _ROOT / "samples" / "dresser.glb",
+    _MODELS / "46408",
+    _MODELS / "44781",
+]
+
+
+@pytest.fixture(scope="module", params=INPUTS, ids=lambda path: path.stem)
+def made(request) -> ArticulatedObject:
+    if not request.param.exists():
+        pytest.skip("real models are not here")
+    return functionalize(load_asset(request.param), MotionSource.AUTO, builtin_gallery()).object
+
+
+def run(model: mujoco.MjModel, data: mujoco.MjData, seconds: float) -> None:
+    mujoco.mj_step(model, data, round(seconds / model.opt.timestep))
+
+
+def test_it_rests_closed_and_opens_fully(made, tmp_path):
+    write_files(export(made, ["urdf"]), tmp_path / "out")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "model.urdf"))
+    data = mujoco.MjData(model)
+
+    run(model, data, 1.0)
+    assert np.allclose(data.qpos, 0, atol=2e-3)
+
+    for stage in opening_stages(made):
+        for joint in map(model.joint, stage):
+            data.qfrc_applied[joint.dofadr] = 0.5 * model.jnt_actfrcrange[joint.id, 1]
+        run(model, data, 4.0)
+    assert made.moving_joints
+    assert np.all(data.qpos >= 0.95 * model.jnt_range[:, 1])
+
+
+def test_the_official_validator_finds_no_error(made, tmp_path):
+    issues = issues_of(export(made, ["glb"])["model.glb"], tmp_path)
+
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
