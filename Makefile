@@ -8,7 +8,7 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
-SAMPLE := samples/kitchen_base.glb
+SAMPLE := samples/sideboard.glb
 
 .PHONY: demo test check format bench clean help
 .DEFAULT_GOAL := help
@@ -32,7 +32,7 @@ help:
 
 demo: .venv/installed
 	$(BIN)/grafu functionalize $(SAMPLE) --out out --overwrite
-	@echo "look: out/kitchen_base/model.glb (animated: any glTF viewer), model.urdf (any robot simulator), report.json"
+	@echo "look: out/sideboard/model.glb (animated: any glTF viewer), model.urdf (any robot simulator), report.json"
 
 test: .venv/installed-dev
 	$(BIN)/pytest -n auto

@@ -23,7 +23,7 @@ COLOURS = 256  # a palette is a third of the bytes, and nobody sees it on plain 
 def main() -> int:
     """Writes the picture; returns the exit code."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("sample", nargs="?", type=Path, default=ROOT / "samples" / "kitchen_base.glb")
+    parser.add_argument("sample", nargs="?", type=Path, default=ROOT / "samples" / "sideboard.glb")
     parser.add_argument("--size", default="720x540")
     options = parser.parse_args()
     width, height = (int(side) for side in options.size.split("x"))
