@@ -16,6 +16,7 @@ from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
 
+_THIN_BOARD = 0.008
 # An initial axis within this angle of a box axis is snapped onto it; a larger one is a deliberate slant.
 _SNAP = np.cos(np.radians(8.0))
 
@@ -34,6 +35,11 @@ class BorderFrame(ArrayValue):
     def __post_init__(self) -> None:
         object.__setattr__(self, "origin", frozen_array(self.origin))
         object.__setattr__(self, "rotation", frozen_array(self.rotation))
+
+    @property
+    def board(self) -> float:
+        """The door's thickness, or a thin board's (8 mm) where it is drawn as a mere sheet: what steps are measured in."""
+        return max(self.thickness, _THIN_BOARD)
 
     @property
     def T_object_border(self) -> Mat4:

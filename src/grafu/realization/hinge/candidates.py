@@ -21,7 +21,8 @@ from grafu.vocabulary import MechanismClass
 class PinCandidate:
     """A pin at (x, y) of the border frame with the class that would carry it.
 
-    `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces; `preference`
+    `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that of
+    the barrel, for which the pin's place is right; `preference`
     orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `let_in` says that the static leaf
     is carried on through the seam into what stands behind the door.
     """
@@ -31,6 +32,7 @@ class PinCandidate:
     x: float
     y: float
     leaf_room: float
+    radius: float
     preference: int
     let_in: bool = False
 
@@ -52,9 +54,9 @@ def _contact_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinC
     """C beside an inset door: the leaves lie in the seam, the barrel in front of it."""
     if not (s.side_gap <= tol.contact and s.side_top <= 0.6 * tol.radius):
         return None
-    depth = min(frame.thickness, s.side_depth) if s.side_depth > 0 else frame.thickness
+    depth = min(frame.board, s.side_depth) if s.side_depth > 0 else frame.board
     room = tol.radius + 0.95 * depth
-    return PinCandidate(MechanismClass.C, 0.0, -max(s.side_gap, 0.0) / 2, tol.radius, room, 0)
+    return PinCandidate(MechanismClass.C, 0.0, -max(s.side_gap, 0.0) / 2, tol.radius, room, tol.radius, 0)
 
 
 def _contact_behind(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
@@ -64,7 +66,7 @@ def _contact_behind(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> Pin
         return None
     room = tol.radius + strip + max(0.95 * s.back_width, 2 * tol.radius)
     y = -frame.thickness - max(s.back_gap, 0.0) / 2
-    return PinCandidate(MechanismClass.C, pi / 2, -strip - tol.radius, y, room, 0)
+    return PinCandidate(MechanismClass.C, pi / 2, -strip - tol.radius, y, room, tol.radius, 0)
 
 
 def _flush_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
@@ -72,7 +74,7 @@ def _flush_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCan
     if not (s.side_gap <= tol.contact and abs(s.side_top) <= tol.flush):
         return None
     y = max(0.0, s.side_top) + tol.radius
-    return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, 0.3 * frame.width, 1)
+    return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, 0.3 * frame.width, tol.radius, 1)
 
 
 def _flush_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
@@ -81,7 +83,7 @@ def _flush_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCand
         return None
     x = min(0.0, s.side_face) - tol.radius
     y = -frame.thickness - max(s.back_gap, 0.0) / 2
-    return PinCandidate(MechanismClass.F, pi / 2, x, y, max(0.95 * frame.thickness, 2 * tol.radius), 1)
+    return PinCandidate(MechanismClass.F, pi / 2, x, y, max(0.95 * frame.board, 2 * tol.radius), tol.radius, 1)
 
 
 def _corner_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
@@ -89,7 +91,7 @@ def _corner_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCa
     if not (s.side_gap <= tol.contact and s.side_top >= 2 * tol.radius):
         return None
     room = min(s.side_top, 0.3 * frame.width)
-    return PinCandidate(MechanismClass.P, 0.0, tol.radius - max(s.side_gap, 0.0), tol.radius, room, 2)
+    return PinCandidate(MechanismClass.P, 0.0, tol.radius - max(s.side_gap, 0.0), tol.radius, room, tol.radius, 2)
 
 
 def _corner_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
@@ -98,16 +100,16 @@ def _corner_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCan
     if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= 3 * tol.radius):
         return None
     y = -frame.thickness - max(s.back_gap, 0.0) + tol.radius
-    room = min(strip - tol.radius, frame.thickness)
-    return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), 2)
+    room = min(strip - tol.radius, frame.board)
+    return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), tol.radius, 2)
 
 
 def _let_in_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
     """C at a door's front edge, its static leaf let into what stands behind: for doors that meet over one divider."""
     if not np.isfinite(s.back_gap):
         return None
-    room = tol.radius + 0.95 * frame.thickness
-    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, 3, let_in=True)
+    room = tol.radius + 0.95 * frame.board
+    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, 3, let_in=True)
 
 
 _RULES: tuple[_Rule, ...] = (
@@ -129,11 +131,11 @@ def pin_candidates(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list
 
 def _makeshift(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate]:
     """Yields pins at the corners of the border and around them; support blocks will have to reach the body."""
-    step = max(tol.radius, 0.25 * frame.thickness)
+    step = max(tol.radius, 0.25 * frame.board)
     room = max(4 * tol.radius, min(0.1 * frame.width, 8 * tol.radius))
     for x in (0.0, step, -step, 2 * step, 4 * step, -2 * step):
         for y in (tol.radius, step + tol.radius, 2 * step + tol.radius):
-            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, 4)
+            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, 4)
     for x in (-tol.radius, -step - tol.radius):
         for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
-            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, 5)
+            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, 5)

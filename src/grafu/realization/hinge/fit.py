@@ -20,6 +20,7 @@ from grafu.vocabulary import MechanismClass, PartLabel
 # A hinge never exceeds this share of its door (official 7.3: 12 % of the door's axial length per hinge).
 _LENGTH_SHARE = 0.12
 _RADIUS_SHARE = 0.22
+_RADIUS = 0.0036  # of a common 60 mm butt hinge
 _SMALLEST = 0.001
 
 
@@ -34,9 +35,9 @@ class FittedHinge:
     dynamic: Visual
 
 
-def barrel_radius(model_radius: float, frame: BorderFrame) -> float:
-    """Returns the barrel radius that suits a door, metres."""
-    return max(_SMALLEST, min(model_radius, _RADIUS_SHARE * frame.thickness))
+def barrel_radius(frame: BorderFrame) -> float:
+    """Returns the barrel radius that suits a door, metres; a door drawn without thickness counts as a thin board."""
+    return max(_SMALLEST, min(_RADIUS, _RADIUS_SHARE * frame.board))
 
 
 def hinge_count(length: float) -> int:
@@ -54,11 +55,11 @@ def hinge_heights(length: float, count: int) -> np.ndarray:
 
 def hinge_size(model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int) -> HingeSize | None:
     """Returns the size at which a model fits a pin; None where its leaves would be no wider than its barrel."""
-    radius = barrel_radius(model.natural.radius, frame)
+    radius = pin.radius
     length = min(model.natural.length, _LENGTH_SHARE * frame.length, 0.8 * frame.length / (count + 1))
     leaf = min(model.natural.leaf, pin.leaf_room)
     thickness = min(model.natural.thickness, 0.6 * radius)
-    if leaf < 1.5 * radius or length < 2 * radius:
+    if leaf < 1.5 * radius + 2e-4 or length < 2 * radius:
         return None
     return HingeSize(length, leaf, thickness, radius)
 

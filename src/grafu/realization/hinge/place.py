@@ -143,7 +143,7 @@ def _judged_pins(search: DoorSearch) -> list[_Judged]:
 
 def _tolerances(search: DoorSearch) -> Tolerances:
     unit = search.scene.unit
-    return Tolerances(search.config.contact * unit, search.config.flush * unit, barrel_radius(0.0036, search.frame))
+    return Tolerances(search.config.contact * unit, search.config.flush * unit, barrel_radius(search.frame))
 
 
 def _judge(pin: PinCandidate, search: DoorSearch) -> _Judged:

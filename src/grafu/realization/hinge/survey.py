@@ -73,15 +73,14 @@ class _Probe:
         """Returns the y of the front of what stands beside the door, seen from in front of it."""
         if not np.isfinite(side_gap):
             return float("-inf")
-        tops = [self._height_at(-max(side_gap, 0.0) - step) for step in (0.1, 0.25, 0.4)]
+        tops = [self._height_at(-max(side_gap, 0.0) - step * self._frame.board) for step in (0.1, 0.25, 0.4)]
         found = [top for top in tops if np.isfinite(top)]
         return float(np.median(found)) if found else float("-inf")
 
-    def _height_at(self, share_x: float) -> float:
-        """Returns the y at which a ray from the front meets the static body at an x (a share of the thickness)."""
-        x = share_x * self._frame.thickness
+    def _height_at(self, x: float) -> float:
+        """Returns the y at which rays from the front meet the static body at an x."""
         start = self._reach
-        distance = robust_median(self.row(x, start, 0.0, -1.0), start + self._frame.thickness)
+        distance = robust_median(self.row(x, start, 0.0, -1.0), start + self._frame.board)
         return start - distance
 
     def side_depth(self, side_gap: float) -> float:
@@ -91,12 +90,12 @@ class _Probe:
         levels = np.linspace(-0.05, -1.5, 12)
         gaps = np.array([self.side(level) for level in levels])
         near = np.abs(gaps - side_gap) < 0.003 * max(1.0, self._frame.width)
-        return float(-levels[near].min() * self._frame.thickness) if near.any() else 0.0
+        return float(-levels[near].min() * self._frame.board) if near.any() else 0.0
 
     def back(self) -> tuple[float, float]:
         """Returns the smallest gap behind the border and how far inwards the face there reaches."""
         inside = _START * self._frame.thickness
-        steps = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0]) * self._frame.thickness
+        steps = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0]) * self._frame.board
         gaps = np.array(
             [
                 robust_median(self.row(x, inside - self._frame.thickness, 0.0, -1.0), self._reach + inside) - inside
@@ -104,11 +103,21 @@ class _Probe:
             ]
         )
         if not np.isfinite(gaps[:5]).any():
-            return float("inf"), 0.0
+            return self._edge_behind(), self._frame.board
         gap = float(gaps[:5].min())
-        near = gaps < gap + 0.1 * self._frame.thickness + 1e-4
+        near = gaps < gap + 0.1 * self._frame.board + 1e-4
         end = int(np.argmin(near)) if not near.all() else len(near)
         return gap, float(steps[max(end - 1, int(np.argmax(near)))])
+
+    def _edge_behind(self) -> float:
+        """Returns the gap to a panel that stands edge-on behind the border: a sheet has no front to be met by a ray."""
+        for step in (0.02, 0.1, 0.3, 0.6):
+            gap = step * self._frame.board
+            start = -self._reach / 2
+            distance = robust_median(self.row(start, -self._frame.thickness - gap, 1.0, 0.0), self._reach)
+            if start + distance <= 3 * self._frame.board:
+                return gap
+        return float("inf")
 
     def side_face(self, back_gap: float) -> float:
         """Returns the x of the outer side of what stands behind the door, seen from beside it."""
@@ -116,8 +125,8 @@ class _Probe:
             return float("-inf")
         faces = []
         for step in (0.25, 0.6, 1.0):
-            y = -self._frame.thickness - max(back_gap, 0.0) - step * self._frame.thickness
-            distance = robust_median(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.thickness)
+            y = -self._frame.thickness - max(back_gap, 0.0) - step * self._frame.board
+            distance = robust_median(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.board)
             faces.append(distance - self._reach)
         found = [x for x in faces if np.isfinite(x)]
         return float(np.median(found)) if found else float("-inf")

@@ -80,9 +80,10 @@ def drawer_frame(mesh: TriangleMesh, direction: Vec3) -> DrawerFrame | None:
 @final
 @dataclass(frozen=True, slots=True)
 class BodyRegion:
-    """The container: half its outer width, its extent [front, back] along y, and the flank's extent over z."""
+    """The container: the x of its flanks, its extent [front, back] along y, and the flanks' extent over z."""
 
-    half_width: float
+    left: float
+    right: float
     front: float
     back: float
     bottom: float
@@ -93,30 +94,49 @@ class BodyRegion:
         """The body's length along the slide."""
         return self.back - self.front
 
+    @property
+    def middle(self) -> float:
+        """The x of the sagittal plane: midway between the flanks."""
+        return (self.left + self.right) / 2
+
+    @property
+    def half_width(self) -> float:
+        """Half the outer width."""
+        return (self.right - self.left) / 2
+
 
 def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> BodyRegion | None:
     """Returns the region around the median of the outer-width profile (supplement, eq. body region); None if no body.
 
-    `tolerance` is a share of the drawer's width.
+    Each flank has its own profile: a front may stand out further on one side. `tolerance` is a share of the width.
     """
-    widths = _outer_half_widths(mesh, frame)
-    columns = np.array([np.median(c[c > 0]) if (c > 0).any() else np.nan for c in widths])
-    if np.isfinite(columns).sum() < _SHORTEST * _SLIDE:
+    flanks = _flanks(mesh, frame)
+    columns = np.array([[_median(column) for column in flank] for flank in flanks])
+    if min(np.isfinite(columns).sum(axis=1)) < _SHORTEST * _SLIDE:
         return None
-    median = float(np.nanmedian(columns))
     band = max(tolerance * frame.width, 2e-3)
-    in_body = np.abs(widths - median) < band
+    medians = np.nanmedian(columns, axis=1)
+    in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
     run = _longest_run(in_body.sum(axis=1) >= max(2, 0.2 * in_body.sum(axis=1).max()))
     rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
     if run[1] - run[0] + 1 < _SHORTEST * _SLIDE or rows[1] < rows[0]:
         return None
+    left, right = (float(np.median(flank[in_body])) for flank in flanks)
     y, z = _grid(frame)
-    step = frame.depth / _SLIDE / 2
-    lift = frame.height / _HEIGHT / 2
-    half = float(np.median(widths[in_body]))
+    step, lift = frame.depth / _SLIDE / 2, frame.height / _HEIGHT / 2
     return BodyRegion(
-        half, float(y[run[0]] - step), float(y[run[1]] + step), float(z[rows[0]] - lift), float(z[rows[1]] + lift)
+        left,
+        right,
+        float(y[run[0]] - step),
+        float(y[run[1]] + step),
+        float(z[rows[0]] - lift),
+        float(z[rows[1]] + lift),
     )
+
+
+def _median(values: np.ndarray) -> float:
+    found = values[np.isfinite(values)]
+    return float(np.median(found)) if len(found) else float("nan")
 
 
 def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
@@ -126,8 +146,8 @@ def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
     return y, z
 
 
-def _outer_half_widths(mesh: TriangleMesh, frame: DrawerFrame) -> np.ndarray:
-    """Returns half the outer width at each (slide, height) cell; 0 where a ray from either side meets nothing."""
+def _flanks(mesh: TriangleMesh, frame: DrawerFrame) -> np.ndarray:
+    """Returns the x of the left and the right outside at each (slide, height) cell, (2, ...); NaN where there is none."""
     y, z = _grid(frame)
     grid_y, grid_z = (a.ravel() for a in np.meshgrid(y, z, indexing="ij"))
     outside = frame.width / 2 + 0.01
@@ -136,9 +156,8 @@ def _outer_half_widths(mesh: TriangleMesh, frame: DrawerFrame) -> np.ndarray:
     for sign in (-1.0, 1.0):
         origins = frame.to_object(np.column_stack([np.full_like(grid_y, sign * outside), grid_y, grid_z]))
         distance = caster.along(origins, -sign * frame.rotation[:, 0])
-        sides.append(np.where(distance < outside, outside - distance, 0.0))
-    both = np.minimum(*sides)
-    return both.reshape(_SLIDE, _HEIGHT)
+        sides.append(np.where(distance < outside, sign * (outside - distance), np.nan))
+    return np.stack(sides).reshape(2, _SLIDE, _HEIGHT)
 
 
 def _longest_run(flags: np.ndarray) -> tuple[int, int]:

@@ -104,7 +104,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> RailPlacement | None:
             continue
         walls = find_walls(search.frame, region, near, 0.25 * search.scene.unit)
         for spot in rail_spots(model, region, walls, search.config.rail_share):
-            placed = _with_hardware(model, spot, search)
+            placed = _with_hardware(model, spot, region, search)
             if placed is not None:
                 return placed
     return None
@@ -130,13 +130,13 @@ def _travel(search: DrawerSearch, reach: float) -> float:
     return widest_free(search.body, motion, reach, in_the_way(search.obstacles, box), search.config.fine_poses)
 
 
-def _with_hardware(model: RailModel, spot: RailSpot, search: DrawerSearch) -> RailPlacement | None:
+def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> RailPlacement | None:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
     upper = _travel(search, template.range)
     static: list[Visual] = []
     dynamic: list[Visual] = []
-    for side, T in zip(("left", "right"), _poses(spot, search.frame), strict=True):
+    for side, T in zip(("left", "right"), _poses(spot, region, search.frame), strict=True):
         held = _anchored(template, T, side, search)
         if held is None:
             return None
@@ -157,10 +157,11 @@ def _with_hardware(model: RailModel, spot: RailSpot, search: DrawerSearch) -> Ra
     )
 
 
-def _poses(spot: RailSpot, frame: DrawerFrame) -> tuple[Mat4, Mat4]:
+def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4, Mat4]:
     """Returns T_object_template of the left rail and of its mirror image across the drawer's sagittal plane."""
     left = frame.T_object_drawer @ from_rotation(np.eye(3), vec3(spot.x, spot.y, spot.z))
-    return left, reflection(np.asarray(frame.origin), frame.rotation[:, 0]) @ left
+    middle = frame.to_object(vec3(region.middle, 0.0, 0.0)[None])[0]
+    return left, reflection(middle, frame.rotation[:, 0]) @ left
 
 
 def _anchored(

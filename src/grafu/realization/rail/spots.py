@@ -70,7 +70,7 @@ def _gaps(
         np.linspace(0.8 * body.bottom + 0.2 * body.top, 0.2 * body.bottom + 0.8 * body.top, _GRID[1]),
     )
     inside = min(0.01, 0.2 * body.half_width)
-    x = np.full(y.size, sign * (body.half_width - inside))
+    x = np.full(y.size, body.middle + sign * (body.half_width - inside))
     origins = frame.to_object(np.column_stack([x, y.ravel(), z.ravel()]))
     distances = np.sort(static.along(origins, sign * frame.rotation[:, 0]))
     return distances[distances <= reach + inside] - inside
@@ -91,7 +91,7 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -
             z = body.bottom + level * flank
             z = min(max(z, body.bottom + height / 2), body.top - height / 2)
             size = RailSize(length, height, thickness)
-            yield RailSpot(size, -body.half_width - thickness + let_in, body.back - length / 2, z)
+            yield RailSpot(size, body.left - thickness + let_in, body.back - length / 2, z)
 
 
 def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
@@ -121,7 +121,7 @@ def front_only_region(
     if half <= 0.1 * frame.width:
         return None
     start = front_depth - 2e-4
-    return BodyRegion(half, start, start + depth, -0.3 * frame.height, 0.3 * frame.height)
+    return BodyRegion(-half, half, start, start + depth, -0.3 * frame.height, 0.3 * frame.height)
 
 
 def _reach_along(
