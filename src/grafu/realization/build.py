@@ -10,16 +10,17 @@ from grafu.realization.clearance.make import make_clearance
 from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.hinge.place import HingePlacement, best_bare_axis, door_search, free_share, place_hinges
+from grafu.realization.hinge.place import place_hinges
+from grafu.realization.hinge.search import door_search
 from grafu.realization.limits import motion_about
+from grafu.realization.placement import Placement
 from grafu.realization.plan import JointRequest
-from grafu.realization.rail.place import RailPlacement, drawer_search, free_travel, place_rails
+from grafu.realization.rail.place import place_rails
+from grafu.realization.rail.search import drawer_search
 from grafu.realization.report import Clearance, Skipped, SkipReason
 from grafu.realization.scene import Scene
 from grafu.templates.template import Gallery
-from grafu.vocabulary import JointType
-
-Placement = HingePlacement | RailPlacement
+from grafu.vocabulary import JointType, PartLabel
 
 
 @final
@@ -42,18 +43,18 @@ def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: R
 def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
     search = door_search(request, scene, config)
     clearances: tuple[Clearance, ...] = ()
-    share = free_share(search)
+    share = search.best().free / search.wanted
     if share < 1.0:
-        axis, axes = best_bare_axis(search), part_axes(scene.parts[request.moving].mesh)
+        axis, axes = search.best().axis, part_axes(scene.parts[request.moving].mesh)
         cleared, clearances = _cleared(request, scene, axis, axes, search.wanted, config)
         again = door_search(request, cleared, config)
-        if free_share(again) > share:
+        if again.best().free / again.wanted > share:
             search, scene = again, cleared
         else:
             clearances = ()
     placement = place_hinges(search, gallery)
     if placement is None:
-        return _skipped(request, free_share(search))
+        return _skipped(request, search.best().free / search.wanted)
     return _built(request, placement, scene, clearances, search.wanted)
 
 
@@ -61,20 +62,21 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     search = drawer_search(request, scene, config)
     if search is None:
         return Skipped(request.moving, SkipReason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
+    if scene.parts[request.moving].label is PartLabel.DOOR and search.frame.depth > 2 * search.mesh.box.size.min():
+        return Skipped(request.moving, SkipReason.UNSUPPORTED, "a sliding door; only hinged doors are built")
     clearances: tuple[Clearance, ...] = ()
-    share = free_travel(search)
+    share = search.free_share()
     if share < 1.0:
-        reach = 0.77 * search.frame.depth
         axes = part_axes(search.mesh)
-        cleared, clearances = _cleared(request, scene, search.axis, axes, reach, config)
+        cleared, clearances = _cleared(request, scene, search.axis, axes, search.reach, config)
         again = drawer_search(request, cleared, config)
-        if again is not None and free_travel(again) > share:
+        if again is not None and again.free_share() > share:
             search, scene = again, cleared
         else:
             clearances = ()
     placement = place_rails(search, gallery)
     if placement is None:
-        return _skipped(request, free_travel(search))
+        return _skipped(request, search.free_share())
     return _built(request, placement, scene, clearances, search.wanted)
 
 

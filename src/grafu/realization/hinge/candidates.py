@@ -11,9 +11,12 @@ from typing import final
 
 import numpy as np
 
+from grafu.geometry.axis import Axis
 from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.survey import Surroundings
 from grafu.vocabulary import MechanismClass
+
+_CHUNKY = 0.45  # a part thicker than this share of its width is no door panel
 
 
 @final
@@ -24,7 +27,7 @@ class PinCandidate:
     `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that of
     the barrel, for which the pin's place is right; `preference`
     orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `let_in` says that the static leaf
-    is carried on through the seam into what stands behind the door.
+    is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the door.
     """
 
     mechanism: MechanismClass
@@ -35,6 +38,7 @@ class PinCandidate:
     radius: float
     preference: int
     let_in: bool = False
+    is_pivot: bool = False
 
 
 @final
@@ -123,19 +127,35 @@ _RULES: tuple[_Rule, ...] = (
 )
 
 
-def pin_candidates(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list[PinCandidate]:
-    """Returns every class that the surroundings allow, best first, then makeshift pins around the border."""
-    ruled = [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
-    return [*ruled, *_makeshift(frame, tol)]
+def ruled_pins(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list[PinCandidate]:
+    """Returns a pin for every hinge class that the surroundings allow."""
+    if turns_about_itself(frame):
+        return []
+    return [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
 
 
-def _makeshift(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate]:
+def turns_about_itself(frame: BorderFrame) -> bool:
+    """Whether a part is no board: about as thick as it is wide, so that an axis inside it is meant."""
+    return frame.thickness > _CHUNKY * frame.width
+
+
+def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances) -> list[PinCandidate]:
+    """Returns the pins that discs at the door's ends could carry: the initial axis itself, then the border's corner."""
+    radius = max(tol.radius, 0.06 * min(frame.thickness, frame.width))
+    x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
+    spots = [(float(x), float(y))]
+    if not turns_about_itself(frame):
+        spots.append((1.2 * radius, -1.2 * radius))
+    return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, 4, is_pivot=True) for x, y in spots]
+
+
+def makeshift_pins(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate]:
     """Yields pins at the corners of the border and around them; support blocks will have to reach the body."""
     step = max(tol.radius, 0.25 * frame.board)
     room = max(4 * tol.radius, min(0.1 * frame.width, 8 * tol.radius))
     for x in (0.0, step, -step, 2 * step, 4 * step, -2 * step):
         for y in (tol.radius, step + tol.radius, 2 * step + tol.radius):
-            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, 4)
+            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, 5)
     for x in (-tol.radius, -step - tol.radius):
         for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
-            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, 5)
+            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, 6)

@@ -46,7 +46,6 @@ class Site:
 class InstalledHinge:
     """One hinge with its support blocks, found to hold on both sides and to be in nothing's way."""
 
-    fitted: FittedHinge
     static: tuple[Visual, ...]
     dynamic: tuple[Visual, ...]
 
@@ -56,9 +55,13 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
     static, dynamic = _anchored_static(hinge, pin, site), _anchored_dynamic(hinge, site)
     if static is None or dynamic is None:
         return None
-    if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
-        return None
-    return InstalledHinge(hinge, static, dynamic)
+    installed = InstalledHinge(static, dynamic)
+    return installed if is_out_of_the_way(installed, site) else None
+
+
+def is_out_of_the_way(hinge: InstalledHinge, site: Site) -> bool:
+    """Whether neither end cuts into the other side's parts anywhere, nor into other movers at rest."""
+    return not (_static_in_the_way(hinge.static, site) or _dynamic_in_the_way(hinge.dynamic, site))
 
 
 def _static_in_the_way(static: tuple[Visual, ...], site: Site) -> bool:

@@ -17,6 +17,7 @@ from grafu.geometry.transform import from_rotation, transform_points
 from grafu.realization.hinge.border import part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
+_BOARD = 0.15  # what is less deep than this share of its smaller side is a front without a container
 _SHORTEST = 0.3  # a body shorter than this share of the drawer's depth is no container (official 7.4)
 
 
@@ -108,8 +109,11 @@ class BodyRegion:
 def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> BodyRegion | None:
     """Returns the region around the median of the outer-width profile (supplement, eq. body region); None if no body.
 
-    Each flank has its own profile: a front may stand out further on one side. `tolerance` is a share of the width.
+    Each flank has its own profile: a front may stand out further on one side. `tolerance` is a share of the width. A
+    board has no body, however long its edges are.
     """
+    if frame.depth < _BOARD * min(frame.width, frame.height):
+        return None
     flanks = _flanks(mesh, frame)
     columns = np.array([[_median(column) for column in flank] for flank in flanks])
     if min(np.isfinite(columns).sum(axis=1)) < _SHORTEST * _SLIDE:
@@ -118,8 +122,10 @@ def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> Bod
     medians = np.nanmedian(columns, axis=1)
     in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
     run = _longest_run(in_body.sum(axis=1) >= max(2, 0.2 * in_body.sum(axis=1).max()))
+    if run[1] - run[0] + 1 < _SHORTEST * _SLIDE:
+        return None
     rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
-    if run[1] - run[0] + 1 < _SHORTEST * _SLIDE or rows[1] < rows[0]:
+    if rows[1] < rows[0]:
         return None
     left, right = (float(np.median(flank[in_body])) for flank in flanks)
     y, z = _grid(frame)

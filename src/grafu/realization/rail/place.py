@@ -5,104 +5,33 @@ between a rail and the wall.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
-from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.arrays import Mat4, vec3
-from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, reflection
-from grafu.realization.config import RealizationConfig
-from grafu.realization.hinge.border import part_axes
-from grafu.realization.limits import in_the_way, is_free, motion_about, sweep, swept_box, widest_free
-from grafu.realization.plan import JointRequest
-from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame
-from grafu.realization.rail.spots import RailSpot, find_walls, front_only_region, rail_spots
-from grafu.realization.scene import Obstacle, Scene
+from grafu.realization.limits import in_the_way, is_free, swept_box
+from grafu.realization.placement import Placement, nearest_part
+from grafu.realization.rail.body_region import BodyRegion, DrawerFrame
+from grafu.realization.rail.search import DrawerSearch
+from grafu.realization.rail.spots import RailSpot, find_walls, rail_spots
+from grafu.realization.scene import Obstacle
 from grafu.realization.support_block import Footing, block, shortest_bridge
 from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
-from grafu.vocabulary import JointType, MechanismClass, PartLabel
+from grafu.vocabulary import PartLabel
 
 
-@final
-@dataclass(frozen=True)
-class RailPlacement:
-    """The rails of one drawer: axis, travel, and hardware in the object frame at rest."""
-
-    axis: Axis
-    upper: float
-    mechanism: MechanismClass
-    template: str
-    mount: str
-    count: int
-    dynamic: tuple[Visual, ...]
-    static: tuple[Visual, ...]
-    in_way: tuple[str, ...]
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class DrawerSearch:
-    """One drawer's search: its frame, what it may hit, and how far it is wanted to open."""
-
-    request: JointRequest
-    scene: Scene
-    config: RealizationConfig
-    frame: DrawerFrame
-    body: MovingBody
-    obstacles: tuple[Obstacle, ...]
-    neighbours: tuple[Obstacle, ...]
-    wanted: float
-
-    @property
-    def mesh(self) -> TriangleMesh:
-        """The drawer without what rides on it."""
-        return self.scene.parts[self.request.moving].mesh
-
-    @property
-    def axis(self) -> Axis:
-        """The sliding axis through the drawer's middle."""
-        return Axis(self.mesh.box.center, self.frame.slide)
-
-    @cached_property
-    def static_rays(self) -> RayCaster:
-        """The static body around the drawer, prepared for rays."""
-        box = self.mesh.box
-        return RayCaster(self.scene.static_mesh_near(box, 0.5 * float(box.size.max())))
-
-    @cached_property
-    def region(self) -> BodyRegion | None:
-        """The container's region; None where the drawer is only a front."""
-        return body_region(self.mesh, self.frame, self.config.body_tolerance)
-
-
-def drawer_search(request: JointRequest, scene: Scene, config: RealizationConfig) -> DrawerSearch | None:
-    """Returns the search for one request; None where the drawer would slide up or down."""
-    mesh = scene.parts[request.moving].mesh
-    frame = drawer_frame(mesh, np.asarray(request.axis.direction))
-    if frame is None:
-        return None
-    others = scene.other_movers(request.moving)
-    body = scene.moving_body(request.moving, config.depth * scene.unit, part_axes(mesh))
-    wanted = min(request.reference or frame.depth, 0.75 * frame.depth)
-    obstacles = scene.static_obstacles + scene.static_hardware
-    return DrawerSearch(request, scene, config, frame, body, obstacles, others, max(wanted, 1e-3))
-
-
-def place_rails(search: DrawerSearch, gallery: Gallery) -> RailPlacement | None:
+def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     """Returns the first placement whose rails hold on both sides and are in nothing's way; None where none does."""
-    near = search.static_rays
+    region = search.region
+    if region is None:
+        return None
+    walls = find_walls(search.frame, region, search.static_rays, 0.25 * search.scene.unit)
     for model in gallery.rails:
-        region = _region(search, model)
-        if region is None:
-            continue
-        walls = find_walls(search.frame, region, near, 0.25 * search.scene.unit)
         for spot in rail_spots(model, region, walls, search.config.rail_share):
             placed = _with_hardware(model, spot, region, search)
             if placed is not None:
@@ -110,30 +39,10 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> RailPlacement | None:
     return None
 
 
-def free_travel(search: DrawerSearch) -> float:
-    """Returns the share of the wanted travel that the bare drawer slides freely, 0..1."""
-    return _travel(search, search.wanted) / search.wanted
-
-
-def _region(search: DrawerSearch, model: RailModel) -> BodyRegion | None:
-    """Returns the container's region, or the one behind a front that has no container."""
-    if search.region is not None:
-        return search.region
-    reach = 1.5 * search.scene.unit
-    thickness = model.natural.thickness
-    return front_only_region(search.frame, search.frame.depth, search.static_rays, reach, thickness)
-
-
-def _travel(search: DrawerSearch, reach: float) -> float:
-    motion = motion_about(search.axis, JointType.PRISMATIC)
-    box = swept_box(search.scene.moving_mesh(search.request.moving).box, motion, reach)
-    return widest_free(search.body, motion, reach, in_the_way(search.obstacles, box), search.config.fine_poses)
-
-
-def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> RailPlacement | None:
+def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> Placement | None:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
-    upper = _travel(search, template.range)
+    upper = search.travel(template.range)
     static: list[Visual] = []
     dynamic: list[Visual] = []
     for side, T in zip(("left", "right"), _poses(spot, region, search.frame), strict=True):
@@ -144,16 +53,16 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         dynamic += held[1]
     if _in_the_way(static, dynamic, upper, search):
         return None
-    return RailPlacement(
+    return Placement(
         axis=search.axis,
         upper=upper,
         mechanism=model.mechanism,
         template=model.id,
-        mount=_mount(static[0], search),
+        mount=nearest_part(static[0], search.scene, search.request.mounts),
         count=2,
         dynamic=tuple(dynamic),
         static=tuple(static),
-        in_way=_doors_in_the_way(search, upper),
+        in_way=search.movers_in_the_way(upper),
     )
 
 
@@ -209,7 +118,7 @@ def _footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
     """Whether rails or blocks cut into the other side's parts on the way, or into other movers at rest."""
     depth = search.config.depth * search.scene.unit
-    motion = motion_about(search.axis, JointType.PRISMATIC)
+    motion = search.motion
     fixed = merge_meshes([v.mesh for v in static])
     if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], 12):
         return True
@@ -225,18 +134,3 @@ def _cuts_neighbours(mesh: TriangleMesh, depth: float, search: DrawerSearch) -> 
     body = MovingBody(mesh, depth, np.asarray(search.frame.rotation))
     body.place(np.eye(4))
     return any(body.penetrates(o.collider) for o in in_the_way(search.neighbours, mesh.box))
-
-
-def _doors_in_the_way(search: DrawerSearch, upper: float) -> tuple[str, ...]:
-    """Returns the other movers, at rest, that the drawer runs into."""
-    motion = motion_about(search.axis, JointType.PRISMATIC)
-    box = swept_box(search.scene.moving_mesh(search.request.moving).box, motion, upper)
-    return sweep(search.body, motion, upper, in_the_way(search.neighbours, box), 13).blockers
-
-
-def _mount(rail: Visual, search: DrawerSearch) -> str:
-    """Returns the static part nearest to a rail; a wanted mount wins a draw."""
-    collider = MeshCollider(rail.mesh)
-    near = [o for o in search.scene.static_obstacles if o.collider.box.overlaps(collider.box, 0.1 * search.scene.unit)]
-    ranked = sorted((round(collider.distance(o.collider), 4), o.id not in search.request.mounts, o.id) for o in near)
-    return ranked[0][2] if ranked else ""

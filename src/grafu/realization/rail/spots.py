@@ -15,6 +15,7 @@ from grafu.templates.template import RailModel, RailSize
 
 _THINNEST = 0.0025  # thinner rails are let into the flank and the wall by what is missing
 _LOWEST = 0.004
+_COMMON_RAIL = 0.0127  # the thickness that ball-bearing slides share
 _DYNAMIC_REACH = 0.86  # share of a rail's thickness that its moving member takes, from the drawer's side
 _MOST_LET_IN = 0.5  # a rail let in deeper than this share would have its static member cut into the drawer
 _GRID = (12, 5)
@@ -102,13 +103,12 @@ def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
     return [*dict.fromkeys(fitting), _THINNEST, *((0.0018, 0.001) if through <= _THINNEST else ())]
 
 
-def front_only_region(
-    frame: DrawerFrame, front_depth: float, static: RayCaster, reach: float, thickness: float
-) -> BodyRegion | None:
+def front_only_region(frame: DrawerFrame, static: RayCaster, reach: float) -> BodyRegion | None:
     """Returns the region behind a front without a container, where rails can run along the walls; None if too shallow.
 
     Its flanks stand one rail's thickness inside the walls, but never outside the front.
     """
+    front_depth, thickness = frame.depth, _COMMON_RAIL
     inset = 0.02 * frame.width
     z = np.linspace(-0.3, 0.3, 5) * frame.height
     back = _reach_along(frame, static, (0.0, front_depth + 1e-3), z, 1, reach)

@@ -1,0 +1,81 @@
+"""Pivots: two discs face to face at an end of a door, one on the door, one on what stands above or below it.
+
+They carry whatever turns about an axis through itself (a tap, a revolving shelf), and inset doors whose seams leave no
+room for leaves. Discs grow from the part that they belong to; where part and body are apart they become posts.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster, robust_median
+from grafu.realization.hinge.border import BorderFrame
+from grafu.realization.hinge.candidates import PinCandidate
+from grafu.realization.support_block import METAL
+from grafu.vocabulary import PartLabel
+
+_SEGMENTS = 24
+_LET_IN = 0.0015  # how deep a disc is let into its own part, metres
+
+
+def pivot_ends(
+    frame: BorderFrame, pin: PinCandidate, door: RayCaster, static: RayCaster, reach: float
+) -> list[tuple[Visual, Visual]]:
+    """Returns (static, dynamic) discs at each end of the pin where the door and, within `reach`, the body are met."""
+    found = []
+    for sign in (1.0, -1.0):
+        heights = _heights(frame, pin, door, static, sign, reach)
+        if heights is None:
+            continue
+        on_door, on_body = heights
+        middle = (on_door + on_body) / 2 if abs(on_body - on_door) < 4 * _LET_IN else on_door + sign * _LET_IN
+        static_disc = _disc(frame, pin, middle, on_body + sign * _LET_IN)
+        dynamic_disc = _disc(frame, pin, on_door - sign * _LET_IN, middle)
+        found.append((_visual("hinge_static", static_disc), _visual("hinge_dynamic", dynamic_disc)))
+    return found
+
+
+def _heights(
+    frame: BorderFrame, pin: PinCandidate, door: RayCaster, static: RayCaster, sign: float, reach: float
+) -> tuple[float, float] | None:
+    """Returns the z of the door's end and of the body beyond it on the pin's line; None where one is not met."""
+    outside = frame.length / 2 + 0.01
+    direction = frame.direction(0.0, 0.0, sign)
+    ring = np.array(list(_ring(pin)))
+    start = np.column_stack([ring, np.full(len(ring), sign * outside)])
+    to_door = robust_median(door.along(frame.to_object(start), -direction), frame.length, 0.6)
+    if not np.isfinite(to_door):
+        return None
+    on_door = sign * (outside - to_door)
+    inside = 0.004
+    start = np.column_stack([ring, np.full(len(ring), on_door - sign * inside)])
+    to_body = robust_median(static.along(frame.to_object(start), direction), reach + inside, 0.6)
+    return (on_door, on_door + sign * (to_body - inside)) if np.isfinite(to_body) else None
+
+
+def _ring(pin: PinCandidate) -> Iterator[tuple[float, float]]:
+    yield pin.x, pin.y
+    for k in range(6):
+        yield pin.x + 0.7 * pin.radius * np.cos(k * np.pi / 3), pin.y + 0.7 * pin.radius * np.sin(k * np.pi / 3)
+
+
+def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float) -> TriangleMesh:
+    """Returns the closed cylinder about the pin between two heights, in the object frame."""
+    low, high = min(start, end), max(start, end)
+    angles = np.arange(_SEGMENTS) * 2 * np.pi / _SEGMENTS
+    circle = np.column_stack([pin.x + pin.radius * np.cos(angles), pin.y + pin.radius * np.sin(angles)])
+    rings = [np.column_stack([circle, np.full(_SEGMENTS, z)]) for z in (low, high)]
+    vertices = np.vstack([*rings, vec3(pin.x, pin.y, low), vec3(pin.x, pin.y, high)])
+    k, n = np.arange(_SEGMENTS), np.roll(np.arange(_SEGMENTS), -1)
+    bottom, top = np.full(_SEGMENTS, 2 * _SEGMENTS), np.full(_SEGMENTS, 2 * _SEGMENTS + 1)
+    walls = [np.column_stack(c) for c in ((k, n, n + _SEGMENTS), (k, n + _SEGMENTS, k + _SEGMENTS))]
+    caps = [np.column_stack([bottom, n, k]), np.column_stack([top, k + _SEGMENTS, n + _SEGMENTS])]
+    return TriangleMesh(frame.to_object(vertices), np.vstack([*walls, *caps]))
+
+
+def _visual(name: str, mesh: TriangleMesh) -> Visual:
+    return Visual(name, (Surface(mesh, METAL),), VisualRole.HARDWARE, PartLabel.MISC)

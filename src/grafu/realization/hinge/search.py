@@ -1,0 +1,144 @@
+"""One door's search: which pins there are, and what a sweep of the bare door says of each. It installs nothing."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import radians
+from typing import final
+
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MovingBody
+from grafu.geometry.raycast import RayCaster
+from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.border import BorderFrame, border_frame, part_axes
+from grafu.realization.hinge.candidates import (
+    PinCandidate,
+    Tolerances,
+    makeshift_pins,
+    pivot_pins,
+    ruled_pins,
+    turns_about_itself,
+)
+from grafu.realization.hinge.fit import barrel_radius
+from grafu.realization.hinge.survey import survey
+from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, swept_box, widest_free
+from grafu.realization.plan import JointRequest
+from grafu.realization.scene import Obstacle, Scene
+from grafu.vocabulary import JointType
+
+_NEARLY = 0.05  # a pin that leaves this share of the wanted opening blocked is still as good as free
+
+
+@final
+@dataclass(frozen=True)
+class JudgedPin:
+    """A pin with what the sweep of the bare door says of it; lower ranks are better.
+
+    `free` is the opening before the door runs into the static body; `neighbours` are the movers that it meets at rest.
+    """
+
+    pin: PinCandidate
+    axis: Axis
+    free: float
+    neighbours: tuple[str, ...]
+    rank: tuple[float, int, int, float]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class DoorSearch:
+    """What one door may hit, and how far it is wanted to open (radians)."""
+
+    request: JointRequest
+    scene: Scene
+    config: RealizationConfig
+    frame: BorderFrame
+    body: MovingBody
+    obstacles: tuple[Obstacle, ...]
+    neighbours: tuple[Obstacle, ...]
+    wanted: float
+
+    @property
+    def depth(self) -> float:
+        """The tolerated penetration in metres."""
+        return self.config.depth * self.scene.unit
+
+    @property
+    def box(self) -> Box:
+        """The box of the door and all that rides on it, at rest."""
+        return self.scene.moving_mesh(self.request.moving).box
+
+    @cached_property
+    def static_rays(self) -> RayCaster:
+        """The static body around the door, prepared for rays."""
+        box = self.scene.parts[self.request.moving].box
+        return RayCaster(self.scene.static_mesh_near(box, 0.25 * float(box.size.max())))
+
+    @cached_property
+    def ruled(self) -> list[JudgedPin]:
+        """The pins of the hinge classes that the surroundings allow, best first."""
+        tol = self._tolerances
+        return self._judged(ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol))
+
+    @cached_property
+    def others(self) -> list[JudgedPin]:
+        """Pivots and makeshift pins, best first."""
+        tol = self._tolerances
+        return self._judged([*pivot_pins(self.frame, self.request.axis, tol), *makeshift_pins(self.frame, tol)])
+
+    @property
+    def _tolerances(self) -> Tolerances:
+        unit = self.scene.unit
+        return Tolerances(self.config.contact * unit, self.config.flush * unit, barrel_radius(self.frame))
+
+    def in_order(self) -> Iterator[JudgedPin]:
+        """Yields all pins: those of a hinge class that leave the door free, then everything by rank.
+
+        What is no board turns about the axis that was asked for, if anything can carry it there.
+        """
+        first = [judged for judged in self.ruled if judged.rank[0] <= _NEARLY and not judged.neighbours]
+        if turns_about_itself(self.frame):
+            first = [judged for judged in self.others if judged.pin.is_pivot]
+        yield from first
+        yield from sorted((j for j in (*self.ruled, *self.others) if j not in first), key=lambda j: j.rank)
+
+    def best(self) -> JudgedPin:
+        """Returns the best pin by the sweep alone."""
+        return next(self.in_order())
+
+    def widest(self, axis: Axis, reach: float) -> float:
+        """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
+        motion = motion_about(axis, JointType.REVOLUTE)
+        near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
+        return widest_free(self.body, motion, reach, near, self.config.fine_poses)
+
+    def _judged(self, pins: list[PinCandidate]) -> list[JudgedPin]:
+        return sorted((self._judge(pin) for pin in pins), key=lambda judged: judged.rank)
+
+    def _judge(self, pin: PinCandidate) -> JudgedPin:
+        axis = self.frame.axis_at(pin.x, pin.y)
+        motion = motion_about(axis, JointType.REVOLUTE)
+        box = swept_box(self.box, motion, self.wanted)
+        poses = self.config.coarse_poses
+        free, share = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
+        neighbours = all_blockers(self.body, motion, self.wanted, in_the_way(self.neighbours, box), poses)
+        shortfall = round(1.0 - free / self.wanted, 2) + round(share, 2)
+        rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
+        return JudgedPin(pin, axis, free, neighbours, rank)
+
+
+def door_search(request: JointRequest, scene: Scene, config: RealizationConfig) -> DoorSearch:
+    """Returns the search for one request."""
+    part = scene.parts[request.moving]
+    wanted = min(request.reference or radians(90), config.door_opening)
+    return DoorSearch(
+        request,
+        scene,
+        config,
+        border_frame(part.mesh, request.axis),
+        scene.moving_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
+        scene.static_obstacles + scene.static_hardware,
+        scene.other_movers(request.moving),
+        max(wanted, radians(30)),
+    )
