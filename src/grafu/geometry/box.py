@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, frozen_array
 from grafu.geometry.transform import from_rotation, transform_points
@@ -148,8 +149,8 @@ def yaw_of(points: Points) -> float:
     flat = points[:, :2]
     try:
         hull = flat[ConvexHull(flat).vertices]
-    except (QhullError, ValueError):
-        return 0.0
+    except (QhullError, ValueError):  # an upright sheet: seen from above it is a line, or a point
+        return _yaw_of_line(flat)
     edges = np.roll(hull, -1, axis=0) - hull
     angles = np.unique(np.round(np.mod(np.arctan2(edges[:, 1], edges[:, 0]) + np.pi / 4, np.pi / 2) - np.pi / 4, 6))
     cosines, sines = np.cos(angles), np.sin(angles)
@@ -159,3 +160,12 @@ def yaw_of(points: Points) -> float:
     best = int(np.argmin(areas))
     straight = float(np.prod(np.ptp(flat, axis=0)))
     return 0.0 if areas[best] >= 0.99 * straight else float(angles[best])
+
+
+def _yaw_of_line(flat: Float[np.ndarray, "n 2"]) -> float:
+    """Returns the rotation, as of `yaw_of`, that lays an axis along points which lie on one line; 0 for one point."""
+    if not len(flat) or np.ptp(flat, axis=0).max() < 1e-12:
+        return 0.0
+    along = np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)[2][0]
+    angle = float(np.mod(np.arctan2(along[1], along[0]) + np.pi / 4, np.pi / 2) - np.pi / 4)
+    return angle if abs(angle) > 1e-6 else 0.0
