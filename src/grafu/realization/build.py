@@ -45,7 +45,7 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     clearances: tuple[Clearance, ...] = ()
     share = search.best().free / search.wanted
     if share < 1.0:
-        axis, axes = search.best().axis, part_axes(scene.parts[request.moving].mesh)
+        axis, axes = search.to_clear().axis, part_axes(scene.parts[request.moving].mesh)
         cleared, clearances = _cleared(request, scene, axis, axes, search.wanted, config)
         again = door_search(request, cleared, config)
         if again.best().free / again.wanted > share:

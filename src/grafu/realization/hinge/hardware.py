@@ -20,6 +20,8 @@ from grafu.realization.support_block import METAL, Footing, block, shortest_brid
 from grafu.templates.template import SnapPlane
 
 _POSES = 11
+_TONGUE = 0.02  # how deep a tongue is let into what stands behind the door, metres
+_LAP = 0.002  # how far it laps over the leaf that it carries on
 
 
 @final
@@ -137,9 +139,10 @@ def _extent(frame: BorderFrame, axis: int, half: np.ndarray) -> Vec3:
 def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame) -> Visual:
     """Returns the strip that carries a let-in leaf on through the seam into what stands behind the door."""
     size = hinge.template.size
-    z = float(frame.to_border(hinge.T_object_template[None, :3, 3])[0, 2])
-    start = vec3(pin.x - size.thickness / 2, -0.4 * frame.thickness, z)
+    leaf = frame.to_border(hinge.static.mesh.vertices)
+    start, end = float(leaf[:, 1].min()) + _LAP, -frame.thickness - _TONGUE
+    z = float(leaf[:, 2].min() + leaf[:, 2].max()) / 2
     u = frame.direction(0.0, 0.0, 0.4 * size.length)
     v = frame.direction(0.4 * size.thickness, 0.0, 0.0)
-    footing = Footing(frame.to_object(start[None])[0], frame.direction(0.0, -1.0, 0.0), u, v)
-    return block("support_hinge", footing, 0.6 * frame.thickness + 0.02, METAL)
+    center = frame.to_object(vec3(pin.x - size.thickness / 2, start, z)[None])[0]
+    return block("support_hinge", Footing(center, frame.direction(0.0, -1.0, 0.0), u, v), max(start - end, _LAP), METAL)

@@ -5,6 +5,7 @@ room for leaves. Discs grow from the part that they belong to; where part and bo
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -23,26 +24,30 @@ _LET_IN = 0.0015  # how deep a disc is let into its own part, metres
 
 
 def pivot_ends(
-    frame: BorderFrame, pin: PinCandidate, door: RayCaster, static: RayCaster, reach: float
+    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, reach: float
 ) -> list[tuple[Visual, Visual]]:
     """Returns (static, dynamic) discs at each end of the pin where the door and, within `reach`, the body are met."""
     found = []
+    casters = RayCaster(door), RayCaster(static)
     for sign in (1.0, -1.0):
-        heights = _heights(frame, pin, door, static, sign, reach)
-        if heights is None:
+        met = _met_by_rays(frame, pin, casters, sign, reach) or _met_by_corners(frame, pin, (door, static), sign, reach)
+        if met is None:
             continue
-        on_door, on_body = heights
-        middle = (on_door + on_body) / 2 if abs(on_body - on_door) < 4 * _LET_IN else on_door + sign * _LET_IN
-        static_disc = _disc(frame, pin, middle, on_body + sign * _LET_IN)
-        dynamic_disc = _disc(frame, pin, on_door - sign * _LET_IN, middle)
+        on_door, on_body, radius = met
+        gap = sign * (on_body - on_door)
+        middle = (on_door + on_body) / 2 if gap < 4 * _LET_IN else on_door + sign * _LET_IN
+        wide = replace(pin, radius=radius)
+        static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * _LET_IN)
+        dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * _LET_IN, middle)
         found.append((_visual("hinge_static", static_disc), _visual("hinge_dynamic", dynamic_disc)))
     return found
 
 
-def _heights(
-    frame: BorderFrame, pin: PinCandidate, door: RayCaster, static: RayCaster, sign: float, reach: float
-) -> tuple[float, float] | None:
-    """Returns the z of the door's end and of the body beyond it on the pin's line; None where one is not met."""
+def _met_by_rays(
+    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, reach: float
+) -> tuple[float, float, float] | None:
+    """Returns the z of the door's end and of the body beyond it on the pin's line, and the pin's radius; None if open."""
+    door, static = casters
     outside = frame.length / 2 + 0.01
     direction = frame.direction(0.0, 0.0, sign)
     ring = np.array(list(_ring(pin)))
@@ -51,10 +56,30 @@ def _heights(
     if not np.isfinite(to_door):
         return None
     on_door = sign * (outside - to_door)
-    inside = 0.004
-    start = np.column_stack([ring, np.full(len(ring), on_door - sign * inside)])
-    to_body = robust_median(static.along(frame.to_object(start), direction), reach + inside, 0.6)
-    return (on_door, on_door + sign * (to_body - inside)) if np.isfinite(to_body) else None
+    start[:, 2] = on_door - sign * 0.4 * frame.length
+    to_body = robust_median(static.along(frame.to_object(start), direction), reach + 0.4 * frame.length, 0.6)
+    return (on_door, float(start[0, 2]) + sign * to_body, pin.radius) if np.isfinite(to_body) else None
+
+
+def _met_by_corners(
+    frame: BorderFrame, pin: PinCandidate, meshes: tuple[TriangleMesh, TriangleMesh], sign: float, reach: float
+) -> tuple[float, float, float] | None:
+    """Returns the same for tubes and sockets, which rays along the axis pass through: from corners about the pin."""
+    corners = [frame.to_border(mesh.vertices) * _upright(sign) for mesh in meshes]
+    for radius in np.array([1.5, 3.0, 5.0, 8.0]) * pin.radius:
+        near = [c[np.hypot(c[:, 0] - pin.x, c[:, 1] - pin.y) <= radius, 2] for c in corners]
+        if not all(len(heights) for heights in near):
+            continue
+        on_door = float(near[0].max())
+        beyond = near[1][np.abs(near[1] - on_door) <= max(reach, 0.25 * frame.length)]
+        if len(beyond):
+            return sign * on_door, sign * float(beyond[np.argmin(np.abs(beyond - on_door))]), float(radius)
+    return None
+
+
+def _upright(sign: float) -> np.ndarray:
+    """Returns the factors that turn border coordinates so that the end in question points up."""
+    return np.array([1.0, 1.0, sign])
 
 
 def _ring(pin: PinCandidate) -> Iterator[tuple[float, float]]:

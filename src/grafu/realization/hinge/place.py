@@ -7,7 +7,6 @@ initial axis) is taken, and its pin becomes the rectified axis.
 from dataclasses import replace
 
 from grafu.articulation.articulated_object import Visual
-from grafu.geometry.raycast import RayCaster
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.realization.hinge.fit import fit_hinge, hinge_count, hinge_heights, hinge_size
 from grafu.realization.hinge.hardware import InstalledHinge, Site, install, is_out_of_the_way
@@ -57,8 +56,9 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Placement
     """Returns the placement on discs at the door's ends; None where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
     site = _site(judged, upper, search)
-    door = RayCaster(search.scene.parts[search.request.moving].mesh)
-    ends = pivot_ends(search.frame, judged.pin, door, search.static_rays, 0.2 * search.frame.length)
+    door = search.scene.parts[search.request.moving].mesh
+    near = search.scene.static_mesh_near(door.box, 0.25 * float(door.box.size.max()))
+    ends = pivot_ends(search.frame, judged.pin, door, near, 0.2 * search.frame.length)
     held = [InstalledHinge((static,), (dynamic,)) for static, dynamic in ends]
     held = [hinge for hinge in held if is_out_of_the_way(hinge, site)]
     return _placement(judged, PIVOT, upper, held, search) if held else None

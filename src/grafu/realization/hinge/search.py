@@ -107,6 +107,11 @@ class DoorSearch:
         """Returns the best pin by the sweep alone."""
         return next(self.in_order())
 
+    def to_clear(self) -> JudgedPin:
+        """Returns the pin for which clearance is made where none is free: of a hinge class, or the axis as asked for."""
+        pivots = [judged for judged in self.others if judged.pin.is_pivot]
+        return min(self.ruled or pivots, key=lambda judged: judged.rank)
+
     def widest(self, axis: Axis, reach: float) -> float:
         """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
         motion = motion_about(axis, JointType.REVOLUTE)

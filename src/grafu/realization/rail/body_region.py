@@ -81,7 +81,10 @@ def drawer_frame(mesh: TriangleMesh, direction: Vec3) -> DrawerFrame | None:
 @final
 @dataclass(frozen=True, slots=True)
 class BodyRegion:
-    """The container: the x of its flanks, its extent [front, back] along y, and the flanks' extent over z."""
+    """The container: the x of its flanks, its extent [front, back] along y, and the flanks' extent over z.
+
+    `is_bare` says that there is no container: rails hang on the back of the front, and must begin there.
+    """
 
     left: float
     right: float
@@ -89,6 +92,7 @@ class BodyRegion:
     back: float
     bottom: float
     top: float
+    is_bare: bool = False
 
     @property
     def length(self) -> float:
@@ -112,7 +116,7 @@ def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> Bod
     Each flank has its own profile: a front may stand out further on one side. `tolerance` is a share of the width. A
     board has no body, however long its edges are.
     """
-    if frame.depth < _BOARD * min(frame.width, frame.height):
+    if is_board(frame):
         return None
     flanks = _flanks(mesh, frame)
     columns = np.array([[_median(column) for column in flank] for flank in flanks])
@@ -138,6 +142,11 @@ def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> Bod
         float(z[rows[0]] - lift),
         float(z[rows[1]] + lift),
     )
+
+
+def is_board(frame: DrawerFrame) -> bool:
+    """Whether a drawer is a mere front: much less deep than it is wide and high."""
+    return frame.depth < _BOARD * min(frame.width, frame.height)
 
 
 def _median(values: np.ndarray) -> float:

@@ -104,15 +104,17 @@ def _footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
     """Yields the static snap plane looking at the wall, then the rail looking up, down and to the back."""
     snap = end.snap
     yield Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v)
-    low, high = end.mesh.box.low, end.mesh.box.high
-    center, half = (low + high) / 2, (high - low) / 2
     outward, back, up = snap.normal, T[:3, 1], vec3(0.0, 0.0, 1.0)
-    reach = {id(v): float(np.abs(v) @ half) for v in (outward, back, up)}
-    for direction, others in ((up, (back, outward)), (-up, (back, outward)), (back, (up, outward))):
-        along = back if direction is back else up
-        start = center + direction * reach[id(along)]
-        u, v = (0.9 * reach[id(o)] * o for o in others)
-        yield Footing(start, direction, u, v)
+    middle, reach = np.zeros(3), {}
+    for name, axis in (("outward", outward), ("back", back), ("up", up)):
+        along = end.mesh.vertices @ axis
+        middle = middle + axis * (along.min() + along.max()) / 2
+        reach[name] = axis * (along.max() - along.min()) / 2
+    looks = (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward"), ("back", 1.0, "up", "outward"))
+    for name, sign, first, second in looks:
+        towards = sign * reach[name]
+        direction = towards / np.linalg.norm(towards)
+        yield Footing(middle + towards, direction, 0.9 * reach[first], 0.9 * reach[second])
 
 
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:

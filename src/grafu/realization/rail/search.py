@@ -15,7 +15,7 @@ from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import Motion, all_blockers, in_the_way, motion_about, swept_box, widest_free
 from grafu.realization.plan import JointRequest
-from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame
+from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_board
 from grafu.realization.rail.spots import front_only_region
 from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType
@@ -59,7 +59,8 @@ class DrawerSearch:
     @cached_property
     def static_rays(self) -> RayCaster:
         """The static body around the drawer and behind it, prepared for rays."""
-        margin = max(0.5 * float(self.mesh.box.size.max()), 0.0)
+        near = 0.5 * float(self.mesh.box.size.max())
+        margin = self.scene.unit if is_board(self.frame) else near
         return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin))
 
     @cached_property

@@ -84,6 +84,7 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -
     """
     flank = body.top - body.bottom
     length = share * body.length
+    y = body.front + length / 2 if body.is_bare else body.back - length / 2
     for thickness in _thicknesses(model, walls):
         tight = (thickness - min(max(walls.nearer, 0.0), thickness)) / 2
         let_in = min(max(tight, _DYNAMIC_REACH * thickness - walls.passage, 0.0), _MOST_LET_IN * thickness)
@@ -92,7 +93,7 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -
             z = body.bottom + level * flank
             z = min(max(z, body.bottom + height / 2), body.top - height / 2)
             size = RailSize(length, height, thickness)
-            yield RailSpot(size, body.left - thickness + let_in, body.back - length / 2, z)
+            yield RailSpot(size, body.left - thickness + let_in, y, z)
 
 
 def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
@@ -121,7 +122,7 @@ def front_only_region(frame: DrawerFrame, static: RayCaster, reach: float) -> Bo
     if half <= 0.1 * frame.width:
         return None
     start = front_depth - 2e-4
-    return BodyRegion(-half, half, start, start + depth, -0.3 * frame.height, 0.3 * frame.height)
+    return BodyRegion(-half, half, start, start + depth, -0.3 * frame.height, 0.3 * frame.height, True)
 
 
 def _reach_along(
