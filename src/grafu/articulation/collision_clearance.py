@@ -6,6 +6,7 @@ doors open or stop drawers. They are cut back where it takes the least surface a
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import fcl
@@ -14,7 +15,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, corners_of, extent_of
 from grafu.articulation.kinematics import link_poses
-from grafu.articulation.sweep import rest_to_full
+from grafu.articulation.sweep import values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.solids import ConvexSolid
@@ -41,27 +42,48 @@ class ClearanceConfig:
 
 
 DEFAULT_CLEARANCE_CONFIG = ClearanceConfig()
+_REST: Mat4 = np.eye(4)
 
 
 @final
 class _Body:
-    """One shape of one link, with its collision object made once; not a value."""
+    """One shape of one link, with its bounds at rest; its collision object is made when first needed. Not a value."""
 
     def __init__(self, link: str, shape: CollisionShape) -> None:
         self.link = link
         self.shape = shape
         self.corners: Points = corners_of(shape)
-        self._object = fcl.CollisionObject(_geometry(self.corners))
+        self.bounds = np.stack([self.corners.min(axis=0), self.corners.max(axis=0)])
 
-    def place(self, T: Mat4) -> np.ndarray:
-        """Poses the body at T and returns its axis-aligned bounds, (2, 3)."""
+    @cached_property
+    def _object(self) -> fcl.CollisionObject:
+        return fcl.CollisionObject(_geometry(self.corners))
+
+    def place(self, T: Mat4) -> None:
+        """Poses the body at T for the queries that follow."""
         self._object.setTransform(fcl.Transform(T[:3, :3], T[:3, 3]))
-        corners = transform_points(T, self.corners)
-        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+    def bounds_at(self, Ts: np.ndarray) -> np.ndarray:
+        """Returns the axis-aligned bounds in poses (n, 4, 4) as (n, 2, 3)."""
+        corners = self.corners @ Ts[:, :3, :3].swapaxes(1, 2) + Ts[:, None, :3, 3]
+        return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
 
     def meets(self, other: "_Body") -> bool:
         """Whether the two, as posed, share a point."""
         return bool(fcl.collide(self._object, other._object, fcl.CollisionRequest(), fcl.CollisionResult()))
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Motion:
+    """One joint's way from rest to full.
+
+    `Ts_object_carried` are the poses of each link that moves with it, (poses, 4, 4); `T_object_still` is where every
+    other link stands meanwhile, links at rest left out.
+    """
+
+    Ts_object_carried: Mapping[str, np.ndarray]
+    T_object_still: Mapping[str, Mat4]
 
 
 @final
@@ -88,10 +110,13 @@ def cleared(
     Joints move one at a time from rest to full, those they wait for open; shapes are in the object frame at rest.
     """
     bodies = [_Body(link, shape) for link, held in shapes.items() for shape in held]
+    motions = [_motion(articulated, joint, config.poses) for joint in articulated.moving_joints]
+    settled: frozenset[_Body] = frozenset()
     for left in reversed(range(config.rounds)):
-        conflicts = list(_conflicts(articulated, bodies, config.poses))
+        conflicts = [found for motion in motions for found in _conflicts(motion, bodies, settled, articulated.root)]
         if not conflicts:
             break
+        settled = frozenset(bodies)
         bodies = _resolved(bodies, conflicts, config if left else None)
     return {link: tuple(body.shape for body in bodies if body.link == link) for link in shapes}
 
@@ -103,19 +128,15 @@ def _geometry(corners: Points) -> fcl.CollisionGeometry:
     return fcl.Convex(solid.vertices, len(solid.faces), faces)
 
 
-def _conflicts(articulated: ArticulatedObject, bodies: list[_Body], poses: int) -> Iterator[_Conflict]:
-    for joint in articulated.moving_joints:
-        carried = _carried(articulated, joint)
-        moving = [body for body in bodies if body.link in carried]
-        still = [body for body in bodies if body.link not in carried]
-        met: dict[tuple[int, int], list[Mat4]] = {}
-        for values in rest_to_full(articulated, joint.id, poses):
-            T_object_link = link_poses(articulated, values)
-            for a, b in _meeting(moving, still, T_object_link):
-                T = invert(T_object_link[moving[a].link]) @ T_object_link[still[b].link]
-                met.setdefault((a, b), []).append(T)
-        for (a, b), Ts in met.items():
-            yield _Conflict(moving[a], still[b], still[b].link != articulated.root, tuple(Ts))
+def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _Motion:
+    """Returns the way of a joint: what hangs on it moves as one body with its child."""
+    start = link_poses(articulated, values_before(articulated, joint.id))
+    T_object_parent, T_child_object = start[joint.parent], invert(start[joint.child])
+    values = np.linspace(joint.limits.lower, joint.limits.upper, poses)
+    Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
+    carried = _carried(articulated, joint)
+    still = {link: T for link, T in start.items() if link not in carried and not np.array_equal(T, np.eye(4))}
+    return _Motion({link: Ts @ start[link] for link in carried}, still)
 
 
 def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
@@ -127,16 +148,37 @@ def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
     return found
 
 
-def _meeting(moving: list[_Body], still: list[_Body], poses: Mapping[str, Mat4]) -> Iterator[tuple[int, int]]:
-    """Yields the index pairs of bodies that meet; bounds are compared first."""
+def _conflicts(motion: _Motion, bodies: list[_Body], settled: frozenset[_Body], root: str) -> Iterator[_Conflict]:
+    """Yields the pairs that meet on one joint's way, except those of which both are settled: they have been asked."""
+    moving = [body for body in bodies if body.link in motion.Ts_object_carried]
+    still = [body for body in bodies if body.link not in motion.Ts_object_carried]
+    met: dict[tuple[_Body, _Body], list[Mat4]] = {}
+    for pose, a, b in _near(motion, moving, still):
+        mover, other = moving[a], still[b]
+        if mover in settled and other in settled:
+            continue
+        T_object_mover = motion.Ts_object_carried[mover.link][pose]
+        T_object_other = motion.T_object_still.get(other.link, _REST)
+        mover.place(T_object_mover)
+        other.place(T_object_other)
+        if mover.meets(other):
+            met.setdefault((mover, other), []).append(invert(T_object_mover) @ T_object_other)
+    for (mover, other), Ts in met.items():
+        yield _Conflict(mover, other, other.link != root, tuple(Ts))
+
+
+def _near(motion: _Motion, moving: list[_Body], still: list[_Body]) -> np.ndarray:
+    """Returns the rows (pose, moving body, still body) in which the bounds of the two overlap, in that order."""
     if not moving or not still:
-        return
-    a = np.stack([body.place(poses[body.link]) for body in moving])[:, None]
-    b = np.stack([body.place(poses[body.link]) for body in still])[None]
-    near = np.all((a[..., 0, :] <= b[..., 1, :]) & (b[..., 0, :] <= a[..., 1, :]), axis=-1)
-    for first, second in np.argwhere(near):
-        if moving[first].meets(still[second]):
-            yield int(first), int(second)
+        return np.zeros((0, 3), dtype=np.int64)
+    a = np.stack([body.bounds_at(motion.Ts_object_carried[body.link]) for body in moving], axis=1)[:, :, None]
+    b = np.stack([_bounds_of_still(motion, body) for body in still])
+    return np.argwhere(np.all((a[..., 0, :] <= b[:, 1]) & (b[:, 0] <= a[..., 1, :]), axis=-1))
+
+
+def _bounds_of_still(motion: _Motion, body: _Body) -> np.ndarray:
+    T = motion.T_object_still.get(body.link)
+    return body.bounds if T is None else body.bounds_at(T[None])[0]
 
 
 def _resolved(bodies: list[_Body], conflicts: list[_Conflict], config: ClearanceConfig | None) -> list[_Body]:
