@@ -1,0 +1,145 @@
+"""Posed meshes against one another: what intersects, how far apart, and what is more than a touch."""
+
+import gc
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grafu.geometry import intersection
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MeshCollider, MovingBody, shrunk
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import from_rotation, rotation_matrix, translation
+
+DEPTH = 0.01
+HOME = np.eye(4)
+
+
+def box_mesh(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:
+    return TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))
+
+
+CUBE = box_mesh((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+WALL = MeshCollider(box_mesh((1.0, -5.0, -5.0), (2.0, 5.0, 5.0)))
+
+
+def cube_body(reach: float, depth: float = DEPTH) -> MovingBody:
+    """A cube whose +X face lies `reach` metres inside the wall."""
+    body = MovingBody(box_mesh((0.0, 0.0, 0.0), (1.0 + reach, 1.0, 1.0)), depth)
+    body.place(HOME)
+    return body
+
+
+@given(st.floats(0.001, 3.0))
+def test_the_distance_of_boxes_is_the_gap_between_them(gap):
+    cube = MeshCollider(CUBE)
+    cube.place(translation(vec3(-gap, 0.0, 0.0)))
+    assert not cube.intersects(WALL)
+    assert cube.distance(WALL) == pytest.approx(gap, rel=1e-6)
+
+
+@given(st.floats(-1.9, -0.001))
+def test_boxes_that_cut_one_another_intersect_at_distance_0(gap):
+    cube = MeshCollider(CUBE)
+    cube.place(translation(vec3(-gap, 0.0, 0.0)))
+    assert cube.intersects(WALL)
+    assert cube.distance(WALL) == 0.0
+
+
+def test_a_pose_counts_from_rest_not_from_the_last_pose():
+    cube = MeshCollider(CUBE)
+    for _ in range(3):
+        cube.place(translation(vec3(-0.5, 0.0, 0.0)))
+        assert cube.distance(WALL) == pytest.approx(0.5)
+        cube.place(from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), np.pi / 2)))  # now -1 <= x <= 0
+        assert cube.distance(WALL) == pytest.approx(1.0)
+
+
+def test_a_mesh_wholly_within_another_does_not_intersect_it():
+    inner = MeshCollider(box_mesh((0.4, 0.4, 0.4), (0.6, 0.6, 0.6)))
+    assert not inner.intersects(MeshCollider(CUBE))
+    assert inner.distance(MeshCollider(CUBE)) == pytest.approx(0.4)
+
+
+def test_a_dead_mesh_leaves_no_tree_behind():
+    def use() -> None:
+        mesh = box_mesh((0.0, 0.0, 0.0), (3.0, 1.0, 1.0))
+        assert MeshCollider(mesh).intersects(WALL)
+
+    gc.collect()
+    before = len(intersection._models)
+    use()
+    gc.collect()
+    assert len(intersection._models) == before
+
+
+@given(st.floats(0.0, 0.2), st.floats(-1.5, 1.5))
+def test_shrinking_moves_each_side_of_its_own_box_in_by_the_depth(depth, yaw):
+    R = rotation_matrix(vec3(0.0, 0.0, 1.0), yaw)
+    mesh = box_mesh((-0.5, -1.0, -1.5), (0.5, 1.0, 1.5)).transformed(from_rotation(R, vec3(3.0, 2.0, 1.0)))
+    local = Box.around(shrunk(mesh, depth, R).vertices @ R)
+    np.testing.assert_allclose(local.size, np.array([1.0, 2.0, 3.0]) - 2 * depth, atol=1e-9)
+    np.testing.assert_allclose(R @ local.center, [3.0, 2.0, 1.0], atol=1e-9)
+
+
+def test_thin_sides_keep_a_fifth():
+    sheet = shrunk(box_mesh((0.0, 0.0, 0.0), (1.0, 0.001, 1.0)), 0.01)
+    np.testing.assert_allclose(sheet.box.size, [0.98, 0.0002, 0.98])
+
+
+@pytest.mark.parametrize(("reach", "cuts"), [(-0.5, False), (0.0, False), (0.9, False), (2.1, True), (5.0, True)])
+def test_a_cut_deeper_than_the_depth_is_more_than_a_touch(reach, cuts):
+    body = cube_body(reach * DEPTH)
+    assert body.penetrates(WALL) is cuts
+    assert body.touches(WALL) is (reach >= 0)
+
+
+def test_gliding_along_a_wall_is_a_touch_all_the_way():
+    body = MovingBody(CUBE, DEPTH)
+    for shift in np.linspace(0.0, 3.0, 13):
+        body.place(translation(vec3(0.0, shift, 0.0)))
+        assert body.touches(WALL)
+        assert not body.penetrates(WALL)
+
+
+def test_a_body_wedged_between_two_walls_penetrates_though_each_alone_would_let_it_out():
+    body = cube_body(0.5 * DEPTH)
+    near, far = MeshCollider(box_mesh((-1.0, -5.0, -5.0), (0.15, 5.0, 5.0))), WALL
+    assert not body.penetrates(far)
+    assert body.penetrated([far, near]) == [1]  # the near wall is cut deep
+    tight = MovingBody(box_mesh((-1.5 * DEPTH, 0.0, 0.0), (1.0 + 1.5 * DEPTH, 1.0, 1.0)), DEPTH)
+    tight.place(HOME)
+    left = MeshCollider(box_mesh((-1.0, -5.0, -5.0), (0.0, 5.0, 5.0)))
+    assert not tight.penetrates(left)
+    assert not tight.penetrates(far)
+    assert tight.penetrated([left, far]) == [0, 1]
+
+
+def test_the_axes_of_a_turned_body_decide_what_is_flush():
+    R = rotation_matrix(vec3(0.0, 0.0, 1.0), np.radians(30))
+    T = from_rotation(R)
+    wall = MeshCollider(box_mesh((1.0, -5.0, -5.0), (2.0, 5.0, 5.0)).transformed(T))
+    turned = box_mesh((0.0, 0.0, 0.0), (1.0 + 1e-4, 1.0, 1.0)).transformed(T)
+    body = MovingBody(turned, DEPTH, R)
+    body.place(HOME)
+    assert body.touches(wall)
+    assert not body.penetrates(wall)
+
+
+def test_cutting_faces_are_those_that_cut():
+    body = cube_body(0.2)
+    faces = body.cutting_faces([WALL])
+    mesh = box_mesh((0.0, 0.0, 0.0), (1.2, 1.0, 1.0))
+    assert faces
+    assert not any(mesh.face_normals[k][0] < -0.5 for k in faces)  # the far side is a metre away
+    assert cube_body(0.0).cutting_faces([WALL]) == set()
+
+
+def test_a_body_is_at_no_distance_from_what_it_touches():
+    body = cube_body(-0.3)
+    assert body.distance(WALL) == pytest.approx(0.3)
+    body.place(translation(vec3(0.4, 0.0, 0.0)))
+    assert body.distance(WALL) == 0.0
