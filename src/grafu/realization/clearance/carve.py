@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import manifold3d
 import numpy as np
+from jaxtyping import Float
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
@@ -140,6 +141,6 @@ def _is_convex(piece: TriangleMesh, hull: ConvexSolid, play: float) -> bool:
     return bool(depth.min(axis=1).max() <= play)
 
 
-def _grown(points: Points, play: float, axes: Mat3) -> Points:
+def _grown(points: Points, play: float, axes: Mat3) -> Float[np.ndarray, "m 3"]:
     cube = Box(np.full(3, -play), np.full(3, play)).corners() @ axes.T
     return (points[:, None, :] + cube[None]).reshape(-1, 3)
