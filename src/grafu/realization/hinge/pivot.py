@@ -35,7 +35,7 @@ def pivot_ends(
             continue
         on_door, on_body, radius = met
         gap = sign * (on_body - on_door)
-        middle = (on_door + on_body) / 2 if gap < 4 * _LET_IN else on_door + sign * _LET_IN
+        middle = on_door + sign * min(max(gap, 0.0) / 2, _LET_IN)
         wide = replace(pin, radius=radius)
         static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * _LET_IN)
         dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * _LET_IN, middle)
@@ -73,7 +73,10 @@ def _met_by_corners(
         on_door = float(near[0].max())
         beyond = near[1][np.abs(near[1] - on_door) <= max(reach, 0.25 * frame.length)]
         if len(beyond):
-            return sign * on_door, sign * float(beyond[np.argmin(np.abs(beyond - on_door))]), float(radius)
+            rim = corners[0][np.abs(corners[0][:, 2] - on_door) <= _LET_IN]
+            wide = np.hypot(rim[:, 0] - pin.x, rim[:, 1] - pin.y)
+            met = sign * float(beyond[np.argmin(np.abs(beyond - on_door))])
+            return sign * on_door, met, float(wide[wide <= radius].max(initial=pin.radius))
     return None
 
 
