@@ -79,7 +79,7 @@ def _carrier(obj: ArticulatedObject, link: str, part: str) -> str | None:
     return None if link in (obj.root, part) else link
 
 
-def deepest_cut(moving: list[Visual], still: list[Visual], joint: Joint, poses: int = 12) -> float:
+def deepest_cut(moving: list[Visual], still: list[Visual], joint: Joint, poses: int = 9) -> float:
     """How deep solids of the one side cut into those of the other, metres: the thin side of the largest overlap."""
     bodies = [(s.mesh, solid(s.mesh)) for v in still for s in v.surfaces]
     movers = [(s.mesh, solid(s.mesh)) for v in moving for s in v.surfaces]
