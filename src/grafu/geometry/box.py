@@ -147,6 +147,8 @@ def yaw_of(points: Points) -> float:
     from scipy.spatial import ConvexHull, QhullError  # local: scipy.spatial costs 0.1 s and most parts need no hull
 
     flat = points[:, :2]
+    if _has_all_corners(flat):
+        return 0.0
     try:
         hull = flat[ConvexHull(flat).vertices]
     except (QhullError, ValueError):  # an upright sheet: seen from above it is a line, or a point
@@ -160,6 +162,16 @@ def yaw_of(points: Points) -> float:
     best = int(np.argmin(areas))
     straight = float(np.prod(np.ptp(flat, axis=0)))
     return 0.0 if areas[best] >= 0.99 * straight else float(angles[best])
+
+
+def _has_all_corners(flat: Float[np.ndarray, "n 2"]) -> bool:
+    """Whether all four corners of the rectangle around points are among them: a quick answer for boards."""
+    if not len(flat):
+        return False
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    at_low, at_high = flat - low < 1e-9, high - flat < 1e-9
+    left, right = at_low[:, 0], at_high[:, 0]
+    return all(bool((side & end[:, 1]).any()) for side in (left, right) for end in (at_low, at_high))
 
 
 def _yaw_of_line(flat: Float[np.ndarray, "n 2"]) -> float:

@@ -40,10 +40,7 @@ def welded(points: Points, tolerance: float = 1e-6) -> Indices:
 
     Numbers run from 0 in no particular order.
     """
-    grid = np.round(points / tolerance).astype(np.int64)
-    # one 64-bit key per position: odd multipliers of no pattern make two positions of one key practically impossible
-    key = grid @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
-    return np.unique(key, return_inverse=True)[1].reshape(-1)
+    return np.unique(_cells(points, tolerance), return_inverse=True)[1].reshape(-1)
 
 
 def patches_of(mesh: TriangleMesh) -> Patches:
@@ -85,11 +82,54 @@ def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
     return [mesh] if count == 1 else [mesh.with_faces(numbers == k) for k in range(count)]
 
 
+def tidy_parts(mesh: TriangleMesh) -> list[tuple[TriangleMesh, bool]]:
+    """Returns the pieces of a mesh without repeated faces, turned one way, and whether each bounds a solid."""
+    patches = patches_of(mesh)
+    whole = TriangleMesh(mesh.vertices, patches.faces)
+    numbers = part_numbers(whole)
+    count = int(numbers.max()) + 1 if len(numbers) else 0
+    closed = np.ones(count, dtype=bool)
+    np.logical_and.at(closed, numbers, patches.closed[patches.patch])
+    return [(whole if count == 1 else whole.with_faces(numbers == k), bool(closed[k])) for k in range(count)]
+
+
+def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:
+    """Returns a mesh of fewer faces: vertices of one cell (metres) and one piece become the outermost of them.
+
+    Faces that collapse or repeat others are left out; the box around the mesh stays, and no hole opens.
+    """
+    if not len(mesh.faces):
+        return mesh
+    used, faces = np.unique(mesh.faces, return_inverse=True)
+    faces = faces.reshape(-1, 3)
+    points, piece = mesh.vertices[used], np.empty(len(used), np.int64)
+    piece[faces] = part_numbers(mesh)[:, None]
+    outwards = (np.abs(points - mesh.box.center) / np.maximum(mesh.box.half, 1e-12)).max(axis=1)
+    order = np.argsort(-outwards, kind="stable")
+    keys = _cells(points, cell) + piece * 0x7F4A7C159E3779B9
+    _, first, number = np.unique(keys[order], return_index=True, return_inverse=True)
+    position = np.empty(len(used), np.int64)
+    position[order] = number.reshape(-1)
+    corners = position[faces]
+    return TriangleMesh(points[order[first]], corners[_distinct(corners)])
+
+
+def _cells(points: Points, size: float) -> Int[np.ndarray, " n"]:
+    """Returns one key for each point's cell of a grid."""
+    return _keys(np.round(points / size).astype(np.int64))
+
+
+def _keys(triples: np.ndarray) -> Int[np.ndarray, " n"]:
+    """Returns one 64-bit key for each row of three integers."""
+    # odd multipliers of no pattern make two rows of one key practically impossible
+    return triples @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
+
+
 def _distinct(position: Faces) -> Indices:
     """Returns the indices of faces with three different corners, one for each set of corners, in order."""
-    a, b, c = np.sort(position, axis=1).T
-    whole = np.flatnonzero((a != b) & (b != c))
-    _, first = np.unique(np.column_stack([a, b, c])[whole], axis=0, return_index=True)
+    corners = np.sort(position, axis=1)
+    whole = np.flatnonzero((corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]))
+    first = np.unique(_keys(corners[whole]), return_index=True)[1]
     return whole[np.sort(first)]
 
 
@@ -125,8 +165,10 @@ def _oriented_patches(position: Faces, edges: np.ndarray) -> tuple[np.ndarray, n
 
 def _without_border(edges: np.ndarray, patch: np.ndarray, patches: int) -> np.ndarray:
     """Returns for each patch whether its own faces meet in pairs along every edge."""
-    owner = np.repeat(patch, 3)
-    keys, counts = np.unique(edges.ravel() * patches + owner, return_counts=True)
+    # where exactly two faces meet they belong to one patch and close it; only other edges need a look
+    flat = edges.ravel()
+    odd = np.flatnonzero(np.bincount(flat)[flat] != 2)
+    keys, counts = np.unique(flat[odd] * patches + patch[odd // 3], return_counts=True)
     whole = np.ones(patches, dtype=bool)
     whole[keys[counts % 2 == 1] % patches] = False
     return whole

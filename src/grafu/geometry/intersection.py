@@ -1,7 +1,7 @@
 """Do two posed meshes intersect, how far apart are they, and is it more than a touch. It knows no parts.
 
-A BVH of triangles has no inside: a mesh that lies wholly within another does not intersect it. Furniture parts that pass
-through one another cut surfaces, which is what is asked here.
+A BVH of triangles has no inside: a mesh that lies wholly within another does not intersect it. Furniture parts that
+pass through one another cut surfaces, which is what is asked here.
 """
 
 from collections.abc import Sequence
@@ -112,8 +112,9 @@ def shrunk(mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> Tr
 class MovingBody:
     """A rigid moving mesh that tells a touch from a penetration deeper than `depth` metres.
 
-    It penetrates an obstacle when it still intersects it shrunk by `depth` on each side, and, at full size, after a shift
-    by `depth` along each of the six directions of its own box: faces that merely lie flush come free in one of them.
+    It penetrates an obstacle when it still intersects it shrunk by `depth` on each side, and, at full size, after a
+    shift by `depth` along each of the six directions of its own box: faces that merely lie flush come free in one of
+    them.
     """
 
     def __init__(self, mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> None:
@@ -154,7 +155,7 @@ class MovingBody:
         return met
 
     def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
-        """Returns the numbers of the body's faces that, as posed, cut into the obstacles; none where none is penetrated."""
+        """Returns the numbers of the body's faces that, as posed, cut into the obstacles (empty if none is penetrated)."""
         met = self.penetrated(obstacles)
         self._shrunk.place(self._T)
         return set().union(*(self._shrunk.faces_in_contact(obstacles[k]) for k in met))

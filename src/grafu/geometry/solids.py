@@ -1,7 +1,7 @@
 """Convex solids, and cutting them out of surfaces, attributes kept. It knows no parts and no reasons to cut.
 
-Closed surfaces are cut by manifold3d and stay closed. Open ones, which real furniture is full of, are clipped triangle by
-triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before.
+Closed surfaces are cut by manifold3d and stay closed. Open ones, which real furniture is full of, are clipped triangle
+by triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ _SLIVER = 1e-7
 @final
 @dataclass(frozen=True, eq=False)
 class ConvexSolid(ArrayValue):
-    """A convex polyhedron: its corners, its faces, and its half-spaces `normal . x <= offset` as rows (normal, offset)."""
+    """A convex polyhedron: corners, faces, and the half-spaces `normal . x <= offset` as rows (normal, offset)."""
 
     vertices: Points
     faces: Faces
@@ -39,7 +39,7 @@ class ConvexSolid(ArrayValue):
             hull = ConvexHull(points)
         except (QhullError, ValueError):
             return None
-        planes = np.unique(np.round(hull.equations, 9), axis=0)
+        planes = _merged_planes(hull.equations)
         index = np.full(len(points), -1)
         index[hull.vertices] = np.arange(len(hull.vertices))
         corners = points[hull.simplices]
@@ -69,9 +69,15 @@ def subtract(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
         cut = _subtract_closed(surface, near)
         if cut is not None:
             return cut
-    for solid in near:
-        surface = _clip(surface, solid)
-    return surface
+    return _clip(surface, near)
+
+
+def _merged_planes(equations: np.ndarray) -> np.ndarray:
+    """Returns the hull's planes, those of one flat face (triangulated, with rounding errors) as one, the outermost."""
+    _, group = np.unique(np.round(equations[:, :3], 4), axis=0, return_inverse=True)
+    order = np.lexsort((equations[:, 3], group.reshape(-1)))
+    first = np.unique(group.reshape(-1)[order], return_index=True)[1]
+    return equations[order[first]]
 
 
 def _cross(triangles: np.ndarray) -> Points:
@@ -124,31 +130,69 @@ def _padded(rows: np.ndarray, width: int) -> np.ndarray:
     return rows if rows.shape[1] >= width else np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
 
 
-def _clip(surface: Surface, solid: ConvexSolid) -> Surface:
-    """Returns an open surface without the parts of its triangles inside the solid."""
-    mesh, box = surface.mesh, solid.box
-    t = mesh.triangles
-    candidate = np.all((t.min(axis=1) <= box.high) & (t.max(axis=1) >= box.low), axis=1)
-    if not candidate.any():
+def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
+    """Returns an open surface without the parts of its triangles inside the solids."""
+    mesh = surface.mesh
+    near = _meet(mesh.triangles, Box.around(np.vstack([solid.vertices for solid in solids])))
+    if not near.any():
         return surface
     rows = _attributes(surface)
-    inside, owner = rows[mesh.faces[candidate]], np.flatnonzero(candidate)
-    kept: list[np.ndarray] = []
-    kept_owner: list[np.ndarray] = []
-    for plane in solid.planes:
-        inside, owner, outside, outside_owner = _split(inside, owner, plane)
-        kept.append(outside)
-        kept_owner.append(outside_owner)
-    hit = np.zeros(len(mesh.faces), dtype=bool)
-    hit[owner[_areas(inside) > _SLIVER**2]] = True
-    if not hit.any():
+    # Faces without area go too: they would stay behind as needles in the cut.
+    owner = np.flatnonzero(near)
+    owner = owner[~_is_sliver(mesh.triangles[owner])]
+    pieces = rows[mesh.faces[owner]]
+    cut = np.zeros(len(mesh.faces), dtype=bool)
+    for solid in solids:
+        pieces, owner = _without_solid(pieces, owner, cut, solid)
+    if not cut.any():
         return surface
-    pieces = np.concatenate([p[hit[o]] for p, o in zip(kept, kept_owner, strict=True)])
+    flat = near & _is_sliver(mesh.triangles)
+    pieces = pieces[cut[owner]]
     pieces = pieces[~_is_sliver(pieces)]
     new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
-    flat = candidate & _is_sliver(t)  # a face without area would stay behind as a needle in the cut
-    faces = np.vstack([mesh.faces[~hit & ~flat], new_faces])
+    faces = np.vstack([mesh.faces[~cut & ~flat], new_faces])
     return _from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
+
+
+def _without_solid(
+    pieces: np.ndarray, owner: np.ndarray, cut: np.ndarray, solid: ConvexSolid
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the pieces less what lies in one solid; marks the faces that lost something in `cut`."""
+    candidate = _meet(pieces[:, :, :3], solid.box)
+    if not candidate.any():
+        return pieces, owner
+    number = np.flatnonzero(candidate)
+    number = number[~_beyond_a_plane(pieces[number, :, :3], solid.planes)]
+    if not len(number):
+        return pieces, owner
+    inside, kept, kept_number = pieces[number], [], []
+    for plane in solid.planes:
+        inside, number, outside, outside_number = _split(inside, number, plane)
+        kept.append(outside)
+        kept_number.append(outside_number)
+        if not len(inside):
+            return pieces, owner
+    hit = np.zeros(len(pieces), dtype=bool)
+    hit[number[_areas(inside) > _SLIVER**2]] = True
+    if not hit.any():
+        return pieces, owner
+    cut[owner[hit]] = True
+    numbers = np.concatenate(kept_number)
+    parts = np.concatenate(kept)[hit[numbers]]
+    return np.concatenate([pieces[~hit], parts]), np.concatenate([owner[~hit], owner[numbers[hit[numbers]]]])
+
+
+def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
+    """Returns which triangles lie wholly outside one of the planes: the solid cannot touch them."""
+    side = triangles @ planes[:, :3].T - planes[:, 3]
+    return np.all(side >= -_SLIVER, axis=1).any(axis=1)
+
+
+def _meet(triangles: np.ndarray, box: Box) -> np.ndarray:
+    """Returns which triangles' boxes share a point with a box."""
+    low = np.minimum(np.minimum(triangles[:, 0], triangles[:, 1]), triangles[:, 2])
+    high = np.maximum(np.maximum(triangles[:, 0], triangles[:, 1]), triangles[:, 2])
+    return np.all((low <= box.high) & (high >= box.low), axis=1)
 
 
 def _is_sliver(triangles: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Tolerances, sizes and counts of geometry realization. Lengths marked (unit) are shares of the object's largest side."""
+"""Tolerances, sizes and counts of realization. Lengths marked (unit) are shares of the object's largest side."""
 
 from dataclasses import dataclass
 from math import radians
@@ -11,7 +11,7 @@ class RealizationConfig:
     """What realization may do, and how exact it is."""
 
     depth: float = 0.0004
-    """Penetration that counts as a touch (unit): 0.4 mm on a piece of one metre; the official swing test warns at 0.5."""
+    """Penetration that counts as a touch (unit): 0.4 mm on one metre; the official swing test warns at 0.5."""
     contact: float = 0.012
     """Widest seam across which two faces count as contacting (unit); official: 10 mm."""
     flush: float = 0.006
@@ -33,7 +33,7 @@ class RealizationConfig:
     coarse_poses: int = 19
     """Poses in which candidates are compared."""
     fine_poses: int = 61
-    """Poses in which the chosen motion is checked; more than the 50 of the paper's metric, none of them shared but 0."""
+    """Poses in which the chosen motion is checked: more than the 50 of the paper's metric, and others than those."""
     rail_share: float = 0.9
     """Length of a rail over the drawer's body (supplement: 1 - beta, beta = 0.1)."""
     body_tolerance: float = 0.01

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import final
 
 import numpy as np
@@ -59,7 +60,7 @@ def sweep(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Ob
 def free_opening(
     body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[float, float]:
-    """Returns the opening before the first blocked pose, and for a body that is blocked at rest the share of such poses.
+    """Returns the opening before the first blocked pose, and for a body blocked at rest the share of such poses.
 
     It stops at the first blocked pose, unless that is the first of all.
     """
@@ -84,9 +85,12 @@ def is_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[
 
 
 def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
-    """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection."""
+    """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection.
+
+    A collision at rest does not count: it cannot be avoided by opening less.
+    """
     values = np.linspace(0.0, reach, poses)
-    for before, after in zip(values[:-1], values[1:], strict=True):
+    for before, after in pairwise(values):
         if not _blockers(body, motion(after), obstacles):
             continue
         for _ in range(6):

@@ -22,7 +22,7 @@ _PLAY = 0.25
 
 
 def plan_from_annotation(asset: Asset) -> RealizationPlan:
-    """Returns what the input itself states: one request per annotated joint, a refusal per door or drawer without one."""
+    """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one."""
     requests = tuple(_from_joint(joint, asset) for joint in asset.joints)
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
     refused = tuple(
@@ -34,7 +34,7 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
 
 
 def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
-    """Returns what a completed graph states: one request per hinged or railed part, and the refusals that it carries."""
+    """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
     graph = completion.completed
     riders = _riders(asset, ((edge.parent, edge.child) for edge in graph.attachments))
     known = {part.id for part in asset.parts}

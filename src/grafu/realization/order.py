@@ -1,7 +1,7 @@
 """Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
 
-A joint that runs into a closed neighbour waits for it, if the neighbour, open, is out of the way and does not itself wait;
-else its opening ends where the neighbour begins, and the report says so.
+A joint that runs into a closed neighbour waits for it, if the neighbour, open, is out of the way and does not itself
+wait; else its opening ends where the neighbour begins, and the report says so.
 """
 
 from collections.abc import Mapping, Sequence

@@ -80,7 +80,7 @@ class Scene:
         return self._merged[key][1]
 
     def moving_body(self, mover_id: str, depth: float, axes: Mat3) -> MovingBody:
-        """Returns the mover as a body that tells a touch from a penetration deeper than `depth` along its box's axes."""
+        """Returns the mover as a body that tells a touch from a penetration deeper than `depth` metres."""
         mesh = self.moving_mesh(mover_id)
         key = (id(mesh), np.append(axes, depth).tobytes())
         if key not in self._bodies:

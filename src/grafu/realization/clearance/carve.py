@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import manifold3d
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
@@ -22,7 +22,8 @@ from grafu.realization.report import Clearance
 from grafu.realization.scene import Scene
 
 _TURN_STEP = np.radians(5.0)
-_MOST_TRIANGLES = 300  # a piece of which more triangles cut in is covered by its convex hull
+_MOST_PLANES = 26  # of a box with its edges and corners bevelled
+_MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is covered by its convex hull
 
 
 def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
@@ -94,23 +95,27 @@ def _swept_solids(
     scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
 ) -> Iterator[ConvexSolid]:
     """Yields convex solids that cover the way of whatever of the mover cuts into a blocker, with some play."""
-    steps = max(2, int(np.ceil(path.reach / _TURN_STEP)) + 1) if path.is_turn else 2
-    poses = [path.motion(v) for v in np.linspace(0.0, path.reach, steps)]
+    poses = [path.motion(v) for v in np.linspace(0.0, path.reach, _steps(path) + 1)]
     boxes = [scene.parts[name].box for name in ids]
     for points in _cutting_pieces(scene, path, ids, play, config):
-        for step in zip(poses[:-1], poses[1:], strict=True):
+        for step in pairwise(poses):
             way = np.vstack([transform_points(T, points) for T in step])
             if not any(Box.around(way).overlaps(box, play) for box in boxes):
                 continue
-            solid = ConvexSolid.around(_grown(way, play, path.axes))
+            solid = ConvexSolid.around(way)
             if solid is not None:
                 yield solid
+
+
+def _steps(path: Path) -> int:
+    """Returns in how many convex steps a path is covered."""
+    return max(1, int(np.ceil(path.reach / _TURN_STEP))) if path.is_turn else 1
 
 
 def _cutting_pieces(
     scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
 ) -> Iterator[Points]:
-    """Yields the corners of what cuts in: a convex piece's hull, or the triangles of other pieces that do."""
+    """Yields the corners, with play, of what cuts in: a convex piece's hull, or the triangles of other pieces."""
     mesh = scene.moving_mesh(path.mover)
     body = scene.moving_body(path.mover, config.depth * scene.unit, path.axes)
     colliders = [MeshCollider(scene.parts[name].mesh) for name in ids]
@@ -120,10 +125,10 @@ def _cutting_pieces(
         piece = mesh.with_faces(numbers == number)
         faces = cutting[numbers[cutting] == number]
         hull = ConvexSolid.around(piece.vertices)
-        if hull is not None and (len(faces) > _MOST_TRIANGLES or _is_convex(piece, hull, play)):
-            yield np.asarray(hull.vertices)
+        if hull is not None and (len(faces) * _steps(path) > _MOST_SOLIDS or _is_convex(piece, hull, play)):
+            yield _grown(np.asarray(hull.vertices), play, path.axes)
         else:
-            yield from mesh.triangles[faces]
+            yield from (_grown(triangle, play, path.axes) for triangle in mesh.triangles[faces])
 
 
 def _cutting_faces(body: MovingBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
@@ -141,6 +146,13 @@ def _is_convex(piece: TriangleMesh, hull: ConvexSolid, play: float) -> bool:
     return bool(depth.min(axis=1).max() <= play)
 
 
-def _grown(points: Points, play: float, axes: Mat3) -> Float[np.ndarray, "m 3"]:
+def _grown(points: Points, play: float, axes: Mat3) -> Points:
+    """Returns the corners of the points' hull grown by `play` along the axes; a box's where the hull is rounded.
+
+    Cutting along a rounded hull's many planes would shred what is cut.
+    """
     cube = Box(np.full(3, -play), np.full(3, play)).corners() @ axes.T
-    return (points[:, None, :] + cube[None]).reshape(-1, 3)
+    hull = ConvexSolid.around((points[:, None, :] + cube[None]).reshape(-1, 3))
+    if hull is not None and len(hull.planes) <= _MOST_PLANES:
+        return np.asarray(hull.vertices)
+    return Box.around(points @ axes).grown(play).corners() @ axes.T

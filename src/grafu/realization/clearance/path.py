@@ -18,7 +18,7 @@ from grafu.realization.scene import Scene
 @final
 @dataclass(frozen=True, eq=False)
 class Path:
-    """A mover's motion from 0 to `reach` (radians where `is_turn`, else metres); the columns of `axes` are its box's."""
+    """A mover's motion from 0 to `reach` (radians if `is_turn`, else metres); the columns of `axes` are its box's."""
 
     mover: str
     motion: Motion

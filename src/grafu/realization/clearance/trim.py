@@ -1,4 +1,4 @@
-"""Takes a trace off the moving part: pieces pressed back to their neighbours' faces, by at most 2 % of the part's side."""
+"""Takes a trace off the moving part: pieces pressed back to their neighbours' faces, by at most 2 % of its side."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -38,7 +38,7 @@ class BorderFrame(ArrayValue):
 
     @property
     def board(self) -> float:
-        """The door's thickness, or a thin board's (8 mm) where it is drawn as a mere sheet: what steps are measured in."""
+        """The door's thickness, or a thin board's (8 mm) where it is a mere sheet: what steps are measured in."""
         return max(self.thickness, _THIN_BOARD)
 
     @property

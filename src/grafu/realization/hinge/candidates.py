@@ -1,7 +1,7 @@
 """Where a door may turn: hinge class by hinge class, the pins that the surroundings allow. It sweeps nothing.
 
-Each class is a row of `_RULES` (paper, figure Hinge Configurations). `roll` turns the template about its pin: 0 mounts it
-from the door's front, 90 degrees from the side (the seam behind an overlay door).
+Each class is a row of `_RULES` (paper, figure Hinge Configurations). `roll` turns the template about its pin: 0 mounts
+it from the door's front, 90 degrees from the side (the seam behind an overlay door).
 """
 
 from collections.abc import Callable, Iterator
@@ -24,8 +24,8 @@ _CHUNKY = 0.45  # a part thicker than this share of its width is no door panel
 class PinCandidate:
     """A pin at (x, y) of the border frame with the class that would carry it.
 
-    `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that of
-    the barrel, for which the pin's place is right; `preference`
+    `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that
+    of the barrel, for which the pin's place is right; `preference`
     orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `let_in` says that the static leaf
     is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the door.
     """

@@ -1,4 +1,4 @@
-"""Is a fitted hinge in anything's way, and does it hold on to both of its parts. It moves nothing and chooses nothing."""
+"""Is a fitted hinge in anything's way, and does it hold on to both of its parts. It chooses nothing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -46,7 +46,7 @@ def pivot_ends(
 def _met_by_rays(
     frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, reach: float
 ) -> tuple[float, float, float] | None:
-    """Returns the z of the door's end and of the body beyond it on the pin's line, and the pin's radius; None if open."""
+    """Returns the z of the door's end and of the body beyond it on the pin's line, and the pin's radius."""
     door, static = casters
     outside = frame.length / 2 + 0.01
     direction = frame.direction(0.0, 0.0, sign)

@@ -45,6 +45,8 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> P
         if size is None:
             continue
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
+        if upper < _LEAST_SHARE * search.wanted:
+            return None
         site = _site(judged, upper, search)
         hinges = _installed(model, judged.pin, site, count, search)
         if hinges:
@@ -55,6 +57,8 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> P
 def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Placement | None:
     """Returns the placement on discs at the door's ends; None where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
+    if upper < _LEAST_SHARE * search.wanted:
+        return None
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
     near = search.scene.static_mesh_near(door.box, 0.25 * float(door.box.size.max()))

@@ -108,7 +108,7 @@ class DoorSearch:
         return next(self.in_order())
 
     def to_clear(self) -> JudgedPin:
-        """Returns the pin for which clearance is made where none is free: of a hinge class, or the axis as asked for."""
+        """Returns the pin to make clearance for where none is free: of a hinge class, or the axis as asked for."""
         pivots = [judged for judged in self.others if judged.pin.is_pivot]
         return min(self.ruled or pivots, key=lambda judged: judged.rank)
 

@@ -21,10 +21,11 @@ _START = 0.3  # rays start this share of the door's thickness inside the door
 class Surroundings:
     """The static surfaces around a hinge border.
 
-    `side_gap`: from the border outwards (-x) to a face beside the door. `side_top`: the y of that neighbour's front, how
-    far it stands out beyond the door's front. `back_gap`: from the door's back (-y) to a face behind the border.
+    `side_gap`: from the border outwards (-x) to a face beside the door. `side_top`: the y of that neighbour's front,
+    how far it stands out beyond the door's front. `back_gap`: from the door's back (-y) to a face behind the border.
     `side_face`: the x of the outer face of what stands behind the door. `back_width`: how far (+x) the face behind
-    reaches from the border inwards. `side_depth`: how deep (-y, from the door's front) the face beside the door reaches.
+    reaches from the border inwards. `side_depth`: how deep (-y, from the door's front) the face beside the door
+    reaches.
     """
 
     side_gap: float

@@ -162,7 +162,7 @@ def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _flanks(mesh: TriangleMesh, frame: DrawerFrame) -> np.ndarray:
-    """Returns the x of the left and the right outside at each (slide, height) cell, (2, ...); NaN where there is none."""
+    """Returns the x of the left and the right outside at each (slide, height) cell; NaN where there is none."""
     y, z = _grid(frame)
     grid_y, grid_z = (a.ravel() for a in np.meshgrid(y, z, indexing="ij"))
     outside = frame.width / 2 + 0.01

@@ -1,7 +1,7 @@
 """Places the two rails of one drawer: mounts, heights and thicknesses tried in order, judged by sweeping real meshes.
 
-One rail is fitted, the other is its exact mirror image (supplement, eq. rail mirror); support blocks bridge what remains
-between a rail and the wall.
+One rail is fitted, the other is its exact mirror image (supplement, eq. rail mirror); support blocks bridge what
+remains between a rail and the wall.
 """
 
 from collections.abc import Iterator
@@ -76,7 +76,7 @@ def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4
 def _anchored(
     template: RailTemplate, T: Mat4, side: str, search: DrawerSearch
 ) -> tuple[list[Visual], list[Visual]] | None:
-    """Returns one rail's static and dynamic visuals with the blocks that bridge gaps; None where nothing is in reach."""
+    """Returns one rail's static and dynamic visuals with the blocks that bridge gaps; None if out of reach."""
     name = search.request.moving
     anchor = search.config.anchor * search.scene.unit
     static, dynamic = template.static.transformed(T), template.dynamic.transformed(T)

@@ -13,7 +13,15 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.limits import Motion, all_blockers, in_the_way, motion_about, swept_box, widest_free
+from grafu.realization.limits import (
+    Motion,
+    all_blockers,
+    free_opening,
+    in_the_way,
+    motion_about,
+    swept_box,
+    widest_free,
+)
 from grafu.realization.plan import JointRequest
 from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_board
 from grafu.realization.rail.spots import front_only_region
@@ -87,8 +95,9 @@ class DrawerSearch:
         return widest_free(self.body, self.motion, reach, near, self.config.fine_poses)
 
     def free_share(self) -> float:
-        """Returns the share of the wanted travel that the bare drawer slides freely, 0..1."""
-        return self.travel(self.wanted) / self.wanted
+        """Returns the share of the wanted travel that the bare drawer slides freely, 0..1; 0 if blocked at rest."""
+        near = in_the_way(self.obstacles, swept_box(self.box, self.motion, self.wanted))
+        return free_opening(self.body, self.motion, self.wanted, near, self.config.fine_poses)[0] / self.wanted
 
     def movers_in_the_way(self, reach: float) -> tuple[str, ...]:
         """Returns the other movers, at rest, that the drawer runs into."""
