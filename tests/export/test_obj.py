@@ -1,5 +1,7 @@
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from obj_reader import parse_mtl, parse_obj
 from small_cabinet import GLASS, WOOD, board, door_link, png
 
@@ -7,6 +9,7 @@ from grafu.articulation.articulated_object import Visual
 from grafu.export.obj import ObjFolder
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import vec3
+from grafu.geometry.mesh import TriangleMesh
 
 ORIGIN = vec3(-0.3, -0.22, 0.4)
 
@@ -83,3 +86,20 @@ def test_vertex_colours_are_kept(folder):
     name = folder.add_visual(Visual("a", (Surface(board(0, 0, 0, 1, 1, 1), colors=colors),)), ORIGIN)
 
     assert folder.files[name].decode().count(" 1 0 0.2\n") == 8
+
+
+@given(st.integers(1, 40), st.integers(0, 2**32 - 1))
+def test_rows_are_written_once_and_faces_still_find_them(count, seed):
+    random = np.random.default_rng(seed)
+    corners = random.integers(-4, 5, (3 * count, 3)) / 8  # binary fractions: the bits that tell them apart are few
+    mesh = TriangleMesh(corners, np.arange(3 * count).reshape(-1, 3))
+    surface = Surface(mesh, uv=random.integers(0, 5, (3 * count, 2)) / 4)
+    folder = ObjFolder(0.5)
+
+    name = folder.add_visual(Visual("soup", (surface,)), vec3(0.0, 0.0, 0.0))
+
+    made, lines = read(folder, name), folder.files[name].decode().splitlines()
+    assert np.array_equal(made.triangles, mesh.triangles)
+    assert np.array_equal(made.uv, surface.uv[mesh.faces])
+    rows = [line for line in lines if line.startswith("v")]
+    assert len(rows) == len(set(rows))

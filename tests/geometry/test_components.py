@@ -1,10 +1,11 @@
 import numpy as np
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.components import connected_parts, patches_of, welded
+from grafu.geometry.components import clustered, connected_parts, patches_of, tidy_parts, welded
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 CUBE = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0)))
@@ -95,3 +96,46 @@ def test_pieces_come_apart_where_no_position_is_shared():
 def test_a_mesh_in_one_piece_is_itself():
     assert connected_parts(CUBE) == [CUBE]
     assert connected_parts(merge_meshes([])) == []
+
+
+def ball(radius: float, segments: int) -> TriangleMesh:
+    return TriangleMesh.from_trimesh(trimesh.creation.uv_sphere(radius, (segments, segments)))
+
+
+def test_clustering_keeps_the_box_and_the_shape_of_dense_meshes():
+    mesh = ball(0.05, 120)
+
+    few = clustered(mesh, 0.004)
+
+    assert len(few.faces) < len(mesh.faces) / 8
+    assert few.box == mesh.box
+    assert np.abs(np.linalg.norm(few.vertices, axis=1) - 0.05).max() < 1e-6
+    assert patches_of(few).closed.all()
+
+
+def test_clustering_keeps_pieces_apart_and_forgets_doubled_faces():
+    gap = CUBE.translated(np.array([1.001, 0.0, 0.0]))
+    doubled = merge_meshes([CUBE, gap, TriangleMesh(CUBE.vertices, CUBE.faces[:, ::-1])])
+
+    few = clustered(doubled, 0.01)
+
+    assert len(few.faces) == 24
+    assert len(connected_parts(few)) == 2
+
+
+def test_clustering_leaves_boards_as_they_are_and_nothing_of_specks():
+    assert np.allclose(np.sort(clustered(soup(CUBE), 0.001).vertices, axis=0), np.sort(CUBE.vertices, axis=0))
+    assert not len(clustered(CUBE.transformed(np.diag([1e-4, 1e-4, 1e-4, 1.0])), 0.01).faces)
+    assert clustered(merge_meshes([]), 0.01) == merge_meshes([])
+
+
+def test_tidy_parts_tell_which_bound_a_solid():
+    sheet = CUBE.with_faces(CUBE.face_normals[:, 2] > 0.5).translated(np.array([0.0, 0.0, 3.0]))
+    inverted = TriangleMesh(CUBE.vertices, CUBE.faces[:, ::-1])
+
+    (cube, closed), (lid, lid_closed) = tidy_parts(merge_meshes([inverted, sheet, CUBE]))
+
+    assert (closed, lid_closed) == (True, False)
+    assert (len(cube.faces), len(lid.faces)) == (12, 2)
+    assert volume(cube, cube.faces) > 0
+    assert tidy_parts(merge_meshes([])) == []

@@ -4,6 +4,7 @@ Hinges and rails carry no shape: their knuckles and channels interlock, and only
 file format.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -13,12 +14,14 @@ from grafu.articulation.articulated_object import Link, Visual, VisualRole
 from grafu.articulation.convex_pieces import DEFAULT_PIECE_CONFIG, PieceConfig, convex_pieces, few_corners, hull_of
 from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
+from grafu.geometry.components import clustered
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.geometry.transform import rotation_matrix
 from grafu.vocabulary import PartLabel
 
 CollisionShape = OrientedBox | ConvexSolid
+_DENSE = 500  # faces: fewer are not worth simplifying
 
 
 @final
@@ -28,14 +31,15 @@ class CollisionConfig:
 
     Every side of a shape moves in by `margin`, so that parts that touch at rest do not push one another. No shape is
     thinner than `least_thickness`: thin hulls fall through in PhysX. A hull that fills its box to `box_share` becomes
-    that box. Gaps in handles are kept down to a depth of `grip`, so that a finger fits. A link has at most
-    `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
+    that box. What is finer than `resolution` is left out of dense meshes. Gaps in handles are kept down to a depth of
+    `grip`, so that a finger fits. A link has at most `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
     """
 
     margin: float = 0.0005
     least_thickness: float = 0.004
     box_share: float = 0.85
     grip: float = 0.008
+    resolution: float = 0.001
     most_shapes: int = 48
     most_corners: int = 48
     pieces: PieceConfig = DEFAULT_PIECE_CONFIG
@@ -49,9 +53,11 @@ def collision_shapes(link: Link, config: CollisionConfig = DEFAULT_COLLISION_CON
     shapes = [shape for visual in link.visuals for shape in _shapes_of(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
     kept: list[CollisionShape] = []
+    boxes: list[OrientedBox] = []
     for shape in shapes:
-        if len(kept) < config.most_shapes and not any(_within(shape, other) for other in kept):
+        if len(kept) < config.most_shapes and not _within_any(shape, boxes):
             kept.append(shape)
+            boxes += [shape] if isinstance(shape, OrientedBox) else []
     return tuple(kept)
 
 
@@ -74,6 +80,8 @@ def _shapes_of(visual: Visual, config: CollisionConfig) -> list[CollisionShape]:
     mesh = visual.mesh
     if not len(mesh.faces) or not _collides(visual):
         return []
+    if len(mesh.faces) > _DENSE:
+        mesh = clustered(mesh, config.resolution)
     R = _yaw_rotation(mesh.vertices)
     pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), _fineness(visual.label, config))
     made = (_shape_around(piece.vertices @ R.T, R, config) for piece in pieces)
@@ -97,11 +105,16 @@ def _shape_around(points: Points, R: Mat3, config: CollisionConfig) -> Collision
     if hull is None:
         return None
     volume = _volume(hull)
-    for rotation in (R, _yaw_rotation(points)):
+    for rotation in _rotations(R, points):
         box = OrientedBox.around(hull.vertices, rotation)
         if volume >= config.box_share * 8.0 * float(np.prod(box.half)):
             return OrientedBox(box.center, _smaller(box.half, config), rotation)
     return _smaller_hull(hull, R, config)
+
+
+def _rotations(R: Mat3, points: Points) -> Iterator[Mat3]:
+    yield R
+    yield _yaw_rotation(points)
 
 
 def _smaller(half: Vec3, config: CollisionConfig) -> Vec3:
@@ -121,9 +134,10 @@ def _volume(hull: ConvexSolid) -> float:
     return float(np.abs(np.linalg.det(triangles)).sum() / 6.0)
 
 
-def _within(shape: CollisionShape, other: CollisionShape) -> bool:
-    """Whether a shape lies wholly inside a box."""
-    if not isinstance(other, OrientedBox):
+def _within_any(shape: CollisionShape, boxes: list[OrientedBox]) -> bool:
+    """Whether a shape lies wholly inside one of the boxes."""
+    if not boxes:
         return False
-    local = (corners_of(shape) - other.center) @ other.rotation
-    return bool(np.all(np.abs(local) <= other.half + 1e-9))
+    centers, half = np.stack([box.center for box in boxes]), np.stack([box.half for box in boxes])
+    local = (corners_of(shape) - centers[:, None]) @ np.stack([box.rotation for box in boxes])
+    return bool(np.all(np.abs(local) <= half[:, None] + 1e-9, axis=(1, 2)).any())

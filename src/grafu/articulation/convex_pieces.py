@@ -6,17 +6,19 @@ along an axis and which is far from every face. It knows no links; coordinates a
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 from typing import Any, final
 
 import manifold3d
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial import ConvexHull, QhullError
 from trimesh.intersections import slice_faces_plane
 
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.components import connected_parts, patches_of, welded
+from grafu.geometry.components import tidy_parts, welded
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid
@@ -51,7 +53,7 @@ def convex_pieces(mesh: TriangleMesh, config: PieceConfig = DEFAULT_PIECE_CONFIG
 
     Specks of a few millimetres are left out, except where there is nothing else.
     """
-    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh), config)]
+    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config.tolerance), config)]
     return [piece for piece in pieces if piece.box.diagonal > _SPECK] or pieces[:1]
 
 
@@ -73,18 +75,37 @@ def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
 
 
 @final
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Piece:
     """A mesh and, where it bounds a solid, that solid: what is cut from a solid stays one."""
 
     mesh: TriangleMesh
+    tolerance: float
     solid: Any = None  # a manifold3d.Manifold
+
+    @cached_property
+    def pit(self) -> Vec3 | None:
+        """The point of the deepest pit, None where every pit is within the tolerance."""
+        mesh, side = self.mesh, float(self.mesh.box.size.max())
+        if side < 2 * self.tolerance or _is_box(mesh):
+            return None
+        points = _inside_hull(mesh, _grid(mesh.box, self.tolerance))
+        depth = _depths(self.caster, points, side)
+        if not len(depth) or depth.max() <= self.tolerance:
+            return None
+        return points[int(np.argmax(depth))]
+
+    @cached_property
+    def caster(self) -> RayCaster:
+        """Rays against the piece."""
+        return RayCaster(self.mesh)
 
     def parts(self) -> list["_Piece"]:
         """Returns the connected parts, each as a solid where it bounds one."""
         if self.solid is not None:
-            return [_of_solid(part) for part in self.solid.decompose()]
-        return [_as_solid(part) for part in connected_parts(self.mesh)]
+            return [self._of_solid(part) for part in self.solid.decompose()]
+        parts = ((part, _solid(part) if closed else None) for part, closed in tidy_parts(self.mesh))
+        return [_Piece(part, self.tolerance) if solid is None else self._of_solid(solid) for part, solid in parts]
 
     def halves(self, axis: int, sign: float, position: float) -> tuple["_Piece", "_Piece"]:
         """Returns what lies beyond a plane across `axis` (on the side of `sign`), and the rest."""
@@ -92,27 +113,25 @@ class _Piece:
         normal[axis] = sign
         if self.solid is not None:
             beyond, rest = self.solid.split_by_plane(tuple(normal), sign * position)
-            return _of_solid(beyond), _of_solid(rest)
+            return self._of_solid(beyond), self._of_solid(rest)
         origin = np.abs(normal) * position
-        return _Piece(_sliced(self.mesh, normal, origin)), _Piece(_sliced(self.mesh, -normal, origin))
+        beyond, rest = _sliced(self.mesh, normal, origin), _sliced(self.mesh, -normal, origin)
+        return _Piece(beyond, self.tolerance), _Piece(rest, self.tolerance)
+
+    def _of_solid(self, solid: Any) -> "_Piece":
+        made = solid.to_mesh()
+        vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
+        faces = np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)
+        return _Piece(TriangleMesh(vertices, faces), self.tolerance, solid)
 
 
-def _of_solid(solid: Any) -> _Piece:
-    made = solid.to_mesh()
-    vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
-    return _Piece(TriangleMesh(vertices, np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)), solid)
-
-
-def _as_solid(mesh: TriangleMesh) -> _Piece:
-    """Returns the mesh as a solid where its distinct faces, turned one way, bound one; else as it is."""
-    patches = patches_of(mesh)
-    if not len(patches.closed) or not patches.closed.all():
-        return _Piece(mesh)
+def _solid(mesh: TriangleMesh) -> Any:
+    """Returns a closed mesh, turned one way, as a solid; None where manifold3d sees none."""
     position = welded(mesh.vertices)
     first = np.unique(position, return_index=True)[1]
-    made = manifold3d.Mesh(mesh.vertices[first].astype(np.float32), position[patches.faces].astype(np.uint32))
+    made = manifold3d.Mesh(mesh.vertices[first].astype(np.float32), position[mesh.faces].astype(np.uint32))
     solid = manifold3d.Manifold(made)
-    return _of_solid(solid) if solid.status() == manifold3d.Error.NoError and solid.volume() > 0 else _Piece(mesh)
+    return solid if solid.status() == manifold3d.Error.NoError and solid.volume() > 0 else None
 
 
 def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
@@ -129,26 +148,10 @@ def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
 
 def _apart_once(piece: _Piece, config: PieceConfig) -> list[_Piece]:
     """Returns the piece's connected parts or, of a single one, those on both sides of a cut; nothing without a pit."""
-    pit = _deepest_pit(piece.mesh, config)
-    if pit is None:
+    if piece.pit is None:
         return []
     parts = piece.parts()
-    return _cut(parts[0], pit, config) if len(parts) == 1 and config.cuts else parts
-
-
-def _deepest_pit(mesh: TriangleMesh, config: PieceConfig) -> Vec3 | None:
-    """Returns the point of the deepest pit, None where every pit is within the tolerance."""
-    sides = np.sort(mesh.box.size)
-    solid = (
-        None if sides[2] < 2 * config.tolerance or _is_box(mesh) else hull_of(few_corners(mesh.vertices, 32), _SPECK)
-    )
-    if solid is None:
-        return None
-    points = _inside(solid, _grid(solid.box, config.tolerance))
-    depth = _depths(RayCaster(mesh), points, float(sides[2]))
-    if not len(depth) or depth.max() <= config.tolerance:
-        return None
-    return points[int(np.argmax(depth))]
+    return _cut(parts[0], piece.pit) if len(parts) == 1 and config.cuts else parts
 
 
 def _is_box(mesh: TriangleMesh) -> bool:
@@ -164,8 +167,13 @@ def _grid(box: Box, spacing: float) -> Points:
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _inside(solid: ConvexSolid, points: Points) -> Float[np.ndarray, "k 3"]:
-    return points[np.all(points @ solid.planes[:, :3].T <= solid.planes[:, 3] - 1e-6, axis=1)]
+def _inside_hull(mesh: TriangleMesh, points: Points) -> Float[np.ndarray, "k 3"]:
+    """Returns the points inside the hull of a mesh; none where it has no hull."""
+    try:
+        planes = ConvexHull(_thickened(few_corners(mesh.vertices, 32), _SPECK)).equations
+    except (QhullError, ValueError):
+        return points[:0]
+    return points[np.all(points @ planes[:, :3].T <= -planes[:, 3] - 1e-6, axis=1)]
 
 
 def _looks(caster: RayCaster, points: Points) -> np.ndarray:
@@ -180,26 +188,26 @@ def _depths(caster: RayCaster, points: Points, most: float) -> Scalars:
     return np.where(np.isinf(seen).any(axis=1), np.minimum(seen.min(axis=1, initial=most), most), 0.0)
 
 
-def _cut(piece: _Piece, pit: Vec3, config: PieceConfig) -> list[_Piece]:
+def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
     """Returns both sides of a wall of the pit: at best one where what lies beyond it has no pit."""
     fallback: list[_Piece] = []
-    for axis, sign, position in islice(_walls(piece.mesh, pit), _TRIES):
+    for axis, sign, position in islice(_walls(piece, pit), _TRIES):
         board, rest = piece.halves(axis, sign, position - sign * _PAST_THE_WALL)
         if not len(board.mesh.faces) or not len(rest.mesh.faces):
             continue
-        if _deepest_pit(board.mesh, config) is None:
+        if board.pit is None:
             return [board, rest]
         fallback = fallback or [board, rest]
     return fallback
 
 
-def _walls(mesh: TriangleMesh, pit: Vec3) -> Iterator[tuple[int, float, float]]:
+def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     """Yields axis, sense and position of each wall seen from the pit, the largest faces of the box first.
 
     Where no wall is seen (a ring seen from its middle along a diagonal), cuts through the pit itself come last.
     """
-    seen = _looks(RayCaster(mesh), pit[None])[0]
-    size = mesh.box.size
+    seen = _looks(piece.caster, pit[None])[0]
+    size = piece.mesh.box.size
     order = sorted(range(6), key=lambda k: float(size[k // 2]))  # the face across a short side is large
     for k in order:
         if np.isfinite(seen[k]):
