@@ -155,7 +155,7 @@ class MovingBody:
         return met
 
     def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
-        """Returns the numbers of the body's faces that, as posed, cut into the obstacles (empty if none is penetrated)."""
+        """Returns the numbers of the body's faces that, as posed, cut into the obstacles."""
         met = self.penetrated(obstacles)
         self._shrunk.place(self._T)
         return set().union(*(self._shrunk.faces_in_contact(obstacles[k]) for k in met))

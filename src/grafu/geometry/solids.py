@@ -72,6 +72,12 @@ def subtract(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     return _clip(surface, near)
 
 
+def removed_area(surface: Surface, solids: Sequence[ConvexSolid]) -> float:
+    """Returns how much of the surface, in square metres, lies inside the solids: what `subtract` takes away of it."""
+    near = [solid for solid in solids if solid.box.overlaps(surface.mesh.box)]
+    return surface.mesh.area - _clip(surface, near).mesh.area if near else 0.0
+
+
 def _merged_planes(equations: np.ndarray) -> np.ndarray:
     """Returns the hull's planes, those of one flat face (triangulated, with rounding errors) as one, the outermost."""
     _, group = np.unique(np.round(equations[:, :3], 4), axis=0, return_inverse=True)

@@ -1,32 +1,38 @@
-"""Builds one joint on a scene: clearance where it is needed, then hinges or rails, then what was measured on it."""
+"""Builds one joint on a scene: clearance where it is needed, then hinges or rails, then what came of it.
+
+A part that keeps cutting into its neighbours at rest, because clearance is not allowed or would cost too much, still
+gets its joint; what it cuts into is left out of account, and the report says in how many poses it collides.
+"""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
-from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.realization.clearance.make import make_clearance
 from grafu.realization.clearance.path import Path
+from grafu.realization.clearance.trim import trim
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.hinge.place import place_hinges
-from grafu.realization.hinge.search import door_search
+from grafu.realization.hinge.search import DoorSearch, door_search
 from grafu.realization.limits import motion_about
 from grafu.realization.placement import Placement
 from grafu.realization.plan import JointRequest
 from grafu.realization.rail.place import place_rails
-from grafu.realization.rail.search import drawer_search
+from grafu.realization.rail.search import DrawerSearch, drawer_search
 from grafu.realization.report import Clearance, Skipped, SkipReason
 from grafu.realization.scene import Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType, PartLabel
 
+_Found = tuple[Placement, Scene, tuple[Clearance, ...]]
+
 
 @final
 @dataclass(frozen=True, eq=False)
 class Built:
-    """One joint with its hardware, and the scene that holds it."""
+    """One joint with its hardware, and the scene that holds it; `wanted` is the opening that was asked for."""
 
     request: JointRequest
     placement: Placement
@@ -45,17 +51,21 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     clearances: tuple[Clearance, ...] = ()
     share = search.best().free / search.wanted
     if share < 1.0:
-        axis, axes = search.to_clear().axis, part_axes(scene.parts[request.moving].mesh)
-        cleared, clearances = _cleared(request, scene, axis, axes, search.wanted, config)
-        again = door_search(request, cleared, config)
+        path = _path(request, scene, search.to_clear().axis, search.wanted)
+        cleared = make_clearance(scene, path, config)
+        again = door_search(request, cleared.scene, config)
         if again.best().free / again.wanted > share:
-            search, scene = again, cleared
-        else:
-            clearances = ()
-    placement = place_hinges(search, gallery)
+            search, scene, clearances = again, cleared.scene, cleared.clearances
+    placement = place_hinges(search, gallery) or _despite_doors(search, gallery)
     if placement is None:
-        return _skipped(request, search.best().free / search.wanted)
-    return _built(request, placement, scene, clearances, search.wanted)
+        return _skipped(request, search.best().free / search.wanted, scene, config)
+    return _built(request, (placement, scene, clearances), search.wanted)
+
+
+def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
+    """Returns a placement that leaves out of account what the door cuts into at rest."""
+    met = search.met_at_rest()
+    return place_hinges(door_search(search.request, search.scene, search.config, met), gallery) if met else None
 
 
 def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
@@ -67,17 +77,32 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     clearances: tuple[Clearance, ...] = ()
     share = search.free_share()
     if share < 1.0:
-        axes = part_axes(search.mesh)
-        cleared, clearances = _cleared(request, scene, search.axis, axes, search.reach, config)
-        again = drawer_search(request, cleared, config)
+        cleared = make_clearance(scene, _path(request, scene, search.axis, search.reach), config)
+        again = drawer_search(request, cleared.scene, config)
         if again is not None and again.free_share() > share:
-            search, scene = again, cleared
-        else:
-            clearances = ()
+            search, scene, clearances = again, cleared.scene, cleared.clearances
     placement = place_rails(search, gallery)
-    if placement is None:
-        return _skipped(request, search.free_share())
-    return _built(request, placement, scene, clearances, search.wanted)
+    found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
+    if found is None:
+        return _skipped(request, search.free_share(), scene, config)
+    return _built(request, found, search.wanted)
+
+
+def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearance, ...]) -> _Found | None:
+    """Returns rails for a drawer trimmed where it touches its walls, else ones that leave out what it cuts into."""
+    request, scene, config = search.request, search.scene, search.config
+    if config.trim:
+        walls = [o.id for o in scene.static_obstacles if o.collider.box.overlaps(search.mesh.box, 1e-3)]
+        path = _path(request, scene, search.axis, search.reach)
+        eased, trimmed = trim(scene, path, walls, config, touching=True)
+        again = drawer_search(request, eased, config) if trimmed else None
+        placement = place_rails(again, gallery) if again else None
+        if placement is not None:
+            return placement, eased, (*clearances, *trimmed)
+    met = search.met_at_rest()
+    despite = drawer_search(request, scene, config, met) if met else None
+    placement = place_rails(despite, gallery) if despite else None
+    return (placement, scene, clearances) if placement else None
 
 
 _BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationConfig], Built | Skipped]] = {
@@ -86,17 +111,17 @@ _BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationCo
 }
 
 
-def _cleared(
-    request: JointRequest, scene: Scene, axis: Axis, axes: Mat3, reach: float, config: RealizationConfig
-) -> tuple[Scene, tuple[Clearance, ...]]:
-    turns = request.type is JointType.REVOLUTE
-    path = Path(request.moving, motion_about(axis, request.type), reach, axes, turns)
-    cleared = make_clearance(scene, path, config)
-    return cleared.scene, cleared.clearances
+def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path:
+    axes = part_axes(scene.parts[request.moving].mesh)
+    return Path(request.moving, motion_about(axis, request.type), reach, axes, request.type is JointType.REVOLUTE)
 
 
-def _skipped(request: JointRequest, free: float) -> Skipped:
-    """Returns why nothing was built: what blocks the part, or the lack of a place for hardware."""
+def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Skipped:
+    """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
+    box = scene.parts[request.moving].box
+    if not any(o.collider.box.overlaps(box, config.contact * scene.unit) for o in scene.static_obstacles):
+        detail = "no static part is near enough to carry a mechanism"
+        return Skipped(request.moving, SkipReason.NO_FACING_SURFACES, detail)
     if free < 0.3:
         detail = "it cannot move freely about any candidate axis, not even with the clearance allowed"
         return Skipped(request.moving, SkipReason.BLOCKED, detail)
@@ -104,8 +129,7 @@ def _skipped(request: JointRequest, free: float) -> Skipped:
     return Skipped(request.moving, SkipReason.NO_ROOM, detail)
 
 
-def _built(
-    request: JointRequest, placement: Placement, scene: Scene, clearances: tuple[Clearance, ...], wanted: float
-) -> Built:
-    scene = scene.with_hardware(request.moving, placement.dynamic, placement.static)
-    return Built(request, placement, replace(scene), clearances, wanted)
+def _built(request: JointRequest, found: _Found, wanted: float) -> Built:
+    placement, scene, clearances = found
+    with_hardware = scene.with_hardware(request.moving, placement.dynamic, placement.static)
+    return Built(request, placement, with_hardware, clearances, wanted)

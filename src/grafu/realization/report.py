@@ -26,8 +26,10 @@ class SkipReason(StrEnum):
 class Clearance:
     """Material taken away so that a part can move: which part, how, and how much.
 
-    `kind` is trimmed (cut off the moving part), scaled (the moving part made smaller) or carved (cut out of a static
-    part); `amount` is the largest depth in metres, `share` the share of the part's surface or volume that went.
+    `kind` says how: joined (it lay enclosed in the moving part and moves with it now), closed (it was drawn ajar and
+    was moved by `amount`), trimmed (pressed back by up to `amount`, `share` of a side), eased (made smaller all round
+    by `amount`, `share` of the volume) or carved (cut out; `amount` is the square root of the surface that went,
+    `share` that of its surface or volume). Lengths are metres, angles radians.
     """
 
     part: str

@@ -14,7 +14,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts, part_numbers
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid, subtract
+from grafu.geometry.solids import ConvexSolid, removed_area, subtract
 from grafu.geometry.transform import transform_points
 from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
@@ -35,13 +35,13 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
     for name in ids:
         part = scene.parts[name]
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
-        surfaces = tuple(_without(surface, near) for surface in part.surfaces)
-        share = _lost_share(part, surfaces, near, config.max_carve)
+        share = _lost_share(part, near, config.max_carve)
         if not 0 < share < config.max_carve:
             continue
+        surfaces = (_without(surface, near) for surface in part.surfaces)
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
-        depth = _depth(part, surfaces)
-        done.append(Clearance(name, "carved", depth, share, f"stood in the way of {path.mover}"))
+        width = float(np.sqrt(sum(removed_area(surface, near) for surface in part.surfaces)))
+        done.append(Clearance(name, "carved", width, share, f"stood in the way of {path.mover}"))
     return scene.replaced(carved), done
 
 
@@ -50,20 +50,14 @@ def _without(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     return subtract(surface, near) if near else surface
 
 
-def _changed(part: Part, surfaces: Sequence[Surface]) -> list[tuple[Surface, Surface]]:
-    return [(before, after) for before, after in zip(part.surfaces, surfaces, strict=True) if after is not before]
-
-
-def _lost_share(part: Part, surfaces: Sequence[Surface], solids: Sequence[ConvexSolid], limit: float) -> float:
-    """Returns the share of the part's surface that went, or of its volume where that is less.
+def _lost_share(part: Part, solids: Sequence[ConvexSolid], limit: float) -> float:
+    """Returns the share of the part's surface that goes, or of its volume where that is less.
 
     Volumes are those of the convex hulls of its connected pieces: real parts are rarely closed.
     """
-    changed = _changed(part, surfaces)
-    if not changed or part.mesh.area == 0:
+    if part.mesh.area == 0 or not solids:
         return 0.0
-    gone = sum(abs(before.mesh.area - after.mesh.area) for before, after in changed)
-    by_area = max(gone / part.mesh.area, 1e-9)
+    by_area = sum(removed_area(surface, solids) for surface in part.surfaces) / part.mesh.area
     return by_area if by_area < limit else min(by_area, _lost_volume(part, solids))
 
 
@@ -83,12 +77,6 @@ def _lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
 
 def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
     return manifold3d.Manifold(manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32)))
-
-
-def _depth(part: Part, surfaces: Sequence[Surface]) -> float:
-    """Returns for the report how wide the largest cut is: the square root of the surface that it took, metres."""
-    gone = [abs(before.mesh.area - after.mesh.area) for before, after in _changed(part, surfaces)]
-    return float(np.sqrt(max(gone, default=0.0)))
 
 
 def _swept_solids(

@@ -30,8 +30,13 @@ class _Press:
     depth: float
 
 
-def trim(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
-    """Returns the scene with the moving part's pieces pressed back where they cut into static pieces."""
+def trim(
+    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig, touching: bool = False
+) -> tuple[Scene, list[Clearance]]:
+    """Returns the scene with the moving part's pieces pressed back where they cut into static pieces.
+
+    With `touching`, also where they merely touch: a drawer without any play leaves no room for rails.
+    """
     part = scene.parts[path.mover]
     most = config.max_trim * box_in(path.axes, part.mesh).size
     play = 2.5 * config.depth * scene.unit
@@ -39,20 +44,21 @@ def trim(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
     depth = 0.0
     surfaces = []
     for surface in part.surfaces:
-        pressed, deepest = _pressed(surface, theirs, path, most, play)
+        pressed, deepest = _pressed(surface, theirs, path, most, (play, 0.9 * play if touching else 0.0))
         surfaces.append(pressed)
         depth = max(depth, deepest)
     if depth == 0.0:
         return scene, []
     trimmed: Part = replace(part, surfaces=tuple(surfaces))
     share = depth / float(most.max() / config.max_trim)
-    return scene.replaced([trimmed]), [Clearance(path.mover, "trimmed", depth, share, f"cut into {', '.join(ids)}")]
+    why = f"{'touched' if touching else 'cut into'} {', '.join(ids)}"
+    return scene.replaced([trimmed]), [Clearance(path.mover, "trimmed", depth, share, why)]
 
 
 def _pressed(
-    surface: Surface, theirs: Sequence[Box], path: Path, most: np.ndarray, play: float
+    surface: Surface, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]
 ) -> tuple[Surface, float]:
-    """Returns the surface with its pieces pressed back, and by how much at most."""
+    """Returns the surface with its pieces pressed back, and by how much at most (`play`: see `_presses`)."""
     numbers = part_numbers(surface.mesh)
     local = surface.mesh.vertices @ path.axes
     deepest = 0.0
@@ -70,16 +76,19 @@ def _pressed(
     return Surface(mesh, surface.material, surface.uv, surface.normals, surface.colors), deepest
 
 
-def _presses(box: Box, theirs: Sequence[Box], path: Path, most: np.ndarray, play: float) -> list[_Press]:
-    """Returns how a piece must be pressed so that it clears the static pieces that it cuts into a little."""
+def _presses(box: Box, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]) -> list[_Press]:
+    """Returns how a piece must be pressed so that it clears the static pieces that it cuts into a little.
+
+    `play` is what it gets, and up to which gap it counts as cutting in.
+    """
     way = _swept(box, path)
     found: list[_Press] = []
     for other in theirs:
         depths = np.stack([other.high - way.low, way.high - other.low])
-        if (depths <= 0).any():
+        if (depths <= -play[1]).any():
             continue
         side, axis = (int(i) for i in np.unravel_index(int(np.argmin(depths)), depths.shape))
-        depth = float(depths[side, axis]) + play
+        depth = float(depths[side, axis]) + play[0]
         if depth <= most[axis] and depth <= (1 - _KEPT) * box.size[axis]:
             limit = float(way.low[axis] + depth) if side == 0 else float(way.high[axis] - depth)
             found.append(_Press(axis, side, limit, depth))

@@ -22,7 +22,7 @@ from grafu.realization.hinge.candidates import (
 )
 from grafu.realization.hinge.fit import barrel_radius
 from grafu.realization.hinge.survey import survey
-from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, swept_box, widest_free
+from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, sweep, swept_box, widest_free
 from grafu.realization.plan import JointRequest
 from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType
@@ -112,6 +112,10 @@ class DoorSearch:
         pivots = [judged for judged in self.others if judged.pin.is_pivot]
         return min(self.ruled or pivots, key=lambda judged: judged.rank)
 
+    def met_at_rest(self) -> tuple[str, ...]:
+        """Returns what the door cuts into before it has moved at all."""
+        return sweep(self.body, motion_about(self.best().axis, JointType.REVOLUTE), 0.0, self.obstacles, 1).blockers
+
     def widest(self, axis: Axis, reach: float) -> float:
         """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
         motion = motion_about(axis, JointType.REVOLUTE)
@@ -133,8 +137,10 @@ class DoorSearch:
         return JudgedPin(pin, axis, free, neighbours, rank)
 
 
-def door_search(request: JointRequest, scene: Scene, config: RealizationConfig) -> DoorSearch:
-    """Returns the search for one request."""
+def door_search(
+    request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
+) -> DoorSearch:
+    """Returns the search for one request; what is `ignored` does not count as an obstacle."""
     part = scene.parts[request.moving]
     wanted = min(request.reference or radians(90), config.door_opening)
     return DoorSearch(
@@ -143,7 +149,7 @@ def door_search(request: JointRequest, scene: Scene, config: RealizationConfig) 
         config,
         border_frame(part.mesh, request.axis),
         scene.moving_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
-        scene.static_obstacles + scene.static_hardware,
+        tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored),
         scene.other_movers(request.moving),
         max(wanted, radians(30)),
     )

@@ -16,6 +16,11 @@ _LEVELS = 7  # heights along the border at which rays are cast
 _START = 0.3  # rays start this share of the door's thickness inside the door
 
 
+def _median_of(distances: Scalars, reach: float) -> float:
+    """Returns the median of what is met; two of seven heights suffice: a flap may have stiles behind its ends alone."""
+    return robust_median(distances, reach, 2 / _LEVELS - 1e-6)
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class Surroundings:
@@ -68,7 +73,7 @@ class _Probe:
         """Returns the gap beside the door at a level of its thickness (0 front, -1 back)."""
         inside = min(_START * self._frame.thickness, 0.25 * self._frame.width)
         distances = self.row(inside, level * self._frame.thickness, -1.0, 0.0)
-        return robust_median(distances, self._reach + inside) - inside
+        return _median_of(distances, self._reach + inside) - inside
 
     def side_top(self, side_gap: float) -> float:
         """Returns the y of the front of what stands beside the door, seen from in front of it."""
@@ -81,7 +86,7 @@ class _Probe:
     def _height_at(self, x: float) -> float:
         """Returns the y at which rays from the front meet the static body at an x."""
         start = self._reach
-        distance = robust_median(self.row(x, start, 0.0, -1.0), start + self._frame.board)
+        distance = _median_of(self.row(x, start, 0.0, -1.0), start + self._frame.board)
         return start - distance
 
     def side_depth(self, side_gap: float) -> float:
@@ -99,7 +104,7 @@ class _Probe:
         steps = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0]) * self._frame.board
         gaps = np.array(
             [
-                robust_median(self.row(x, inside - self._frame.thickness, 0.0, -1.0), self._reach + inside) - inside
+                _median_of(self.row(x, inside - self._frame.thickness, 0.0, -1.0), self._reach + inside) - inside
                 for x in steps
             ]
         )
@@ -115,7 +120,7 @@ class _Probe:
         for step in (0.02, 0.1, 0.3, 0.6):
             gap = step * self._frame.board
             start = -self._reach / 2
-            distance = robust_median(self.row(start, -self._frame.thickness - gap, 1.0, 0.0), self._reach)
+            distance = _median_of(self.row(start, -self._frame.thickness - gap, 1.0, 0.0), self._reach)
             if start + distance <= 3 * self._frame.board:
                 return gap
         return float("inf")
@@ -127,7 +132,7 @@ class _Probe:
         faces = []
         for step in (0.25, 0.6, 1.0):
             y = -self._frame.thickness - max(back_gap, 0.0) - step * self._frame.board
-            distance = robust_median(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.board)
+            distance = _median_of(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.board)
             faces.append(distance - self._reach)
         found = [x for x in faces if np.isfinite(x)]
         return float(np.median(found)) if found else float("-inf")

@@ -24,6 +24,8 @@ from grafu.realization.support_block import Footing, block, shortest_bridge
 from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
 from grafu.vocabulary import PartLabel
 
+_LEAST_SHARE = 0.3  # a travel below this share of the wanted one is no motion
+
 
 def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     """Returns the first placement whose rails hold on both sides and are in nothing's way; None where none does."""
@@ -43,6 +45,8 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
     upper = search.travel(template.range)
+    if upper < _LEAST_SHARE * search.wanted:
+        return None
     static: list[Visual] = []
     dynamic: list[Visual] = []
     for side, T in zip(("left", "right"), _poses(spot, region, search.frame), strict=True):

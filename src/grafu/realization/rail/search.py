@@ -19,6 +19,7 @@ from grafu.realization.limits import (
     free_opening,
     in_the_way,
     motion_about,
+    sweep,
     swept_box,
     widest_free,
 )
@@ -99,18 +100,24 @@ class DrawerSearch:
         near = in_the_way(self.obstacles, swept_box(self.box, self.motion, self.wanted))
         return free_opening(self.body, self.motion, self.wanted, near, self.config.fine_poses)[0] / self.wanted
 
+    def met_at_rest(self) -> tuple[str, ...]:
+        """Returns what the drawer cuts into before it has moved at all."""
+        return sweep(self.body, self.motion, 0.0, self.obstacles, 1).blockers
+
     def movers_in_the_way(self, reach: float) -> tuple[str, ...]:
         """Returns the other movers, at rest, that the drawer runs into."""
         near = in_the_way(self.neighbours, swept_box(self.box, self.motion, reach))
         return all_blockers(self.body, self.motion, reach, near, self.config.coarse_poses)
 
 
-def drawer_search(request: JointRequest, scene: Scene, config: RealizationConfig) -> DrawerSearch | None:
-    """Returns the search for one request; None where the drawer would slide up or down."""
+def drawer_search(
+    request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
+) -> DrawerSearch | None:
+    """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle."""
     mesh = scene.parts[request.moving].mesh
     frame = drawer_frame(mesh, np.asarray(request.axis.direction))
     if frame is None:
         return None
     body = scene.moving_body(request.moving, config.depth * scene.unit, part_axes(mesh))
-    obstacles = scene.static_obstacles + scene.static_hardware
+    obstacles = tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored)
     return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_movers(request.moving))
