@@ -21,6 +21,8 @@ def visual(name, low, high, role=VisualRole.PART) -> Visual:
 # A case of one metre, open to -Y; a block that starts 2 cm in front of it and slides.
 CASE = Link("case", (visual("left", [0, 0, 0], [0.02, 1, 1]), visual("back", [0, 0.98, 0], [1, 1, 1])))
 
+OUT = Axis(np.zeros(3), np.array([0.0, -1.0, 0.0]))
+
 
 def slider(low, high, direction, travel, extra=()) -> ArticulatedObject:
     block = Link("block", (visual("block", low, high), *extra))
@@ -57,6 +59,22 @@ def test_the_tolerance_is_a_share_of_the_largest_side():
     deep = slider([0.005, 0.1, 0.3], [0.6, 0.9, 0.6], [0, -1, 0], 0.5)
     assert mean_collision(deep, CollisionConfig(tolerance=0.002)) > 0.5
     assert mean_collision(deep, CollisionConfig(tolerance=0.02)) == 0.0
+
+
+@pytest.mark.parametrize(("cut", "collides"), [(0.0004, 0.0), (0.002, 1.0)])
+def test_the_tolerant_figure_allows_half_a_millimetre_in_a_unit_cube(cut, collides):
+    pressed = slider([0.02 - cut, 0.1, 0.3], [0.6, 0.9, 0.6], [0, -1, 0], 0.05)
+    assert mean_collision(pressed, TOLERANT) == collides
+
+
+@pytest.mark.parametrize(("sides", "collides"), [(["left"], 0.0), (["left", "right"], 1.0)])
+def test_a_thin_body_wedged_between_two_obstacles_collides(sides, collides):
+    sheet = slider([0.3, 0.1, 0.3], [0.301, 0.9, 0.6], [0, -1, 0], 0.05)
+    boxes = {"left": ([0.28, 0, 0], [0.3006, 0.9, 0.5]), "right": ([0.3004, 0, 0], [0.32, 0.9, 0.5])}
+    links = [Link(name, (visual(name, *boxes[name]),)) for name in sides]
+    joints = [Joint(f"j_{name}", JointType.PRISMATIC, "case", name, OUT, JointLimits(0.0, 0.05)) for name in sides]
+    clamped = ArticulatedObject("box", "case", (*sheet.links, *links), (*sheet.joints, *joints))
+    assert collision_shares(clamped, CollisionConfig(tolerance=0.001, movers=True))["slide"] == collides
 
 
 def test_hardware_counts_where_asked():
