@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from judging import deepest_cut, hardware, installed, made_kind, realized_kind, swept_collisions, true_joints
 
 from grafu.articulation.articulated_object import VisualRole
 from grafu.asset.edit import as_static_object
@@ -9,7 +10,6 @@ from grafu.metrics.collision import CollisionConfig, collision_shares
 from grafu.metrics.connectivity import ConnectivityConfig, largest_gaps
 from grafu.synth.kinds import KINDS, TIDY
 from grafu.vocabulary import JointType
-from judging import deepest_cut, hardware, installed, made_kind, realized_kind, swept_collisions, true_joints
 
 every_kind = pytest.mark.parametrize("kind", KINDS)
 CUT = 0.001  # of the object's largest side: what hardware is let in by where there is no room

@@ -3,6 +3,8 @@
 from dataclasses import replace
 
 import pytest
+from judging import GALLERY, installed, made_kind, realized
+from small_scenes import DOOR, LEFT_EDGE, SIDE, box, hinged, scene, sliding
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -10,8 +12,6 @@ from grafu.realization.plan import JointRequest, RealizationPlan, Refusal
 from grafu.realization.realize import realize
 from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType
-from judging import GALLERY, installed, made_kind, realized
-from small_scenes import DOOR, LEFT_EDGE, SIDE, box, hinged, scene, sliding
 
 RIGHT_EDGE = Axis(vec3(0.8, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
 SECOND = box("door_2", (0.42, -0.02, 0.0), (0.8, 0.0, 0.6))

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from judging import installed, made_kind, realized, realized_kind, true_joints
 
 from grafu.asset.edit import moved, scaled
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import from_rotation, reflection, rotation_matrix
 from grafu.vocabulary import JointType
-from judging import installed, made_kind, realized, realized_kind, true_joints
 
 
 def yaw(degrees: float) -> np.ndarray:
