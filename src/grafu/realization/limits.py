@@ -7,13 +7,15 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import Mat4
+from grafu.geometry.arrays import Mat4, Scalars
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MovingBody
 from grafu.geometry.transform import transform_points
 from grafu.realization.scene import Obstacle
 from grafu.vocabulary import JointType
+
+_NEAR_REST = 1.5
 
 Motion = Callable[[float], Mat4]
 
@@ -33,6 +35,11 @@ class SweepVerdict:
     blockers: tuple[str, ...]
 
 
+def opening_values(reach: float, poses: int) -> Scalars:
+    """Returns joint values from 0 to `reach`, closer together near rest, where parts lie nearest to one another."""
+    return reach * np.linspace(0.0, 1.0, poses) ** _NEAR_REST
+
+
 def swept_box(box: Box, motion: Motion, reach: float, poses: int = 9) -> Box:
     """Returns a box around a box's whole way from 0 to `reach` (slightly grown for what lies between poses)."""
     corners = np.vstack([transform_points(motion(v), box.corners()) for v in np.linspace(0.0, reach, poses)])
@@ -49,7 +56,7 @@ def sweep(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Ob
 
     A part that already collides at rest has a free opening of 0, and `share` tells whether that passes.
     """
-    values = np.linspace(0.0, reach, poses)
+    values = opening_values(reach, poses)
     blocked = [_blockers(body, motion(v), obstacles) for v in values]
     hits = [k for k, names in enumerate(blocked) if names]
     free = reach if not hits else float(values[hits[0] - 1]) if hits[0] else 0.0
@@ -64,7 +71,7 @@ def free_opening(
 
     It stops at the first blocked pose, unless that is the first of all.
     """
-    values = np.linspace(0.0, reach, poses)
+    values = opening_values(reach, poses)
     if _blockers(body, motion(0.0), obstacles):
         hits = [bool(_blockers(body, motion(v), obstacles)) for v in values]
         return 0.0, sum(hits) / poses
@@ -81,7 +88,7 @@ def all_blockers(
 
 def is_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
     """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
-    return not any(_blockers(body, motion(v), obstacles) for v in np.linspace(0.0, reach, poses)[::-1])
+    return not any(_blockers(body, motion(v), obstacles) for v in opening_values(reach, poses)[::-1])
 
 
 def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
@@ -89,7 +96,7 @@ def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Seque
 
     A collision at rest does not count: it cannot be avoided by opening less.
     """
-    values = np.linspace(0.0, reach, poses)
+    values = opening_values(reach, poses)
     for before, after in pairwise(values):
         if not _blockers(body, motion(after), obstacles):
             continue

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import manifold3d
 import numpy as np
+from jaxtyping import Float
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
@@ -18,6 +19,7 @@ from grafu.geometry.solids import ConvexSolid, removed_area, subtract
 from grafu.geometry.transform import transform_points
 from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
+from grafu.realization.limits import opening_values
 from grafu.realization.report import Clearance
 from grafu.realization.scene import Scene
 
@@ -122,7 +124,7 @@ def _cutting_pieces(
 def _cutting_faces(body: MovingBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
     """Returns the numbers of the moving faces that cut into an obstacle somewhere on the way."""
     found: set[int] = set()
-    for value in np.linspace(0.0, path.reach, poses):
+    for value in opening_values(path.reach, poses):
         body.place(path.motion(value))
         found |= body.cutting_faces(obstacles)
     return np.array(sorted(found), dtype=np.int64)
@@ -134,7 +136,7 @@ def _is_convex(piece: TriangleMesh, hull: ConvexSolid, play: float) -> bool:
     return bool(depth.min(axis=1).max() <= play)
 
 
-def _grown(points: Points, play: float, axes: Mat3) -> Points:
+def _grown(points: Points, play: float, axes: Mat3) -> Float[np.ndarray, "m 3"]:
     """Returns the corners of the points' hull grown by `play` along the axes; a box's where the hull is rounded.
 
     Cutting along a rounded hull's many planes would shred what is cut.

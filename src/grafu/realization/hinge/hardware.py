@@ -67,13 +67,13 @@ def is_out_of_the_way(hinge: InstalledHinge, site: Site) -> bool:
 
 
 def _static_in_the_way(static: tuple[Visual, ...], site: Site) -> bool:
-    """Whether the door, or another mover at rest, cuts into the static hardware."""
+    """Whether the door, another mover at rest, or other hardware cuts into the static hardware."""
     collider = MeshCollider(merge_meshes([v.mesh for v in static]))
     if not is_free(site.door_body, site.motion, site.upper, [Obstacle("hinge", collider)], 2 * _POSES):
         return True
     body = MovingBody(merge_meshes([v.mesh for v in static]), site.depth)
     body.place(np.eye(4))
-    return any(body.penetrates(o.collider) for o in site.neighbours)
+    return any(body.penetrates(o.collider) for o in (*site.neighbours, *site.scene.static_hardware))
 
 
 def _dynamic_in_the_way(dynamic: tuple[Visual, ...], site: Site) -> bool:

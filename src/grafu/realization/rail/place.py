@@ -92,11 +92,10 @@ def _anchored(
             return None
         held_static.append(block(f"support_{name}_{side}_static", *bridge))
     if MeshCollider(dynamic.mesh).distance(MeshCollider(search.mesh)) > anchor:
-        footing = Footing(dynamic.snap.center, dynamic.snap.normal, 0.9 * dynamic.snap.u, 0.9 * dynamic.snap.v)
-        gap = footing.gap(RayCaster(search.mesh), 0.2 * search.frame.width)
-        if not np.isfinite(gap):
+        bridge = shortest_bridge(_dynamic_footings(dynamic, T), RayCaster(search.mesh), 0.2 * search.frame.width)
+        if bridge is None:
             return None
-        held_dynamic.append(block(f"support_{name}_{side}_dynamic", footing, gap))
+        held_dynamic.append(block(f"support_{name}_{side}_dynamic", *bridge))
     return held_static, held_dynamic
 
 
@@ -108,13 +107,24 @@ def _footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
     """Yields the static snap plane looking at the wall, then the rail looking up, down and to the back."""
     snap = end.snap
     yield Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v)
-    outward, back, up = snap.normal, T[:3, 1], vec3(0.0, 0.0, 1.0)
+    yield from _looking(end, T, (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward")))
+    yield from _looking(end, T, (("back", 1.0, "up", "outward"),))
+
+
+def _dynamic_footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
+    """Yields the dynamic snap plane looking at the drawer, then the rail's front end looking at the front's back."""
+    snap = end.snap
+    yield Footing(snap.center, snap.normal, 0.9 * snap.u, 0.9 * snap.v)
+    yield from _looking(end, T, (("back", -1.0, "up", "outward"),))
+
+
+def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str], ...]) -> Iterator[Footing]:
+    """Yields rectangles on a rail's sides, measured along its own axes: direction, its sense, and their two sides."""
     middle, reach = np.zeros(3), {}
-    for name, axis in (("outward", outward), ("back", back), ("up", up)):
+    for name, axis in (("outward", end.snap.normal), ("back", T[:3, 1]), ("up", vec3(0.0, 0.0, 1.0))):
         along = end.mesh.vertices @ axis
         middle = middle + axis * (along.min() + along.max()) / 2
         reach[name] = axis * (along.max() - along.min()) / 2
-    looks = (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward"), ("back", 1.0, "up", "outward"))
     for name, sign, first, second in looks:
         towards = sign * reach[name]
         direction = towards / np.linalg.norm(towards)
