@@ -12,6 +12,7 @@ import numpy as np
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.rail.body_region import BodyRegion, DrawerFrame
 from grafu.templates.template import RailModel, RailSize
+from grafu.vocabulary import MechanismClass
 
 _THINNEST = 0.0025  # thinner rails are let into the flank and the wall by what is missing
 _LOWEST = 0.004
@@ -89,11 +90,21 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -
         tight = (thickness - min(max(walls.nearer, 0.0), thickness)) / 2
         let_in = min(max(tight, _DYNAMIC_REACH * thickness - walls.passage, 0.0), _MOST_LET_IN * thickness)
         height = max(min(model.natural.height, 0.6 * flank, 4.0 * thickness + 0.01), min(_LOWEST, flank))
-        for level in (0.5, 0.3, 0.7, 0.15, 0.85):
-            z = body.bottom + level * flank
-            z = min(max(z, body.bottom + height / 2), body.top - height / 2)
+        for z in _heights_on(model, body, height):
             size = RailSize(length, height, thickness)
             yield RailSpot(size, body.left - thickness + let_in, y, z)
+
+
+def _heights_on(model: RailModel, body: BodyRegion, height: float) -> list[float]:
+    """Returns the z to try: the flank's middle and around it, or a corner mount's, its shelf under the drawer.
+
+    A corner mount's support plane lies at its lower edge and must meet the underside (supplement, eq. rail priors).
+    """
+    lowest, highest = body.bottom + height / 2, body.top - height / 2
+    if model.mechanism is MechanismClass.CORNER:
+        return [lowest]
+    flank = body.top - body.bottom
+    return [min(max(body.bottom + level * flank, lowest), highest) for level in (0.5, 0.3, 0.7, 0.15, 0.85)]
 
 
 def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
