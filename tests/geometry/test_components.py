@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.components import clustered, connected_parts, patches_of, tidy_parts, welded
+from grafu.geometry.components import clustered, connected_parts, patches_of, repeated_faces, tidy_parts, welded
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 CUBE = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0)))
@@ -139,3 +139,11 @@ def test_tidy_parts_tell_which_bound_a_solid():
     assert (len(cube.faces), len(lid.faces)) == (12, 2)
     assert volume(cube, cube.faces) > 0
     assert tidy_parts(merge_meshes([])) == []
+
+
+def test_a_repeated_face_names_the_first_with_its_corners():
+    doubled = merge_meshes([soup(CUBE), TriangleMesh(CUBE.vertices, CUBE.faces[::-1, ::-1])])
+
+    assert repeated_faces(CUBE).tolist() == list(range(12))
+    assert repeated_faces(doubled).tolist() == [*range(12), *reversed(range(12))]
+    assert repeated_faces(merge_meshes([])).tolist() == []

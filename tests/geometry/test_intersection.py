@@ -11,7 +11,7 @@ from grafu.geometry import intersection
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, MovingBody, shrunk
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 
 DEPTH = 0.01
@@ -143,3 +143,11 @@ def test_a_body_is_at_no_distance_from_what_it_touches():
     assert body.distance(WALL) == pytest.approx(0.3)
     body.place(translation(vec3(0.4, 0.0, 0.0)))
     assert body.distance(WALL) == 0.0
+
+
+def test_faces_drawn_twice_are_named_both():
+    fine = TriangleMesh.from_trimesh(box_mesh((0.0, 0.0, 0.0), (1.2, 1.0, 1.0)).to_trimesh().subdivide().subdivide())
+    twice = merge_meshes([fine, TriangleMesh(fine.vertices, fine.faces[:, ::-1])])
+    once, count = MeshCollider(fine).faces_in_contact(WALL), len(fine.faces)
+    assert once
+    assert MeshCollider(twice).faces_in_contact(WALL) == once | {face + count for face in once}

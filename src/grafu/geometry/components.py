@@ -75,6 +75,15 @@ def part_numbers(mesh: TriangleMesh) -> Indices:
     return np.argsort(np.argsort(first))[number.reshape(-1)].astype(np.int64)
 
 
+def repeated_faces(mesh: TriangleMesh) -> Indices:
+    """Returns for each face the index of the first face with the same three corners, which may be itself."""
+    if not len(mesh.faces):
+        return np.zeros(0, np.int64)
+    corners = np.sort(welded(mesh.vertices)[mesh.faces], axis=1)
+    _, first, number = np.unique(_keys(corners), return_index=True, return_inverse=True)
+    return first[number.reshape(-1)]
+
+
 def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
     """Returns the pieces of a mesh that share no position with one another, in order of their first face."""
     numbers = part_numbers(mesh)

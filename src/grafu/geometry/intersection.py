@@ -5,14 +5,17 @@ pass through one another cut surfaces, which is what is asked here.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import final
 from weakref import finalize
 
 import fcl
 import numpy as np
+from jaxtyping import Int
 
-from grafu.geometry.arrays import Mat3, Mat4, Vec3
+from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3
 from grafu.geometry.box import Box
+from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import transform_points
 
@@ -20,20 +23,49 @@ from grafu.geometry.transform import transform_points
 _CORE = 0.2
 _MOST_CONTACTS = 5000
 
-_models: dict[int, fcl.BVHModel] = {}
+_MANY = 100  # faces: below, looking for repeated ones costs more than it spares
 
 
-def _bvh(mesh: TriangleMesh) -> fcl.BVHModel:
+@final
+@dataclass(frozen=True, slots=True)
+class _Model:
+    """A BVH, and for each face of its mesh the face that stands for it in the BVH (none: each stands for itself).
+
+    Real furniture draws most faces twice, front and back; once is enough to be hit.
+    """
+
+    bvh: fcl.BVHModel
+    kept: Indices
+    stand_in: Int[np.ndarray, " faces"] | None
+
+    def faces(self, hit: set[int]) -> set[int]:
+        """Returns the mesh's faces that the BVH's faces stand for."""
+        if self.stand_in is None:
+            return hit
+        return set(np.flatnonzero(np.isin(self.stand_in, self.kept[list(hit)])).tolist())
+
+
+_models: dict[int, _Model] = {}
+
+
+def _model(mesh: TriangleMesh) -> _Model:
     """Returns the mesh's BVH, built once in the mesh's life."""
     key = id(mesh)
     if key not in _models:
-        model = fcl.BVHModel()
-        model.beginModel(len(mesh.vertices), len(mesh.faces))
-        model.addSubModel(mesh.vertices, mesh.faces)
-        model.endModel()
-        _models[key] = model
+        _models[key] = _built(mesh)
         finalize(mesh, _models.pop, key, None)
     return _models[key]
+
+
+def _built(mesh: TriangleMesh) -> _Model:
+    count = len(mesh.faces)
+    stand_in = repeated_faces(mesh) if count > _MANY else None
+    kept = np.arange(count) if stand_in is None else np.unique(stand_in)
+    bvh = fcl.BVHModel()
+    bvh.beginModel(len(mesh.vertices), len(kept))
+    bvh.addSubModel(mesh.vertices, mesh.faces[kept])
+    bvh.endModel()
+    return _Model(bvh, kept, stand_in)
 
 
 @final
@@ -55,7 +87,7 @@ class MeshCollider:
     def _object(self) -> fcl.CollisionObject:
         """The FCL object in its present pose; the BVH is built when first asked for."""
         if self._made is None:
-            self._made = fcl.CollisionObject(_bvh(self._mesh))
+            self._made = fcl.CollisionObject(_model(self._mesh).bvh)
         if self._pose is not None:
             self._made.setTransform(fcl.Transform(*self._pose))
             self._pose = None
@@ -81,7 +113,7 @@ class MeshCollider:
         request = fcl.CollisionRequest(num_max_contacts=_MOST_CONTACTS, enable_contact=True)
         result = fcl.CollisionResult()
         fcl.collide(self._object, other._object, request, result)
-        return {int(contact.b1) for contact in result.contacts}
+        return _model(self._mesh).faces({int(contact.b1) for contact in result.contacts})
 
     def distance(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the two as posed, 0 where they intersect."""
