@@ -24,7 +24,7 @@ from grafu.realization.rail.search import DrawerSearch, drawer_search
 from grafu.realization.report import Clearance, Skipped, SkipReason
 from grafu.realization.scene import Scene
 from grafu.templates.template import Gallery
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import JointType
 
 _Found = tuple[Placement, Scene, tuple[Clearance, ...]]
 
@@ -72,8 +72,6 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     search = drawer_search(request, scene, config)
     if search is None:
         return Skipped(request.moving, SkipReason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
-    if scene.parts[request.moving].label is PartLabel.DOOR and search.frame.depth > 2 * search.mesh.box.size.min():
-        return Skipped(request.moving, SkipReason.UNSUPPORTED, "a sliding door; only hinged doors are built")
     clearances: tuple[Clearance, ...] = ()
     share = search.free_share()
     if share < 1.0:

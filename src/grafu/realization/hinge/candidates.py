@@ -16,6 +16,7 @@ from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.survey import Surroundings
 from grafu.vocabulary import MechanismClass
 
+_INSIDE = 0.1  # an axis nearer to a side than this share of the part runs along its border
 _CHUNKY = 0.45  # a part thicker than this share of its width is no door panel
 
 
@@ -129,14 +130,16 @@ _RULES: tuple[_Rule, ...] = (
 
 def ruled_pins(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list[PinCandidate]:
     """Returns a pin for every hinge class that the surroundings allow."""
-    if turns_about_itself(frame):
-        return []
     return [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
 
 
-def turns_about_itself(frame: BorderFrame) -> bool:
-    """Whether a part is no board: about as thick as it is wide, so that an axis inside it is meant."""
-    return frame.thickness > _CHUNKY * frame.width
+def turns_about_itself(frame: BorderFrame, axis: Axis) -> bool:
+    """Whether a part is no board and its axis runs through it: a tap, a revolving shelf; not a deep lid."""
+    if frame.thickness <= _CHUNKY * frame.width:
+        return False
+    x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
+    shares = (float(x) / max(frame.width, 1e-9), -float(y) / max(frame.thickness, 1e-9))
+    return all(_INSIDE < share < 1 - _INSIDE for share in shares)
 
 
 def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances) -> list[PinCandidate]:
@@ -144,7 +147,7 @@ def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances) -> list[PinCandi
     radius = max(tol.radius, 0.06 * min(frame.thickness, frame.width))
     x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
     spots = [(float(x), float(y))]
-    if not turns_about_itself(frame):
+    if not turns_about_itself(frame, axis):
         spots.append((1.2 * radius, -1.2 * radius))
     return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, 4, is_pivot=True) for x, y in spots]
 

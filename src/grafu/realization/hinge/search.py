@@ -78,6 +78,8 @@ class DoorSearch:
     @cached_property
     def ruled(self) -> list[JudgedPin]:
         """The pins of the hinge classes that the surroundings allow, best first."""
+        if turns_about_itself(self.frame, self.request.axis):
+            return []
         tol = self._tolerances
         return self._judged(ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol))
 
@@ -98,7 +100,7 @@ class DoorSearch:
         What is no board turns about the axis that was asked for, if anything can carry it there.
         """
         first = [judged for judged in self.ruled if judged.rank[0] <= _NEARLY and not judged.neighbours]
-        if turns_about_itself(self.frame):
+        if turns_about_itself(self.frame, self.request.axis):
             first = [judged for judged in self.others if judged.pin.is_pivot]
         yield from first
         yield from sorted((j for j in (*self.ruled, *self.others) if j not in first), key=lambda j: j.rank)

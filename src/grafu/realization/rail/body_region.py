@@ -1,7 +1,8 @@
 """The drawer frame, and the body region of a drawer: where its container runs, behind the pulling board.
 
 X runs across the drawer (right-handed with Z up), Y from the front into the cabinet, against the sliding direction. The
-origin is the middle of the drawer's front side: it fills |x| <= width / 2, 0 <= y <= depth, |z| <= height / 2.
+origin is the middle of the drawer's front side: it fills |x| <= width / 2, 0 <= y <= depth, |z| <= height / 2. A
+sliding door is framed alike, but lying: X up, so that its flanks are its lower and upper edges, where tracks belong.
 """
 
 from dataclasses import dataclass
@@ -55,10 +56,11 @@ class DrawerFrame(ArrayValue):
         return (points - self.origin) @ self.rotation
 
 
-def drawer_frame(mesh: TriangleMesh, direction: Vec3) -> DrawerFrame | None:
-    """Returns the frame of a drawer that slides along a unit direction; None where it slides up or down.
+def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> DrawerFrame | None:
+    """Returns the frame of a part that slides along a unit direction; None where it slides up or down.
 
-    The direction is snapped to the nearest level axis of the drawer's own box within 8 degrees, else kept.
+    The direction is snapped to the nearest level axis of the part's own box within 8 degrees, else kept. `lying` frames
+    a sliding door.
     """
     if abs(float(direction[2])) > 0.5:
         return None
@@ -68,8 +70,8 @@ def drawer_frame(mesh: TriangleMesh, direction: Vec3) -> DrawerFrame | None:
     slide = snapped if float(snapped @ direction) > np.cos(np.radians(8.0)) else direction
     up = vec3(0.0, 0.0, 1.0)
     y = -slide / np.linalg.norm(slide)
-    x = np.cross(y, up)
-    x /= np.linalg.norm(x)
+    x = up if lying else np.cross(y, up)
+    x = x / np.linalg.norm(x)
     rotation = np.column_stack([x, y, np.cross(x, y)])
     local = Box.around(mesh.vertices @ rotation)
     center = local.center

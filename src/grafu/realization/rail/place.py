@@ -121,7 +121,7 @@ def _dynamic_footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
 def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str], ...]) -> Iterator[Footing]:
     """Yields rectangles on a rail's sides, measured along its own axes: direction, its sense, and their two sides."""
     middle, reach = np.zeros(3), {}
-    for name, axis in (("outward", end.snap.normal), ("back", T[:3, 1]), ("up", vec3(0.0, 0.0, 1.0))):
+    for name, axis in (("outward", end.snap.normal), ("back", T[:3, 1]), ("up", T[:3, 2])):
         along = end.mesh.vertices @ axis
         middle = middle + axis * (along.min() + along.max()) / 2
         reach[name] = axis * (along.max() - along.min()) / 2

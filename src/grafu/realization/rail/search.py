@@ -6,6 +6,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MovingBody
@@ -29,6 +30,7 @@ from grafu.realization.rail.spots import front_only_region
 from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType
 
+_FLAT = 0.2  # a board is thinner than this share of its smaller side
 _TRAVEL = 0.77  # of the depth: what rails over 0.9 of a body travel with a lap of 15 %
 
 
@@ -110,12 +112,23 @@ class DrawerSearch:
         return all_blockers(self.body, self.motion, reach, near, self.config.coarse_poses)
 
 
+def slides_in_its_plane(mesh: TriangleMesh, direction: Vec3) -> bool:
+    """Whether a part is an upright board that slides along itself: a sliding door."""
+    axes = part_axes(mesh)
+    size = np.ptp(mesh.vertices @ axes, axis=0)
+    thin = int(np.argmin(size))
+    is_upright = thin != int(np.argmax(np.abs(axes[2])))
+    is_flat = size[thin] < _FLAT * np.delete(size, thin).min()
+    return bool(is_upright and is_flat and abs(float(axes[:, thin] @ direction)) < _FLAT)
+
+
 def drawer_search(
     request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
 ) -> DrawerSearch | None:
     """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle."""
     mesh = scene.parts[request.moving].mesh
-    frame = drawer_frame(mesh, np.asarray(request.axis.direction))
+    direction = np.asarray(request.axis.direction)
+    frame = drawer_frame(mesh, direction, slides_in_its_plane(mesh, direction))
     if frame is None:
         return None
     body = scene.moving_body(request.moving, config.depth * scene.unit, part_axes(mesh))
