@@ -115,6 +115,11 @@ class MeshCollider:
         fcl.collide(self._object, other._object, request, result)
         return _model(self._mesh).faces({int(contact.b1) for contact in result.contacts})
 
+    def box_gap(self, other: "MeshCollider") -> float:
+        """Returns the distance in metres between the boxes of the two as posed: at most that of the meshes."""
+        apart = np.maximum(np.maximum(self._low - other._high, other._low - self._high), 0.0)
+        return float(np.linalg.norm(apart))
+
     def distance(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the two as posed, 0 where they intersect."""
         if self.intersects(other):

@@ -6,6 +6,7 @@ not cost the others theirs.
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import product
 from time import perf_counter
 from typing import final
 
@@ -13,8 +14,8 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.intersection import MeshCollider
-from grafu.geometry.mesh import merge_meshes
 from grafu.realization.build import Built, build_joint
 from grafu.realization.clearance.make import adopt
 from grafu.realization.clearance.path import Path, obstruction
@@ -28,6 +29,8 @@ from grafu.realization.scene import Mover, Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
+_GAP_POSES = 5  # hardware slides or turns along itself: a gap, where there is one, opens steadily
+_TOUCHING = 1e-4
 _MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
 
 
@@ -140,13 +143,24 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, motion, upper))
     body = scene.moving_body(mover, config.depth * scene.unit, part_axes(scene.parts[mover].mesh))
     share = sweep(body, motion, upper, near, _MEASURED_POSES).share
-    ends = MeshCollider(merge_meshes([v.mesh for v in scene.hardware_of(mover)]))
-    held = MeshCollider(merge_meshes([v.mesh for v in built.placement.static]))
-    gap = 0.0
-    for value in np.linspace(0.0, upper, 11):
-        ends.place(motion(value))
-        gap = max(gap, ends.distance(held))
-    return share, gap
+    ends = [MeshCollider(v.mesh) for v in scene.hardware_of(mover)]
+    held = [MeshCollider(v.mesh) for v in built.placement.static]
+    return share, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
+
+
+def _gap(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:
+    """Returns the distance in metres of the nearest two pieces of hardware, the moving ones posed at T."""
+    for end in ends:
+        end.place(T)
+    nearest = float("inf")
+    pairs = sorted(((one.box_gap(other), k, one, other) for k, (one, other) in enumerate(product(ends, held))))
+    for least, _, one, other in pairs:
+        if least >= nearest:
+            break
+        nearest = min(nearest, one.distance(other))
+        if nearest <= _TOUCHING:
+            break
+    return nearest
 
 
 def joint_id(moving: str) -> str:
