@@ -149,9 +149,9 @@ def shrunk(mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> Tr
 class MovingBody:
     """A rigid moving mesh that tells a touch from a penetration deeper than `depth` metres.
 
-    It penetrates an obstacle when it still intersects it shrunk by `depth` on each side, and, at full size, after a
-    shift by `depth` along each of the six directions of its own box: faces that merely lie flush come free in one of
-    them.
+    It penetrates an obstacle when it still intersects it after it was shrunk by `depth` on each side, and still does so
+    after a further shift by `depth` along each of the six directions of its own box: faces that merely lie flush come
+    free in one of them. A single face thus counts as cut from twice the depth on.
     """
 
     def __init__(self, mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> None:

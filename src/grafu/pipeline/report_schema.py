@@ -89,9 +89,7 @@ class ClearanceRecord(ReportRecord):
     """Material that was taken away so that a part can move."""
 
     part: str = Field(description="what was cut")
-    kind: str = Field(
-        description="joined, closed, trimmed (the moving part), eased, carved (a static part)"
-    )
+    kind: str = Field(description="joined, closed, trimmed (the moving part), eased, carved (a static part)")
     amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the surface")
     share: Share = Field(description="the share of the part's surface or volume that went")
     why: str = Field(description="what it was in the way of")

@@ -14,11 +14,8 @@ class SkipReason(StrEnum):
     NO_FACING_SURFACES = "no facing surfaces"  # nothing static near enough to carry a mechanism
     NO_ROOM = "no room"  # a mechanism would cut into parts
     BLOCKED = "blocked"  # the part cannot move freely about any candidate axis
-    NO_TEMPLATE_FITS = "no template fits"
     NO_MOTION = "no motion"  # nobody could say how the part moves
-    NOT_A_BOX = "not a box"
-    UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (sliding doors)
-    REJECTED_BY_USER = "rejected by user"
+    UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (drawers that slide up or down)
 
 
 @final
