@@ -53,10 +53,15 @@ def test_a_door_walled_in_on_all_sides_is_blocked():
     assert skipped(scene(DOOR, *CAGE, joints=(hinged(),))) == {"door": SkipReason.BLOCKED}
 
 
-@pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)])
-def test_doors_that_slide_are_unsupported(direction):
+@pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])
+def test_parts_that_slide_up_or_down_are_unsupported(direction):
     asset = scene(DOOR, SIDE, joints=(sliding("door", direction),))
     assert skipped(asset) == {"door": SkipReason.UNSUPPORTED}
+
+
+def test_a_sliding_door_with_nothing_above_or_below_has_no_room():
+    asset = scene(DOOR, SIDE, joints=(sliding("door", (1.0, 0.0, 0.0)),))
+    assert skipped(asset) == {"door": SkipReason.NO_ROOM}
 
 
 def test_a_part_without_a_motion_says_so():
