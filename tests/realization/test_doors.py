@@ -15,7 +15,7 @@ from grafu.metrics.connectivity import largest_gaps
 from grafu.synth import untidy
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
-from grafu.synth.layout import Door, Pair, Row, Stack
+from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
 from grafu.vocabulary import MechanismClass
 
 # the kind, a door of it, the class that a joiner would take
@@ -172,3 +172,11 @@ def test_the_joint_turns_about_the_placed_axis_not_the_drawn_one():
     assert outcome.initial_axis.point[0] == pytest.approx(0.05)
     assert result.object.joint_of["door"].axis == outcome.axis
     assert outcome.axis.point[0] < 0.02
+
+
+def test_a_flap_with_nothing_but_stiles_behind_its_ends_hangs_on_them():
+    layout = Stack((Drawer("whole"), Door("bottom", handle="none", shelves=1), Drawer("whole")), between="nothing")
+    case = Case(0.9, 0.9, 0.44, panel=0.008, base="plinth", top="none", frame=0.04)
+    outcome = installed(realized(make_cabinet(Cabinet(case=case, layout=layout))))["door"]
+    assert outcome.opening >= radians(90)
+    assert outcome.collision_share == 0

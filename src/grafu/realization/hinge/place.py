@@ -17,7 +17,7 @@ from grafu.realization.placement import Placement, nearest_part
 from grafu.templates.template import Gallery, HingeModel
 from grafu.vocabulary import JointType
 
-_HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28)
+_HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _LEAST_SHARE = 0.3  # an opening below this share of the wanted one is no motion
 PIVOT = "pivot"
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help

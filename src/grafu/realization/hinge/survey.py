@@ -13,6 +13,7 @@ from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.realization.hinge.border import BorderFrame
 
 _LEVELS = 7  # heights along the border at which rays are cast
+_ENDS = 0.475  # the outermost heights, a share of the border: top and bottom panels may be all there is
 _START = 0.3  # rays start this share of the door's thickness inside the door
 
 
@@ -62,7 +63,7 @@ class _Probe:
 
     def __init__(self, frame: BorderFrame, body: RayCaster, reach: float) -> None:
         self._frame, self._body, self._reach = frame, body, reach
-        self._heights = np.linspace(-0.42, 0.42, _LEVELS) * frame.length
+        self._heights = np.linspace(-_ENDS, _ENDS, _LEVELS) * frame.length
 
     def row(self, x: float, y: float, dx: float, dy: float) -> Scalars:
         """Returns the distances from (x, y) along the direction (dx, dy), one per height."""
