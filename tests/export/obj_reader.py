@@ -11,19 +11,19 @@ class Obj:
     uv: np.ndarray | None
     normals: np.ndarray | None
     materials: list[str] = field(default_factory=list)  # of each face
-    library: str = ""
+    mtllib: str = ""
 
 
 def parse_obj(text: str) -> Obj:
     rows: dict[str, list] = {"v": [], "vt": [], "vn": []}
-    faces, materials, current, library = [], [], "", ""
+    faces, materials, current, mtllib = [], [], "", ""
     for key, *values in (line.split() for line in text.splitlines() if line):
         if key in rows:
             rows[key].append([float(v) for v in values])
         elif key == "usemtl":
             current = values[0]
         elif key == "mtllib":
-            library = values[0]
+            mtllib = values[0]
         elif key == "f":
             faces.append([[int(i) - 1 if i else -1 for i in (corner + "//").split("/")[:3]] for corner in values])
             materials.append(current)
@@ -31,7 +31,7 @@ def parse_obj(text: str) -> Obj:
     points = np.array(rows["v"])[:, :3]
     uv = np.array(rows["vt"])[index[..., 1]] if rows["vt"] else None
     normals = np.array(rows["vn"])[index[..., 2]] if rows["vn"] else None
-    return Obj(points[index[..., 0]], uv, normals, materials, library)
+    return Obj(points[index[..., 0]], uv, normals, materials, mtllib)
 
 
 def parse_mtl(text: str) -> dict[str, dict[str, list[str]]]:

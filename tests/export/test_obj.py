@@ -45,7 +45,7 @@ def test_texture_coordinates_read_back(folder):
 def test_materials_and_images_are_beside_the_mesh(folder):
     name = folder.add_visual(door_link().visuals[0], ORIGIN)
 
-    materials = parse_mtl(folder.files[read(folder, name).library].decode())
+    materials = parse_mtl(folder.files[read(folder, name).mtllib].decode())
 
     assert [float(v) for v in materials["glass"]["Kd"]] == list(GLASS.base_color[:3])
     assert materials["glass"]["d"] == ["0.3"]
@@ -66,7 +66,7 @@ def test_two_images_of_one_name_are_two_files(folder):
 
     made = read(folder, folder.add_visual(Visual("a", surfaces), ORIGIN))
 
-    materials = parse_mtl(folder.files[made.library].decode())
+    materials = parse_mtl(folder.files[made.mtllib].decode())
     assert set(made.materials) == set(materials) == {"m", "m_2"}
     assert materials["m"]["map_Kd"] == ["textures/Oak_1.png"]
     assert materials["m_2"]["map_Kd"] == ["textures/Oak_1_2.png"]
