@@ -21,9 +21,10 @@ def issues_of(data: bytes, folder: Path) -> dict:
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed")
-    assert package.exists(), (
-        "the glTF validator is missing: run `npm install --no-package-lock`, or set GRAFU_GLTF_VALIDATOR"
-    )
+    if not package.exists():
+        missing = "the glTF validator is missing: run `npm install --no-package-lock`, or set GRAFU_GLTF_VALIDATOR"
+        assert not os.environ.get("CI"), missing  # the build server must not skip what it is there for
+        pytest.skip(missing)
     path = folder / "model.glb"
     path.write_bytes(data)
     done = subprocess.run([node, "-e", _SCRIPT, str(package), str(path)], capture_output=True, text=True, check=True)

@@ -9,7 +9,6 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.part import Part
-from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts, part_numbers
@@ -40,16 +39,11 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
         share = _lost_share(part, near, config.max_carve)
         if not 0 < share < config.max_carve:
             continue
-        surfaces = (_without(surface, near) for surface in part.surfaces)
+        surfaces = (subtract(surface, near) for surface in part.surfaces)
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
         width = float(np.sqrt(sum(removed_area(surface, near) for surface in part.surfaces)))
         done.append(Clearance(name, "carved", width, share, f"stood in the way of {path.mover}"))
     return scene.replaced(carved), done
-
-
-def _without(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
-    near = [solid for solid in solids if solid.box.overlaps(surface.mesh.box)]
-    return subtract(surface, near) if near else surface
 
 
 def _lost_share(part: Part, solids: Sequence[ConvexSolid], limit: float) -> float:

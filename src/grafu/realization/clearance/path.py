@@ -1,10 +1,7 @@
 """The way that must become free, and what stands in it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
-
-import numpy as np
 
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.box import Box
@@ -43,8 +40,3 @@ def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:
 def piece_boxes(axes: Mat3, mesh: TriangleMesh) -> list[Box]:
     """Returns the boxes of the connected pieces in the coordinates of `axes`."""
     return [box_in(axes, piece) for piece in connected_parts(mesh)]
-
-
-def overlapping(boxes: Sequence[Box], other: Box) -> np.ndarray:
-    """Returns which boxes share more than a face with another."""
-    return np.array([bool((box.axis_gaps(other) < 0).all()) for box in boxes], dtype=bool)

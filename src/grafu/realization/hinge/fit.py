@@ -15,7 +15,7 @@ from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
-from grafu.vocabulary import MechanismClass, PartLabel
+from grafu.vocabulary import PartLabel
 
 # A hinge never exceeds this share of its door (official 7.3: 12 % of the door's axial length per hinge).
 _LENGTH_SHARE = 0.12
@@ -71,17 +71,3 @@ def fit_hinge(model: HingeModel, size: HingeSize, frame: BorderFrame, pin: PinCa
     static = Visual("hinge_static", template.static.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
     dynamic = Visual("hinge_dynamic", template.dynamic.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
     return FittedHinge(template, T, static, dynamic)
-
-
-def mount_directions(pin: PinCandidate) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the snap normals of the static and the dynamic end in the border frame."""
-    static, dynamic = _NORMALS[pin.mechanism]
-    R = rotation_matrix(vec3(0.0, 0.0, 1.0), pin.roll)
-    return R @ static, R @ dynamic
-
-
-_NORMALS = {
-    MechanismClass.C: (vec3(-1.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)),
-    MechanismClass.F: (vec3(0.0, -1.0, 0.0), vec3(0.0, -1.0, 0.0)),
-    MechanismClass.P: (vec3(-1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)),
-}

@@ -51,10 +51,6 @@ class DrawerFrame(ArrayValue):
         """Returns points of the drawer frame in the object frame."""
         return transform_points(self.T_object_drawer, points)
 
-    def to_drawer(self, points: Points) -> Points:
-        """Returns points of the object frame in the drawer frame."""
-        return (points - self.origin) @ self.rotation
-
 
 def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> DrawerFrame | None:
     """Returns the frame of a part that slides along a unit direction; None where it slides up or down.
