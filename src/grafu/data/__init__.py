@@ -1,0 +1,1 @@
+"""Training pairs, corruption, and data sets on disk."""
