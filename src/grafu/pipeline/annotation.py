@@ -1,25 +1,14 @@
 """The input's own joints as a completed graph, so that every motion source ends in the same value. It builds nothing.
 
-The annotation states the motion and which handle rides where. The mount, which it does not state, is the support
-nearest to the pin of a door, or to each flank of a drawer; those that touch the part come before those that do not.
+Which edges the joints stand for is decided in `grafu.graph.annotated`.
 """
 
-from collections.abc import Iterable
-
-import numpy as np
-
-from grafu.asset.part import AnnotatedJoint, Asset
-from grafu.errors import GraphError
-from grafu.geometry.arrays import Vec3
-from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.asset.part import Asset
+from grafu.graph.annotated import annotated_edges
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.edit import with_edges
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.motion import axis_to_hinge, axis_to_rail, signed_axis
-from grafu.vocabulary import JointType, PartLabel
-
-_NOT_STATED = "the annotation states no joint for it"
+from grafu.graph.functional_graph import FunctionalGraph
 
 
 def complete_by_annotation(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
@@ -28,62 +17,11 @@ def complete_by_annotation(asset: Asset, graph: FunctionalGraph) -> GraphComplet
     A joint that the codes cannot say (a sliding door, a door that turns across its plane), and a door or drawer
     without a joint, are refused here with the reason; a plan made from the annotation itself may still build it.
     """
-    edges: list[Attached | Hinge | Rail] = list(_attachments(asset, graph))
-    refused = {node.id: _NOT_STATED for node in graph.nodes if node.label.is_movable}
-    decisions = []
-    joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
-    still = [node for node in graph.nodes if node.label.is_support and node.id not in joints]
-    for part, joint in joints.items():
-        try:
-            stated = _joint_edges(joint, graph, still)
-        except GraphError as error:
-            refused[part] = str(error)
-            continue
-        refused.pop(part, None)
-        edges += stated
-        decisions.append(_decision(stated[0]))
-    refusals = tuple(RefusedMotion(part, why) for part, why in refused.items())
-    completed = with_edges(graph, edges)
-    return GraphCompletion(graph, completed, "annotation", decisions=tuple(decisions), refused=refusals)
-
-
-def _attachments(asset: Asset, graph: FunctionalGraph) -> Iterable[Attached]:
-    for part in asset.parts:
-        parent = part.rides_on
-        if parent and part.label is PartLabel.HANDLE and graph.node(parent).label.is_movable:
-            yield Attached(parent, part.id)
-
-
-def _joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartNode]) -> list[Hinge] | list[Rail]:
-    """Returns the hinge, or the one or two rails, of a joint.
-
-    Raises:
-        GraphError: where the codes cannot say it, or nothing could carry it.
-    """
-    node = graph.node(joint.part)
-    touching = graph.neighbours[node.id]
-    supports = [other for other in still if other.id in touching] or still
-    if not supports:
-        raise GraphError("there is no static part that could carry it")
-    if joint.type is JointType.REVOLUTE and node.label in (PartLabel.DOOR, PartLabel.UNKNOWN):
-        border, sign = axis_to_hinge(node.box, joint.axis)
-        mount = _nearest(supports, joint.axis.closest_point(node.box.center))
-        return [Hinge(mount, node.id, border, sign)]
-    if joint.type is JointType.PRISMATIC and node.label in (PartLabel.DRAWER, PartLabel.UNKNOWN):
-        slide = axis_to_rail(joint.axis)
-        across = 0 if slide // 2 == 1 else 1  # the other horizontal axis
-        flanks = (node.box.face_center(signed_axis(across, positive)) for positive in (False, True))
-        mounts = dict.fromkeys(_nearest(supports, flank) for flank in flanks)
-        return [Rail(mount, node.id, slide) for mount in mounts]
-    raise GraphError(f"a functional graph has no edge for a {node.label} part with a {joint.type} joint")
-
-
-def _nearest(nodes: list[PartNode], point: Vec3) -> str:
-    return min(nodes, key=lambda node: _distance(node.box, point)).id
-
-
-def _distance(box: Box, point: Vec3) -> float:
-    return float(np.linalg.norm(point - np.clip(point, box.low, box.high)))
+    stated = annotated_edges(asset, graph)
+    motions = {edge.child: edge for edge in reversed(stated.edges) if not isinstance(edge, Attached)}
+    decisions = tuple(_decision(edge) for edge in reversed(motions.values()))
+    completed = with_edges(graph, stated.edges)
+    return GraphCompletion(graph, completed, "annotation", decisions=decisions, refused=stated.refused)
 
 
 def _decision(edge: Hinge | Rail) -> Decision:
