@@ -1,0 +1,198 @@
+"""Made and real furniture side by side: a row for each measure, and whether the real lies within the made.
+
+A value is compared model by model: each real model against the synthetic 5 to 95 % range. A share (of models without a
+top, of hinges on the left) has no spread from model to model worth the name; there the share of all real models is held
+against the 5 to 95 % range of the shares of as many synthetic models, drawn again and again.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, final
+
+import numpy as np
+
+from grafu.asset.load import load_asset
+from grafu.data.statistics_measures import ModelMeasures, measure_model
+from grafu.errors import FunctionalizationError
+from grafu.graph.annotated import annotated_edges
+from grafu.graph.edit import with_edges
+from grafu.graph.parse import parse_graph
+from grafu.synth.specimen import Specimen
+
+Verdict = Literal["inside", "mostly", "outside", "no real"]
+
+_LOW, _HIGH = 5.0, 95.0  # percent
+_MOSTLY = 0.9  # as many of the real models as would lie inside if both were drawn from one distribution
+_GROUPS = 1000  # how often a group of synthetic models is drawn
+_GROUP = 17  # models in it where there is no real folder to take the number from
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """The 5 %, 50 % and 95 % points of a measure."""
+
+    low: float
+    median: float
+    high: float
+
+    @classmethod
+    def of(cls, numbers: Sequence[float]) -> "Spread":
+        """Returns the spread of at least one number."""
+        return cls(*(float(x) for x in np.percentile(numbers, [_LOW, 50.0, _HIGH])))
+
+    def holds(self, number: float) -> bool:
+        """Whether a number lies between the 5 % and the 95 % point."""
+        return self.low - 1e-9 <= number <= self.high + 1e-9
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class StatisticsRow:
+    """One measure. `within` is the share of real models inside the synthetic range (of a share: 0 or 1).
+
+    `synthetic` or `real` is None where no model has the measure. `outliers` are the real models outside, by name, with
+    their values; for a share the one real number stands under the name `all`.
+    """
+
+    measure: str
+    is_share: bool
+    synthetic: Spread | None
+    real: Spread | None
+    within: float | None = None
+    outliers: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def verdict(self) -> Verdict:
+        """`inside`: every real model. `mostly`: nine in ten, as many as of the synthetic ones themselves."""
+        if self.within is None:
+            return "no real"
+        return "inside" if self.within == 1.0 else "mostly" if self.within >= _MOSTLY else "outside"
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """All rows, the number of models on each side, and the real ones that could not be read, with the reason."""
+
+    rows: tuple[StatisticsRow, ...]
+    synthetic: int
+    real: int
+    unread: tuple[str, ...] = ()
+
+    @property
+    def failing(self) -> tuple[StatisticsRow, ...]:
+        """The rows whose real models do not lie within the synthetic range, nor nine in ten of them."""
+        return tuple(row for row in self.rows if row.verdict == "outside")
+
+    def row(self, measure: str) -> StatisticsRow:
+        """Returns the row of a measure. Raises KeyError where there is none."""
+        for row in self.rows:
+            if row.measure == measure:
+                return row
+        raise KeyError(measure)
+
+    def markdown(self) -> str:
+        """Returns the table as Markdown, a verdict on each row and the outliers' names behind it."""
+        lines = [
+            f"{self.synthetic} synthetic models, {self.real} real ones: 5 %, median, 95 %.",
+            "",
+            "| measure | synthetic | real | real within | verdict | outside |",
+            "|---|---|---|---|---|---|",
+            *(_markdown_row(row) for row in self.rows),
+        ]
+        return "\n".join([*lines, *([""] if self.unread else []), *(f"not read: {why}" for why in self.unread)]) + "\n"
+
+
+def compare(synthetic: Iterable[Specimen], real: Path | None = None) -> Comparison:
+    """Returns the comparison of specimens with the models in a folder (one file or folder each), or without any.
+
+    Raises:
+        ValueError: if there is no specimen.
+    """
+    made = [measure_model(s.asset, s.truth) for s in synthetic]
+    measured, unread = measure_folder(real) if real is not None else ((), ())
+    return compare_measures(made, measured, unread)
+
+
+def compare_measures(
+    made: Sequence[ModelMeasures], real: Sequence[ModelMeasures] = (), unread: tuple[str, ...] = ()
+) -> Comparison:
+    """Returns the comparison of models that have been measured.
+
+    Raises:
+        ValueError: if there is no synthetic model.
+    """
+    if not made:
+        raise ValueError("statistics need at least one specimen: got none")
+    models = (*made, *real)
+    values = dict.fromkeys(name for m in models for name in m.values)
+    shares = dict.fromkeys(name for m in models for name in m.tallies)
+    rows = [_value_row(name, made, real) for name in values] + [_share_row(name, made, real) for name in shares]
+    return Comparison(tuple(rows), len(made), len(real), unread)
+
+
+def measure_folder(folder: Path) -> tuple[tuple[ModelMeasures, ...], tuple[str, ...]]:
+    """Returns the measures of every model in a folder, by name, and why the others could not be read.
+
+    A model's functional graph is its contacts and its own joints and riders.
+    """
+    measured, unread = [], []
+    for path in sorted(p for p in Path(folder).iterdir() if not p.name.startswith(".")):
+        try:
+            asset = load_asset(path)
+            graph = parse_graph(asset)
+            measured.append(measure_model(asset, with_edges(graph, annotated_edges(asset, graph).edges)))
+        except FunctionalizationError as error:
+            unread.append(f"{path.name}: {error}")
+    return tuple(measured), tuple(unread)
+
+
+def _value_row(name: str, made: Sequence[ModelMeasures], real: Sequence[ModelMeasures]) -> StatisticsRow:
+    ours = [m.values[name] for m in made if name in m.values]
+    theirs = [(m.name, m.values[name]) for m in real if name in m.values]
+    spread = Spread.of(ours) if ours else None
+    if not theirs:
+        return StatisticsRow(name, False, spread, None)
+    outside = tuple(pair for pair in theirs if spread is None or not spread.holds(pair[1]))
+    within = 1.0 - len(outside) / len(theirs)
+    return StatisticsRow(name, False, spread, Spread.of([value for _, value in theirs]), within, outside)
+
+
+def _share_row(name: str, made: Sequence[ModelMeasures], real: Sequence[ModelMeasures]) -> StatisticsRow:
+    ours = np.array([m.tallies[name] for m in made if name in m.tallies], dtype=np.float64).reshape(-1, 2)
+    theirs = [m.tallies[name] for m in real if name in m.tallies]
+    spread = _grouped(ours, len(theirs) or _GROUP) if len(ours) else None
+    if not theirs:
+        return StatisticsRow(name, True, spread, None)
+    share = float(sum(yes for yes, _ in theirs) / max(sum(of for _, of in theirs), 1))
+    held = spread is not None and spread.holds(share)
+    outside = () if held else (("all", share),)
+    return StatisticsRow(name, True, spread, Spread(share, share, share), float(held), outside)
+
+
+def _grouped(tallies: np.ndarray, size: int) -> Spread:
+    """Returns the spread of the share in groups of `size` models, drawn with replacement, the same every time."""
+    rng = np.random.default_rng(0)
+    groups = tallies[rng.integers(0, len(tallies), size=(_GROUPS, size))].sum(axis=1)
+    return Spread.of(list(groups[:, 0] / np.maximum(groups[:, 1], 1.0)))
+
+
+def _markdown_row(row: StatisticsRow) -> str:
+    within = "" if row.within is None else f"{row.within:.0%}"
+    outside = ", ".join(f"{name} {_number(value, row.is_share)}" for name, value in row.outliers)
+    cells = [row.measure, _spread(row.synthetic, row), _spread(row.real, row), within, row.verdict, outside]
+    return "| " + " | ".join(cells) + " |"
+
+
+def _spread(spread: Spread | None, row: StatisticsRow) -> str:
+    if spread is None:
+        return "none"
+    if spread.low == spread.high:
+        return _number(spread.median, row.is_share)
+    return " · ".join(_number(n, row.is_share) for n in (spread.low, spread.median, spread.high))
+
+
+def _number(number: float, is_share: bool) -> str:
+    return f"{number:.0%}" if is_share else f"{number:.3g}"
