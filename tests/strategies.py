@@ -15,7 +15,7 @@ from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, Table, make_desk, make_table
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
 
-handles = st.sampled_from(["bar", "knob", "none"])
+handles = st.sampled_from(["bar-round", "knob-round", "none"])
 flat_styles = st.sampled_from(["slab", "chamfered", "rounded", "shaker", "glass"])
 leaf_styles = st.one_of(flat_styles, st.just("bowed"))
 drawer_boxes = st.sampled_from(["whole", "no bottom", "shell", "front only"])

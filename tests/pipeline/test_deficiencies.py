@@ -12,7 +12,7 @@ from grafu.vocabulary import PartLabel
 KIND = DeficiencyKind
 
 
-def made(handle: str = "bar") -> Asset:
+def made(handle: str = "bar-round") -> Asset:
     return make_cabinet(Cabinet("made", layout=Stack((Drawer(handle=handle), Door(handle=handle)))))  # type: ignore[arg-type]
 
 

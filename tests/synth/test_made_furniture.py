@@ -105,7 +105,7 @@ def test_an_inset_pair_without_gap_really_binds():
 
 @pytest.mark.parametrize("mount", ["overlay", "inset"])
 def test_drawers_behind_doors_move_once_the_doors_are_open(mount):
-    inner = Stack((Drawer(handle="knob"), Drawer(handle="knob")), between="nothing")
+    inner = Stack((Drawer(handle="knob-round"), Drawer(handle="knob-round")), between="nothing")
     asset = make_cabinet(Cabinet(layout=Pair(behind=inner), mount=mount))
     fronts = frozenset(p.id for p in asset.parts if "door" in (p.label, str(p.rides_on)[:4]))
     assert set(collisions(asset, "drawer_1")) <= fronts

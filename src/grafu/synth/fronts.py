@@ -9,17 +9,15 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import Literal, final
 
-from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.assembly import Motion, Piece
 from grafu.synth.drawer_box import drawer_box
 from grafu.synth.finish import PLAIN, Finish, surface_of
-from grafu.synth.handles import door_handle, drawer_handle
-from grafu.synth.layout import Bay, Cell, Door, Drawer, Edge, Edges, Layout, LeafStyle, Pair, Partition, Rect, divide
-from grafu.synth.shapes import board, bowed_board, chamfered_board, framed_opening, rounded_board
+from grafu.synth.handles import handle_pieces, held_side, opposite
+from grafu.synth.layout import Bay, Cell, Door, Drawer, Edge, Edges, Layout, Pair, Partition, Rect, Side, divide
+from grafu.synth.leaves import LeafShape, leaf_surfaces
+from grafu.synth.shapes import board
 from grafu.vocabulary import JointType, PartLabel
 
 Mount = Literal["overlay", "inset"]
@@ -112,7 +110,7 @@ def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     pair, o, e = cell.leaf, cell.opening, cell.edges
     assert isinstance(pair, Pair)
     middle, edge = o.center[0], Edge.STOP if pair.muntin else Edge.SEAM
-    door = Door("left", pair.leaf, pair.handle, pair.opening)
+    door = Door("left", pair.leaf, pair.handle, pair.opening, hold=pair.hold, grip=pair.grip)
     half = replace(o, x1=middle - pair.muntin / 2), replace(o, x0=middle + pair.muntin / 2)
     left = Cell(door, half[0], replace(e, right=edge))
     right = Cell(replace(door, hinge="right"), half[1], replace(e, left=edge))
@@ -131,11 +129,12 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     o, depth = cell.opening, setting.back - 0.02 - setting.behind
     inner = Rect(o.x0 + setting.slide_gap, o.x1 - setting.slide_gap, o.z0 + 0.012, max(o.z1 - 0.02, o.z0 + 0.02))
     box = drawer_box(drawer.box, inner, (setting.behind, setting.behind + depth))
-    surfaces = (*leaf_surfaces(drawer.leaf, rect, setting), *(surface_of(mesh, finish.inside) for mesh in box))
+    leaf = _leaf(drawer, rect, None, setting)
+    surfaces = (*leaf_surfaces(leaf, finish), *(surface_of(mesh, finish.inside) for mesh in box))
     middle = rect.center
     slide = Axis(vec3(middle[0], setting.front, middle[1]), vec3(0.0, -1.0, 0.0))
     motion = Motion(JointType.PRISMATIC, slide, drawer.travel * depth)
-    handle = drawer_handle(drawer.handle, rect, setting.front, finish.metal)
+    handle = handle_pieces(drawer.handle, drawer.hold, leaf, None, finish.metal)
     yield Piece(PartLabel.DRAWER, "drawer", surfaces, motion, handle)
 
 
@@ -152,31 +151,6 @@ _MAKERS: dict[type, Callable[[Cell, Setting], Iterator[Piece]]] = {
 }
 
 
-def leaf_surfaces(style: LeafStyle, rect: Rect, setting: Setting) -> tuple[Surface, ...]:
-    """Returns the surfaces of a door leaf or drawer front in the given style."""
-    box = Box(vec3(rect.x0, setting.front, rect.z0), vec3(rect.x1, setting.behind, rect.z1))
-    edge = min(0.4 * setting.thickness, rect.width / 8, rect.height / 8)
-    plain: dict[str, Callable[[], TriangleMesh]] = {
-        "slab": lambda: TriangleMesh.box_mesh(box),
-        "chamfered": lambda: chamfered_board(box, edge),
-        "rounded": lambda: rounded_board(box, edge),
-        "bowed": lambda: bowed_board(box, min(0.03, rect.width / 12)),
-    }
-    if style in plain:
-        return (surface_of(plain[style](), setting.finish.front),)
-    width = min(0.065, rect.width / 4, rect.height / 4)
-    return (
-        *(surface_of(m, setting.finish.front) for m in framed_opening(box, width)),
-        _infill(style, box, width, setting),
-    )
-
-
-def _infill(style: LeafStyle, box: Box, width: float, setting: Setting) -> Surface:
-    share, material = (0.15, setting.finish.glass) if style == "glass" else (0.4, setting.finish.front)
-    half = box.half - vec3(width, (1 - share) * box.half[1], width)
-    return surface_of(TriangleMesh.box_mesh(Box.from_center(box.center, half)), material)
-
-
 def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
     (x, z), y = rect.center, setting.front
     pins = {
@@ -186,8 +160,16 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
         "bottom": (vec3(x, y, rect.z0), vec3(1.0, 0.0, 0.0)),
     }
     motion = Motion(JointType.REVOLUTE, Axis(*pins[door.hinge]), door.opening)
-    handle = door_handle(door.handle, rect, y, door.hinge, setting.finish.metal)
-    return Piece(PartLabel.DOOR, "door", leaf_surfaces(door.leaf, rect, setting), motion, handle)
+    leaf = _leaf(door, rect, door.hinge, setting)
+    handle = handle_pieces(door.handle, door.hold, leaf, door.hinge, setting.finish.metal)
+    return Piece(PartLabel.DOOR, "door", leaf_surfaces(leaf, setting.finish), motion, handle)
+
+
+def _leaf(front: Door | Drawer, rect: Rect, hinge: Side | None, setting: Setting) -> LeafShape:
+    free = opposite(hinge) if hinge else "top"
+    return LeafShape(
+        front.leaf, rect, setting.front, setting.thickness, free, front.grip, held_side(front.hold, hinge) or free
+    )
 
 
 def _opening(door: Door, edges: Edges) -> float:

@@ -1,45 +1,54 @@
-"""Simple handles on fronts that face -Y: bars on two posts, and knobs. It knows no doors but their outline."""
+"""Handles on fronts that face -Y: where each goes and how large it is. Their shapes are templates."""
 
 from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.assembly import Piece
 from grafu.synth.finish import surface_of
-from grafu.synth.layout import HandleKind, Rect, Side
+from grafu.synth.hold import HandleStyle, Hold
+from grafu.synth.layout import Side
+from grafu.synth.leaves import LeafShape
 from grafu.synth.shapes import rod, turned
 from grafu.vocabulary import PartLabel
 
 STANDOFF = 0.028  # metres from the front to a bar's middle: room for fingers
-FREE_EDGE = 0.045  # metres from a door's free edge to its handle
 KNOB = ((0.0, 0.006), (0.45, 0.006), (0.6, 0.014), (0.85, 0.015), (1.0, 0.010))
+HIGH = 0.65  # of a door's height: where its handle is if nothing else is said
+_OPPOSITE: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
 
 
-def door_handle(kind: HandleKind, rect: Rect, y: float, hinge: Side, metal: Material) -> tuple[Piece, ...]:
-    """Returns the handle of a door at its free edge, opposite the hinge; doors carry it above their middle."""
-    inset = min(FREE_EDGE, rect.width / 5, rect.height / 5)
-    x, z = rect.center
-    upright = hinge in ("left", "right")
-    if upright:
-        x, z = (rect.x1 - inset if hinge == "left" else rect.x0 + inset), rect.z0 + 0.65 * rect.height
-    else:
-        z = rect.z0 + inset if hinge == "top" else rect.z1 - inset
-    length = min(0.16, 0.4 * (rect.height if upright else rect.width))
-    return _handle(kind, (x, y, z), length, upright, metal)
+def opposite(side: Side) -> Side:
+    """Returns the side across."""
+    return _OPPOSITE[side]
 
 
-def drawer_handle(kind: HandleKind, rect: Rect, y: float, metal: Material) -> tuple[Piece, ...]:
-    """Returns the handle in the middle of a drawer's front, lengthwise."""
-    x, z = rect.center
-    return _handle(kind, (x, y, z), min(0.16, 0.4 * rect.width), False, metal)
+def held_side(hold: Hold, hinge: Side | None) -> Side | None:
+    """Returns the edge that a front is held at; None: its upright middle line. `hinge` None: a drawer."""
+    sides: dict[str, Side | None] = {"middle line": None, "top edge": "top", "bottom edge": "bottom"}
+    if hold.place in sides or hinge is None:
+        return sides.get(hold.place)
+    return hinge if hold.place == "hinge edge" else opposite(hinge)
 
 
-def _handle(
-    kind: HandleKind, at: tuple[float, float, float], length: float, upright: bool, metal: Material
+def handle_pieces(
+    style: HandleStyle, hold: Hold, leaf: LeafShape, hinge: Side | None, material: Material
 ) -> tuple[Piece, ...]:
-    if kind == "none":
+    """Returns the handles of a front, none for the style "none"; `hinge` None: a drawer."""
+    if style == "none":
         return ()
-    meshes = _knob(at) if kind == "knob" else _bar(at, length, upright)
-    return (Piece(PartLabel.HANDLE, "handle", tuple(surface_of(mesh, metal) for mesh in meshes)),)
+    rect, side = leaf.rect, held_side(hold, hinge)
+    inset = min(hold.inset, rect.width / 5, rect.height / 5)
+    x, z = rect.center
+    along = hold.along if hold.along is not None else (HIGH if side in ("left", "right") else 0.5)
+    if side in ("left", "right"):
+        x, z = (rect.x1 - inset if side == "right" else rect.x0 + inset), rect.z0 + along * rect.height
+    elif side is not None:
+        x, z = rect.x0 + along * rect.width, (rect.z0 + inset if side == "bottom" else rect.z1 - inset)
+    upright = side in ("left", "right")
+    length = min(0.16, hold.share * (rect.height if upright else rect.width))
+    at = (x, leaf.front, z)
+    meshes = _knob(at) if style.startswith("knob") else _bar(at, length, upright)
+    return (Piece(PartLabel.HANDLE, "handle", tuple(surface_of(mesh, material) for mesh in meshes)),)
 
 
 def _knob(at: tuple[float, float, float]) -> list[TriangleMesh]:

@@ -52,7 +52,7 @@ TIDY: dict[str, Maker] = {
     "three doors in a row": _cabinet(Row((Door("left"), Door("left"), Door("right"))), case=Case(1.2)),
     "inset doors in a face frame": _cabinet(Pair(), "inset", Case(frame=0.04), gap=0.002),
     "overlay doors on a face frame": _cabinet(Pair(), case=Case(frame=0.04), lap=0.012),
-    "drawers behind a pair": _cabinet(Pair(behind=Stack((Drawer(handle="knob"), Bay()))), case=Case()),
+    "drawers behind a pair": _cabinet(Pair(behind=Stack((Drawer(handle="knob-round"), Bay()))), case=Case()),
     "drawers behind an inset door": _cabinet(Door(behind=Stack((Drawer(handle="none"),) * 2)), "inset"),
     "drawers with rails between": _cabinet(Stack((Drawer(),) * 3, between="rail"), "inset"),
     "drawers with panels between": _cabinet(Stack((Drawer(),) * 3)),

@@ -10,54 +10,121 @@ from enum import Enum
 from math import radians
 from typing import Literal, final
 
+from grafu.synth.hold import USUAL, Grip, HandleStyle, Hold
+from grafu.synth.inside import EMPTY, Inside
+
 Side = Literal["left", "right", "top", "bottom"]
-LeafStyle = Literal["slab", "chamfered", "rounded", "bowed", "shaker", "glass"]
-HandleKind = Literal["bar", "knob", "none"]
-DrawerBox = Literal["whole", "no bottom", "shell", "front only"]
+LeafStyle = Literal[
+    "slab", "chamfered", "rounded", "bowed", "swept", "arched", "half arched", "planks", "shaker", "glass", "mirror",
+    "raised panel", "two panels", "muntins", "louvred", "arched rail",
+]  # fmt: skip
+DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray"]
 Between = Literal["panel", "rail", "nothing"]
+CURVED: frozenset[LeafStyle] = frozenset({"bowed", "swept"})  # leaves that bulge before the front's plane
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Door:
-    """One door or flap, hinged on one side of its opening; `opening` in radians; `behind` lies inside the opening."""
+    """One door or flap, hinged on one side of its opening; `opening` in radians; `behind` lies inside the opening.
+
+    Raises:
+        ValueError: if a curved leaf has a level hinge, or a leaf that is not a slab a grip.
+    """
 
     hinge: Side = "left"
     leaf: LeafStyle = "slab"
-    handle: HandleKind = "bar"
+    handle: HandleStyle = "bar-round"
     opening: float = radians(100)
     shelves: int = 0
     behind: "Layout | None" = None
+    inside: Inside = EMPTY
+    hold: Hold = USUAL
+    grip: Grip = "none"
 
     def __post_init__(self) -> None:
-        if self.leaf == "bowed" and self.hinge in ("top", "bottom"):
+        _check_grip(self.grip, self.leaf)
+        if self.leaf in CURVED and self.hinge in ("top", "bottom"):
             raise ValueError(
-                f"a bowed leaf needs an upright hinge (its belly would strike above a flap's): {self.hinge}"
+                f"a {self.leaf} leaf needs an upright hinge (its belly would strike above a flap's): {self.hinge}"
             )
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two doors that meet in the middle; a static `muntin` of that width may stand between them."""
+    """Two doors that meet in the middle; a static `muntin` of that width may stand between them.
+
+    Raises:
+        ValueError: if a leaf that is not a slab has a grip.
+    """
 
     leaf: LeafStyle = "slab"
-    handle: HandleKind = "bar"
+    handle: HandleStyle = "bar-round"
     opening: float = radians(100)
     shelves: int = 0
     muntin: float = 0.0
     behind: "Layout | None" = None
+    inside: Inside = EMPTY
+    hold: Hold = USUAL
+    grip: Grip = "none"
+
+    def __post_init__(self) -> None:
+        _check_grip(self.grip, self.leaf)
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Drawer:
-    """A drawer; `travel` is the share of its depth that it slides."""
+    """A drawer; `travel` is the share of its depth that it slides.
+
+    Its box keeps to the opening, hangs in it with centimetres to spare ("floating"), or is a shallow tray without a
+    front. With `runners`, slides hang on both walls as parts of their own. `depth` is the share of the room behind it
+    that the box fills.
+    """
 
     box: DrawerBox = "whole"
     leaf: LeafStyle = "slab"
-    handle: HandleKind = "bar"
+    handle: HandleStyle = "bar-round"
     travel: float = 0.8
+    runners: bool = False
+    depth: float = 1.0
+    hold: Hold = USUAL
+    grip: Grip = "none"
+
+    def __post_init__(self) -> None:
+        _check_grip(self.grip, self.leaf)
+        if self.hold.place in ("free edge", "hinge edge"):
+            raise ValueError(f"a drawer has no hinge: its `place` must be another than {self.hold.place}")
+        if self.leaf in ("swept", "half arched"):
+            raise ValueError(f"a drawer has no free side: its leaf must be another than {self.leaf}")
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Tilt:
+    """A tilting front, as of shoe cabinets: hinged below, it opens by `opening` radians and takes a tray along."""
+
+    leaf: LeafStyle = "slab"
+    handle: HandleStyle = "bar-round"
+    opening: float = radians(40)
+    tray: bool = True
+    hold: Hold = USUAL
+    grip: Grip = "none"
+
+    def __post_init__(self) -> None:
+        _check_grip(self.grip, self.leaf)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Blank:
+    """A board that stands where a front might and does not move: a false drawer front, a filler, a control panel."""
+
+    leaf: LeafStyle = "slab"
+    name: Literal["false_front", "filler", "control_panel"] = "false_front"
+    handle: HandleStyle = "none"
+    hold: Hold = USUAL
 
 
 @final
@@ -66,6 +133,7 @@ class Bay:
     """An opening without a front."""
 
     shelves: int = 0
+    inside: Inside = EMPTY
 
 
 @final
@@ -94,7 +162,7 @@ class Stack:
         _check_weights("Stack", self.cells, self.weights)
 
 
-Leaf = Door | Pair | Drawer | Bay
+Leaf = Door | Pair | Drawer | Tilt | Blank | Bay
 Layout = Leaf | Row | Stack
 
 
@@ -208,6 +276,11 @@ def _inner_edges(edges: Edges, row: bool, inner: Edge, first: bool, last: bool) 
     if row:
         return Edges(edges.left if first else inner, edges.right if last else inner, edges.bottom, edges.top)
     return Edges(edges.left, edges.right, edges.bottom if first else inner, edges.top if last else inner)
+
+
+def _check_grip(grip: Grip, leaf: LeafStyle) -> None:
+    if grip != "none" and leaf != "slab":
+        raise ValueError(f"a grip is cut into a slab: got a {grip} in a {leaf} leaf")
 
 
 def _check_weights(what: str, cells: tuple[Layout, ...], weights: tuple[float, ...]) -> None:

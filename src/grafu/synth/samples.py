@@ -21,7 +21,7 @@ def kitchen_base() -> Asset:
 
 def dresser() -> Asset:
     """Returns a dresser on legs: six inset drawers in a face frame, with knobs."""
-    row = Row((Drawer(handle="knob", leaf="chamfered"), Drawer(handle="knob", leaf="chamfered")))
+    row = Row((Drawer(handle="knob-round", leaf="chamfered"), Drawer(handle="knob-round", leaf="chamfered")))
     layout = Stack((row, row, row), (1.3, 1.15, 1.0), between="rail")
     case = Case(1.3, 0.85, 0.48, base="legs", base_height=0.14, top="over", overhang=0.02, frame=0.032)
     return make_cabinet(Cabinet("dresser", case, layout, "inset", gap=0.002, finish=textured_finish(2)))
@@ -29,7 +29,9 @@ def dresser() -> Asset:
 
 def wardrobe() -> Asset:
     """Returns a tall wardrobe: a pair of doors and a single one with drawers behind it, under a moulding."""
-    chest = Stack((Drawer(handle="knob"), Drawer(handle="knob"), Bay(shelves=2)), (1.0, 1.0, 4.0), between="nothing")
+    chest = Stack(
+        (Drawer(handle="knob-round"), Drawer(handle="knob-round"), Bay(shelves=2)), (1.0, 1.0, 4.0), between="nothing"
+    )
     layout = Row((Pair(leaf="shaker", shelves=1), Door("right", "shaker", behind=chest)), (2.0, 1.0))
     case = Case(1.5, 2.1, 0.58, panel=0.02, base="plinth", base_height=0.08, moulding=0.06)
     return make_cabinet(Cabinet("wardrobe", case, layout, front=0.022, finish=textured_finish(3)))
@@ -38,7 +40,7 @@ def wardrobe() -> Asset:
 def sideboard() -> Asset:
     """Returns a sideboard: a glass door, three drawers, a drop-down flap over an open bay."""
     drawers = Stack((Drawer(), Drawer(), Drawer()), between="nothing")
-    layout = Row((Door("left", "glass", "knob", shelves=2), drawers, Stack((Bay(), Door("bottom")))))
+    layout = Row((Door("left", "glass", "knob-round", shelves=2), drawers, Stack((Bay(), Door("bottom")))))
     case = Case(1.6, 0.75, 0.42, base="legs", base_height=0.15)
     return make_cabinet(Cabinet("sideboard", case, layout, finish=textured_finish(4)))
 

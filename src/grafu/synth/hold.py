@@ -1,0 +1,83 @@
+"""How a front is held: which handle, where on the front, which way round, how large; or a grip cut into the front.
+
+These are values only: `handles` builds handles and `grips` cuts grips. What real models show: bars of 105 to 480 mm,
+knobs of 13 to 32 mm, protrusions of 16 to 38 mm; upright bars near the free edge at any height, and on kitchen doors a
+lying bar in the middle of the top edge, which says nothing about the hinge.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, final
+
+HandleStyle = Literal[
+    "bar-round",
+    "bar-square",
+    "bar-slim",
+    "bar-arched",
+    "bar-tee",
+    "bar-strip",
+    "bar-profile",
+    "bail",
+    "knob-round",
+    "knob-flat",
+    "knob-mushroom",
+    "knob-square",
+    "knob-cone",
+    "knob-turned",
+    "ring",
+    "cup-shell",
+    "cup-square",
+    "cup-slim",
+    "none",
+]
+Grip = Literal["none", "scoop", "slot", "edge channel", "finger hole", "lip"]
+Place = Literal["usual", "free edge", "hinge edge", "middle line", "top edge", "bottom edge"]
+Orientation = Literal["usual", "upright", "lying"]
+
+MIDDLE, UPPER_THIRD, LOWER_THIRD, UPPER_CORNER, LOWER_CORNER = 0.5, 0.8, 0.2, 1.0, 0.0  # values for `along`
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """Where a front carries its handle, and how large the handle is. The default is a plain, ordinary one.
+
+    Attributes:
+        place: the edge that the handle lies at. "usual": a door's free edge, a drawer's middle. "middle line" is the
+            upright one through the centre. Drawers have no free edge and no hinge edge.
+        along: the handle's middle, as a share of the way along that edge, upwards or to the right; whatever it says,
+            the handle stays clear of the leaf's border, so that 0 and 1 mean the corners. None: 0.65 on a door's
+            upright free edge, else 0.5.
+        orientation: "usual" is along the free edge of a door, and lying at a top or bottom edge and on drawers.
+        length: metres along the handle; None: the handle's own. The handle's limits hold: knobs stay knobs.
+        share: the most that the handle takes of the front's side along which it lies, in (0, 1].
+        protrusion: metres before the front; None: the handle's own.
+        inset: metres from the edge to the handle's middle; at most a fifth of the front's sides.
+        count: 1, or 2 side by side, as on wide drawers.
+
+    Raises:
+        ValueError: if a share is out of range, a length is not above 0, or the count is neither 1 nor 2.
+    """
+
+    place: Place = "usual"
+    along: float | None = None
+    orientation: Orientation = "usual"
+    length: float | None = None
+    share: float = 0.4
+    protrusion: float | None = None
+    inset: float = 0.045
+    count: Literal[1, 2] = 1
+
+    def __post_init__(self) -> None:
+        if self.along is not None and not 0.0 <= self.along <= 1.0:
+            raise ValueError(f"`along` must be a share in [0, 1]: got {self.along}")
+        if not 0.0 < self.share <= 1.0:
+            raise ValueError(f"`share` must be in (0, 1]: got {self.share}")
+        for name in ("length", "protrusion", "inset"):
+            value = getattr(self, name)
+            if value is not None and not value > 0.0:
+                raise ValueError(f"`{name}` must be above 0 metres: got {value}")
+        if self.count not in (1, 2):
+            raise ValueError(f"`count` must be 1 or 2: got {self.count}")
+
+
+USUAL = Hold()
