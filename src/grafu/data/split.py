@@ -1,0 +1,54 @@
+"""Which models are learned from, chosen by and judged on: always by model, never by pair. It reads no files."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from hashlib import blake2b
+from typing import Literal, final
+
+import numpy as np
+
+SplitName = Literal["train", "val", "test"]
+SEED = 42  # the authors' (official.md 2.4)
+_TRAIN, _VAL = 0.8, 0.1  # the authors'; the rest is for the test
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Split:
+    """Model ids for training, validation and test.
+
+    Raises:
+        ValueError: if an id stands twice.
+    """
+
+    train: tuple[str, ...]
+    val: tuple[str, ...]
+    test: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        ids = self.train + self.val + self.test
+        if len(set(ids)) < len(ids):
+            twice = next(i for k, i in enumerate(ids) if i in ids[:k])
+            raise ValueError(f"a split must name each model once: got `{twice}` twice")
+
+    def only(self, ids: Iterable[str]) -> "Split":
+        """Returns the split without the models that are not among `ids`."""
+        kept = frozenset(ids)
+        train, val, test = (tuple(i for i in part if i in kept) for part in (self.train, self.val, self.test))
+        return Split(train, val, test)
+
+
+def split_models(ids: Iterable[str], seed: int = SEED) -> Split:
+    """Returns the ids divided 80/10/10, shuffled by the seed, whatever order they came in."""
+    known = sorted(set(ids))
+    shuffled = [known[int(k)] for k in np.random.default_rng(seed).permutation(len(known))]
+    first, second = round(_TRAIN * len(known)), round((_TRAIN + _VAL) * len(known))
+    train, val, test = (tuple(sorted(part)) for part in (shuffled[:first], shuffled[first:second], shuffled[second:]))
+    return Split(train, val, test)
+
+
+def split_of(model_id: str, seed: int = SEED) -> SplitName:
+    """Returns where one model of an endless stream belongs, 80/10/10 in the long run, whatever else it holds."""
+    digest = blake2b(f"{seed}/{model_id}".encode(), digest_size=8).digest()
+    place = int.from_bytes(digest, "little") / 2**64
+    return "train" if place < _TRAIN else "val" if place < _TRAIN + _VAL else "test"
