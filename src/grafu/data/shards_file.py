@@ -1,0 +1,123 @@
+"""A table of named arrays as one file that numpy opens too (`.npz`, uncompressed), its largest array left on disk.
+
+The same arrays always give the same bytes. A file appears whole, by one rename. It knows nothing of models.
+"""
+
+import json
+import os
+import struct
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
+
+import numpy as np
+
+from grafu.errors import ExportError, UnreadableAsset
+
+_DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip file can state: the time of writing must not change the bytes
+_LOCAL_HEADER = 30  # bytes of a zip member's header before its name; name and extra length stand at 26 and 28
+_CHUNK = 1 << 22
+
+
+def write_array_file(arrays: Mapping[str, np.ndarray], texts: Mapping[str, Any], path: Path) -> None:
+    """Writes the arrays as `<name>.npy` and the texts as `<name>.json` into one file, whole or not at all.
+
+    Raises:
+        ExportError: if it cannot be written.
+    """
+    fresh = path.with_name(f".{path.name}.{uuid4().hex[:8]}.new")
+    try:
+        with fresh.open("wb") as file:
+            with ZipFile(file, "w", ZIP_STORED) as archive:
+                for name, value in texts.items():
+                    archive.writestr(_member(f"{name}.json", ZIP_DEFLATED), json.dumps(value, ensure_ascii=False))
+                for name, array in arrays.items():
+                    with archive.open(_member(f"{name}.npy", ZIP_STORED), "w", force_zip64=True) as member:
+                        np.lib.format.write_array(member, np.ascontiguousarray(array), allow_pickle=False)
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(path)
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise ExportError(f"cannot write `{path}`: {reason}; nothing of it was written") from error
+    finally:
+        fresh.unlink(missing_ok=True)
+
+
+def read_array_file(path: Path, mapped: str, verify: bool = True) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Returns arrays and texts by name; the array `mapped` stays on disk and is read where it is looked at.
+
+    With `verify` its bytes are checked too (those of the rest always are).
+
+    Raises:
+        UnreadableAsset: if the file is missing, no such file, cut short or changed.
+    """
+    try:
+        with ZipFile(path) as archive:
+            arrays: dict[str, np.ndarray] = {}
+            texts: dict[str, Any] = {}
+            for info in archive.infolist():
+                stem, _, kind = info.filename.rpartition(".")
+                if kind == "json":
+                    texts[stem] = json.loads(archive.read(info))
+                elif kind == "npy" and stem == mapped:
+                    arrays[stem] = _map_member(path, info, verify)
+                elif kind == "npy":
+                    arrays[stem] = _read_member(archive, info)
+            return arrays, texts
+    except (BadZipFile, EOFError, ValueError, struct.error, NotImplementedError, zlib.error) as error:
+        raise UnreadableAsset(f"`{path}` is no whole file of arrays, or was changed: {error}") from error
+    except OSError as error:
+        raise UnreadableAsset(f"cannot read `{path}`: {error.strerror or error}") from error
+
+
+def _member(name: str, compression: int) -> ZipInfo:
+    info = ZipInfo(name, _DATE)
+    info.compress_type = compression
+    info.create_system = 3  # the same on every system
+    info.external_attr = 0o644 << 16
+    return info
+
+
+def _read_member(archive: ZipFile, info: ZipInfo) -> np.ndarray:
+    with archive.open(info) as member:
+        array: np.ndarray = np.lib.format.read_array(member, allow_pickle=False)
+        if member.read(1):  # read to the end: only there is the checksum compared
+            raise ValueError(f"`{info.filename}` goes on after its array")
+    array.setflags(write=False)
+    return array
+
+
+def _map_member(path: Path, info: ZipInfo, verify: bool) -> np.ndarray:
+    if info.compress_type != ZIP_STORED:
+        raise ValueError(f"`{info.filename}` must not be compressed")
+    with path.open("rb") as file:
+        file.seek(info.header_offset)
+        header = file.read(_LOCAL_HEADER)
+        name_length, extra_length = struct.unpack("<HH", header[26:30])
+        start = info.header_offset + _LOCAL_HEADER + name_length + extra_length
+        if verify:
+            file.seek(start)
+            _require_sum(file, info)
+        file.seek(start)
+        version = np.lib.format.read_magic(file)
+        if version != (1, 0):
+            raise ValueError(f"`{info.filename}` is of another kind of array file: {version}")
+        shape, fortran, dtype = np.lib.format.read_array_header_1_0(file)
+        if fortran or dtype.hasobject or not np.prod(shape):
+            return np.zeros(shape, dtype)
+        return np.memmap(path, dtype, "r", file.tell(), shape)
+
+
+def _require_sum(file: Any, info: ZipInfo) -> None:
+    total, left = 0, info.file_size
+    while left:
+        data = file.read(min(left, _CHUNK))
+        if not data:
+            raise EOFError("cut short")
+        total, left = zlib.crc32(data, total), left - len(data)
+    if total != info.CRC:
+        raise ValueError(f"bad CRC-32 for `{info.filename}`")
