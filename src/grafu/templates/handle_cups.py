@@ -44,7 +44,7 @@ def _cup(size: tuple[float, float, float], fullness: float, roundness: float) ->
 
 
 def _grid(size: tuple[float, float, float], fullness: float, roundness: float) -> Rings:
-    """Returns points on the shell, stations from right to left by steps from its top at the front plane to its lower lip."""
+    """Returns points on the shell, stations from right to left by steps from its foot above to its lip below."""
     along, round_ = np.linspace(_END, np.pi - _END, 13), np.linspace(0.0, np.pi / 2, 6)
     share = np.cos(along) / np.cos(_END)
     narrowing = (1 - np.abs(np.cos(along)) ** fullness) ** (1 / fullness)
