@@ -1,11 +1,12 @@
 """Point clouds, and seeded points on a surface. It knows no parts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Points, Scalars, frozen_array
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -32,11 +33,35 @@ def sample_surface(mesh: TriangleMesh, count: int, seed: int = 0) -> PointCloud:
 
     Where the faces have no area, the points are drawn from the vertices.
     """
+    return sample_surfaces([mesh], count, seed)[0]
+
+
+def sample_surfaces(meshes: Sequence[TriangleMesh], count: int, seed: int = 0) -> list[PointCloud]:
+    """Returns for each mesh the points that `sample_surface` gives for it, all at once."""
     rng = np.random.default_rng(seed)
-    areas = mesh.face_areas
-    if not areas.sum() > 0:
-        return PointCloud(mesh.vertices[rng.integers(0, len(mesh.vertices), count)])
-    picked = mesh.triangles[rng.choice(len(areas), count, p=areas / areas.sum())]
-    u, v = np.sort(rng.random((2, count)), axis=0)
+    where, (u, v) = rng.random(count), np.sort(rng.random((2, count)), axis=0)
     weights = np.stack([u, v - u, 1 - v], axis=1)
-    return PointCloud(np.einsum("nk,nkd->nd", weights, picked))
+    triangles = [mesh.triangles for mesh in meshes]
+    ends = np.cumsum([len(t) for t in triangles])
+    corners = np.concatenate([np.zeros((0, 3, 3)), *triangles])
+    areas = _areas(corners)
+    clouds = []
+    for mesh, start, end in zip(meshes, [0, *ends.tolist()], ends.tolist(), strict=False):
+        shares = np.cumsum(areas[start:end])
+        if not len(shares) or not shares[-1] > 0:
+            clouds.append(_vertices(mesh, count, seed))
+            continue
+        picked = start + (shares / shares[-1]).searchsorted(where, side="right")
+        clouds.append(PointCloud(np.einsum("nk,nkd->nd", weights, corners[picked])))
+    return clouds
+
+
+def _areas(corners: np.ndarray) -> Scalars:
+    """Returns twice the area of each triangle, (faces, 3, 3); numpy's own cross product costs three times as much."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    cross = u[:, [1, 2, 0]] * v[:, [2, 0, 1]] - u[:, [2, 0, 1]] * v[:, [1, 2, 0]]
+    return np.sqrt((cross * cross).sum(axis=1))
+
+
+def _vertices(mesh: TriangleMesh, count: int, seed: int) -> PointCloud:
+    return PointCloud(mesh.vertices[np.random.default_rng(seed).integers(0, len(mesh.vertices), count)])
