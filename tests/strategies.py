@@ -11,6 +11,7 @@ from grafu.asset.part import Asset
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
+from grafu.synth.construction import Base, FaceFrame, Top
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, Table, make_desk, make_table
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
@@ -44,10 +45,11 @@ cases = st.builds(
     height=st.floats(0.6, 2.0),
     depth=st.floats(0.3, 0.6),
     panel=st.sampled_from([0.008, 0.018, 0.03]),
-    base=st.sampled_from(["none", "plinth", "legs"]),
-    top=st.sampled_from(["between", "over", "none"]),
-    overhang=st.sampled_from([0.0, 0.02]),
-    frame=st.sampled_from([0.0, 0.04]),
+    base=st.builds(Base, st.sampled_from(["none", "plinth", "legs", "toe kick", "posts", "sled"])),
+    top=st.builds(
+        Top, st.sampled_from(["between", "over", "none", "stretchers"]), overhang=st.sampled_from([0.0, 0.02])
+    ),
+    frame=st.sampled_from([None, FaceFrame(0.04), FaceFrame(0.04, "bars"), FaceFrame(0.04, "strips", 0.001)]),
 )
 mounts = st.sampled_from(["overlay", "inset"])
 cabinet_specs = st.builds(Cabinet, case=cases, layout=layouts, mount=mounts, gap=st.sampled_from([0.002, 0.003]))

@@ -15,6 +15,7 @@ from grafu.metrics.connectivity import largest_gaps
 from grafu.synth import untidy
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
+from grafu.synth.construction import Base, FaceFrame, Top
 from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
 from grafu.vocabulary import MechanismClass
 
@@ -141,13 +142,13 @@ SPECS = {
         case=Case(0.95, 0.6, 0.36), layout=Row((Door("right", "bowed"), Door("right", "bowed"))), gap=0.002
     ),
     "bowed pair with a muntin in a frame": Cabinet(
-        case=Case(0.6, 0.6, 0.3, overhang=0.02, frame=0.04), layout=Pair("bowed", "none", muntin=0.03), mount="inset"
+        case=Case(0.6, 0.6, 0.3, frame=FaceFrame(0.04)), layout=Pair("bowed", "none", muntin=0.03), mount="inset"
     ),
     "flap on a frame of thin panels": Cabinet(
-        case=Case(0.6, 0.6, 0.3, panel=0.008, frame=0.04), layout=Door("top", "chamfered", "none")
+        case=Case(0.6, 0.6, 0.3, panel=0.008, frame=FaceFrame(0.04)), layout=Door("top", "chamfered", "none")
     ),
     "doors over one another with nothing between": Cabinet(
-        case=Case(0.74, 1.22, 0.54, top="over"),
+        case=Case(0.74, 1.22, 0.54, top=Top("over")),
         layout=Stack((Pair("glass", "none"), Door("top", "slab", "none"), Door("right", "rounded")), (), "nothing"),
         mount="inset",
         gap=0.002,
@@ -176,7 +177,7 @@ def test_the_joint_turns_about_the_placed_axis_not_the_drawn_one():
 
 def test_a_flap_with_nothing_but_stiles_behind_its_ends_hangs_on_them():
     layout = Stack((Drawer("whole"), Door("bottom", handle="none", shelves=1), Drawer("whole")), between="nothing")
-    case = Case(0.9, 0.9, 0.44, panel=0.008, base="plinth", top="none", frame=0.04)
+    case = Case(0.9, 0.9, 0.44, panel=0.008, base=Base("plinth"), top=Top("none"), frame=FaceFrame(0.04))
     outcome = installed(realized(make_cabinet(Cabinet(case=case, layout=layout))))["door"]
     assert outcome.opening >= radians(90)
     assert outcome.collision_share == 0

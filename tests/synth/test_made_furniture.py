@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
+from grafu.synth.construction import Base, FaceFrame
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, Table, make_desk, make_table
 from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
@@ -125,7 +126,7 @@ def test_drawer_boxes_have_the_boards_that_they_promise(box):
 
 def test_a_face_frame_narrows_the_opening_and_carries_a_bar_before_each_partition():
     layout = Row((Door(), Drawer()))
-    asset = make_cabinet(Cabinet(case=Case(frame=0.04), layout=layout, mount="inset"))
+    asset = make_cabinet(Cabinet(case=Case(frame=FaceFrame(0.04)), layout=layout, mount="inset"))
     assert asset.part("face_frame").label is PartLabel.FACE_FRAME
     assert asset.part("face_frame_bar").box.size[0] == pytest.approx(0.04)
     assert asset.part("divider").box.size[0] == pytest.approx(0.018)
@@ -178,7 +179,7 @@ def test_the_same_spec_gives_the_same_asset():
     "spec",
     [
         lambda: Case(width=0.03),
-        lambda: Case(height=0.1, base="plinth"),
+        lambda: Case(height=0.1, base=Base("plinth")),
         lambda: Row(()),
         lambda: Stack((Door(), Door()), (1.0,)),
         lambda: Stack((Door(), Door()), (1.0, -1.0)),

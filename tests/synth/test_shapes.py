@@ -11,6 +11,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.synth import shapes
 from grafu.synth.finish import OAK, TEXTURE_SPAN, surface_of, textured_finish, wood_texture
 
+TEXTURED = textured_finish(1).case
+
 SLAB = Box(np.array([-0.2, -0.01, 0.1]), np.array([0.3, 0.01, 0.8]))
 VOLUME = SLAB.volume
 
@@ -56,7 +58,7 @@ def test_turned_solids_look_outwards_in_every_direction(direction, radius):
 
 
 def test_texture_coordinates_are_to_scale_with_the_grain_lengthwise():
-    surface = surface_of(TriangleMesh.box_mesh(SLAB), OAK)
+    surface = surface_of(TriangleMesh.box_mesh(SLAB), TEXTURED)
     for face in surface.mesh.faces:
         edges = surface.mesh.vertices[face] - surface.mesh.vertices[np.roll(face, 1)]
         in_texture = surface.uv[face] - surface.uv[np.roll(face, 1)]
@@ -66,7 +68,13 @@ def test_texture_coordinates_are_to_scale_with_the_grain_lengthwise():
 
 def test_projection_moves_no_face():
     mesh = shapes.rounded_board(SLAB, 0.005)
-    assert np.allclose(surface_of(mesh, OAK).mesh.triangles, mesh.triangles)
+    assert np.allclose(surface_of(mesh, TEXTURED).mesh.triangles, mesh.triangles)
+
+
+def test_a_plain_material_needs_no_texture_coordinates():
+    mesh = shapes.rounded_board(SLAB, 0.005)
+    assert surface_of(mesh, OAK).mesh is mesh
+    assert surface_of(mesh, OAK).uv is None
 
 
 def test_the_wood_texture_is_a_small_seamless_png():

@@ -1,28 +1,32 @@
-"""The still part of a cabinet: sides, top, bottom, back, plinth or legs, face frame, moulding. It knows no fronts."""
+"""The still part of a cabinet as a value: outer sizes, construction, the opening that is left. It knows no fronts."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, final
 
-from grafu.geometry.appearance import Material
-from grafu.geometry.arrays import vec3
-from grafu.synth.assembly import Piece
-from grafu.synth.finish import Finish, surface_of
+from grafu.synth.construction import (
+    PANELS,
+    PLAIN_BOTTOM,
+    PLAIN_TOP,
+    STANDING,
+    THIN_BACK,
+    Back,
+    Base,
+    Bottom,
+    FaceFrame,
+    Sides,
+    Top,
+)
 from grafu.synth.layout import Edge, Edges, Rect
-from grafu.synth.shapes import board, turned
-from grafu.vocabulary import PartLabel
-
-Corner = tuple[float, float, float]
+from grafu.synth.setting import Borders
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Case:
-    """The outer sizes and construction of a case, metres; `depth` is without fronts and overhang.
+    """The outer sizes and construction of a case, metres; `depth` is without fronts, face frame and overhang.
 
-    `top` lies between the sides, over them (`overhang` beyond them and the front), or is missing. A face frame of
-    width `frame` (0: frameless) stands before the case. A moulding of height `moulding` juts out 20 mm before the
-    fronts, above or below them.
+    A moulding of height `moulding` juts out 20 mm before the fronts, above or below them. A `pilaster` of that width
+    stands before either side.
 
     Raises:
         ValueError: if a size leaves no room inside.
@@ -32,17 +36,18 @@ class Case:
     height: float = 0.72
     depth: float = 0.56
     panel: float = 0.018
-    back: float = 0.006
-    base: Literal["none", "plinth", "legs"] = "none"
-    base_height: float = 0.1
-    top: Literal["between", "over", "none"] = "between"
-    overhang: float = 0.0
-    frame: float = 0.0
+    back: Back = THIN_BACK
+    base: Base = STANDING
+    top: Top = PLAIN_TOP
+    frame: FaceFrame | None = None
+    sides: Sides = PANELS
+    bottom: Bottom = PLAIN_BOTTOM
     moulding: float = 0.0
     moulding_at: Literal["top", "bottom"] = "top"
+    pilaster: float = 0.0
 
     def __post_init__(self) -> None:
-        free = (self.width - 2 * self.panel, self.depth - self.back, self.height - self.floor - 2 * self.panel)
+        free = (self.width - 2 * self.side_border, self.depth - self.back.thickness, self.opening_room)
         if min(*free, self.panel) <= 0:
             size = f"{self.width} x {self.depth} x {self.height}"
             raise ValueError(f"`Case` needs room between its panels: got {size} m with panels of {self.panel} m")
@@ -50,107 +55,124 @@ class Case:
     @property
     def floor(self) -> float:
         """The height of the bottom panel's underside."""
-        return 0.0 if self.base == "none" else self.base_height
-
-    @property
-    def front(self) -> float:
-        """The y of the plane that fronts are mounted on."""
-        return -self.depth / 2 - (self.panel if self.frame else 0.0)
-
-    @property
-    def inner_back(self) -> float:
-        """The y of the back panel's inner face."""
-        return self.depth / 2 - self.back
-
-    @property
-    def border(self) -> float:
-        """The width of what surrounds the opening: the panels' edges, or the face frame."""
-        return self.frame or self.panel
-
-    @property
-    def opening(self) -> Rect:
-        """The clear opening in the front."""
-        b = self.border
-        top = self.height if self.top == "none" and not self.frame else self.height - max(b, self.panel)
-        low = self.floor + b
-        if self.moulding:
-            low, top = _beside_moulding(self, low, top)
-        return Rect(-self.width / 2 + b, self.width / 2 - b, low, top)
-
-    @property
-    def edges(self) -> Edges:
-        """What borders the opening: fronts stop at an overhang, a moulding, and where there is no top."""
-        juts = self.overhang > 0 or (self.top == "none" and not self.frame)
-        top = Edge.STOP if juts or (self.moulding and self.moulding_at == "top") else Edge.CASE
-        bottom = Edge.STOP if self.moulding and self.moulding_at == "bottom" else Edge.CASE
-        return Edges(bottom=bottom, top=top)
+        return 0.0 if self.base.kind == "none" else self.base.height
 
     @property
     def crown(self) -> float:
         """The height of the sides' upper edge."""
-        return self.height - self.panel if self.top == "over" else self.height
+        return self.height - self.top_thickness if self.top.kind == "over" else self.height
 
+    @property
+    def top_thickness(self) -> float:
+        """The top's thickness (stretchers have the panels'), 0 where there is none."""
+        if self.top.kind in ("none", "corner blocks"):
+            return 0.0
+        return (self.top.thickness if self.top.kind != "stretchers" else 0.0) or self.panel
 
-def case_pieces(case: Case, finish: Finish, out: float) -> tuple[Piece, ...]:
-    """Returns the still parts of a case; `out` is the y of the fronts' outer faces, which a moulding juts beyond."""
-    pieces = (*_panels(case), *_base(case))
-    made = [Piece(label, stem, (surface_of(board(low, high), finish.case),)) for label, stem, low, high in pieces]
-    if case.base == "legs":
-        made += _legs(case, finish.case)
-    if case.frame:
-        made.append(_face_frame(case, finish.case))
-    if case.moulding:
-        made.append(_moulding(case, finish.case, out))
-    return tuple(made)
+    @property
+    def bottom_thickness(self) -> float:
+        """The bottom's thickness; nothing for a sheet or none."""
+        return (self.bottom.thickness or self.panel) if self.bottom.kind in ("between", "under") else 0.0
 
+    @property
+    def posts(self) -> float:
+        """The width of the corner posts, 0 where there are none."""
+        return self.base.leg.thick if self.base.kind == "posts" else 0.0
 
-def _panels(case: Case) -> Iterator[tuple[PartLabel, str, Corner, Corner]]:
-    x, y, t = case.width / 2, case.depth / 2, case.panel
-    foot = 0.0 if case.base == "plinth" else case.floor
-    yield PartLabel.SIDE_PANEL, "side_panel_left", (-x, -y, foot), (t - x, y, case.crown)
-    yield PartLabel.SIDE_PANEL, "side_panel_right", (x - t, -y, foot), (x, y, case.crown)
-    yield PartLabel.BOTTOM_PANEL, "bottom_panel", (t - x, -y, case.floor), (x - t, case.inner_back, case.floor + t)
-    yield PartLabel.BACK_PANEL, "back_panel", (t - x, case.inner_back, case.floor), (x - t, y, case.crown)
-    if case.top == "between":
-        yield PartLabel.TOP_PANEL, "top_panel", (t - x, -y, case.height - t), (x - t, case.inner_back, case.height)
-    if case.top == "over":
-        o = case.overhang
-        yield PartLabel.TOP_PANEL, "top_panel", (-x - o, case.front - o, case.crown), (x + o, y, case.height)
+    @property
+    def face(self) -> FaceFrame | None:
+        """What frames the opening: the face frame, or rails as thick as a panel between corner posts."""
+        if self.posts:
+            return FaceFrame(self.posts, "bars", self.panel, (self.frame.rail if self.frame else 0.0) or 0.03)
+        return self.frame
 
+    @property
+    def face_depth(self) -> float:
+        """How deep the frame before the opening is."""
+        if self.face is None:
+            return 0.0
+        return self.face.thickness or (0.0 if self.face.kind == "strips" else self.panel)
 
-def _base(case: Case) -> Iterator[tuple[PartLabel, str, Corner, Corner]]:
-    if case.base == "plinth":
-        x, y, t = case.width / 2 - case.panel, -case.depth / 2 + 0.05, case.panel
-        yield PartLabel.BAR, "plinth", (-x, y, 0.0), (x, y + t, case.floor)
+    @property
+    def front(self) -> float:
+        """The y of the plane that fronts are mounted on."""
+        return -self.depth / 2 if self.posts else -self.depth / 2 - self.face_depth
 
+    @property
+    def carcass(self) -> float:
+        """The y at which the panels behind a frame begin."""
+        return self.front + self.face_depth
 
-def _legs(case: Case, wood: Material) -> Iterator[Piece]:
-    radius = min(0.022, case.width / 8, case.depth / 8)
-    x, y = case.width / 2 - 1.5 * radius, case.depth / 2 - 1.5 * radius
-    for corner in ((-x, -y), (x, -y), (x, y), (-x, y)):
-        mesh = turned(vec3(*corner, 0.0), vec3(*corner, case.floor), ((0.0, 0.6 * radius), (1.0, radius)))
-        yield Piece(PartLabel.LEG, "leg", (surface_of(mesh, wood),))
+    @property
+    def inner_back(self) -> float:
+        """The y of the back panel's inner face; rails behind it push it forward."""
+        back = self.back
+        board = 0.0 if back.planted or back.kind == "none" else back.thickness
+        return self.depth / 2 - board - (self.panel if back.rails else 0.0)
 
+    @property
+    def border(self) -> float:
+        """The width of what stands between two openings: a panel's edge, or a bar of the face frame."""
+        if self.face is None or self.face.kind == "strips":
+            return self.panel
+        return min(self.face.width, 0.05) if self.posts else self.face.width
 
-def _face_frame(case: Case, wood: Material) -> Piece:
-    x, y, low, high, o = case.width / 2, -case.depth / 2, case.floor, case.crown, case.opening
-    boards = (
-        board((-x, case.front, low), (o.x0, y, high)),
-        board((o.x1, case.front, low), (x, y, high)),
-        board((o.x0, case.front, low), (o.x1, y, o.z0)),
-        board((o.x0, case.front, o.z1), (o.x1, y, high)),
-    )
-    return Piece(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, wood) for mesh in boards))
+    @property
+    def side_border(self) -> float:
+        """The width of what stands left and right of the opening."""
+        framed = 0.0 if self.face is None or self.face.kind == "strips" else self.face.width
+        return max(framed, self.pilaster, self.panel)
 
+    @property
+    def rail_border(self) -> float:
+        """The height of the frame's rails, 0 without a frame."""
+        if self.face is None or self.face.kind == "strips":
+            return 0.0
+        return self.face.rail or self.face.width
 
-def _moulding(case: Case, wood: Material, out: float) -> Piece:
-    low = case.crown - case.moulding if case.moulding_at == "top" else case.floor
-    x = case.width / 2
-    mesh = board((-x, out - 0.02, low), (x, case.front, low + case.moulding))
-    return Piece(PartLabel.BAR, "moulding", (surface_of(mesh, wood),))
+    @property
+    def opening_room(self) -> float:
+        """The height of the opening; not above 0 where there is no room."""
+        low, high = self._span
+        return high - low
 
+    @property
+    def opening(self) -> Rect:
+        """The clear opening in the front."""
+        b = self.side_border
+        return Rect(-self.width / 2 + b, self.width / 2 - b, *self._span)
 
-def _beside_moulding(case: Case, low: float, high: float) -> tuple[float, float]:
-    if case.moulding_at == "top":
-        return low, min(high, case.crown - case.moulding)
-    return max(low, case.floor + case.moulding), high
+    @property
+    def borders(self) -> Borders:
+        """What surrounds the opening."""
+        o = self.opening
+        return Borders(self.side_border, self.side_border, o.z0 - self.floor, self.height - o.z1)
+
+    @property
+    def edges(self) -> Edges:
+        """What borders the opening: fronts stop where something juts out, and where there is nothing to cover."""
+        top, bottom, side = Edge.CASE, Edge.CASE, Edge.CASE
+        juts = self.top.kind == "over" and self.top.overhang + self.top.front > 0
+        if juts or (self.top_thickness == 0 and self.rail_border == 0):
+            top = Edge.STOP
+        if self.bottom_thickness == 0 and self.rail_border == 0:
+            bottom = Edge.STOP
+        if self.bottom.kind == "under" and self.bottom.overhang > 0:
+            bottom = Edge.STOP
+        if self.moulding:
+            top, bottom = (Edge.STOP, bottom) if self.moulding_at == "top" else (top, Edge.STOP)
+        if self.sides.beyond > 0 or self.pilaster > 0 or self.sides.kind == "none":
+            side = Edge.STOP
+        return Edges(side, side, bottom, top)
+
+    @property
+    def _span(self) -> tuple[float, float]:
+        rail = self.rail_border
+        low, high = self.floor + max(self.bottom_thickness, rail), self.height - max(self.top_thickness, rail)
+        if self.top.kind == "over" and rail:  # at least a centimetre of rail shows below the top
+            high = min(high, self.crown - 0.01)
+        if self.moulding and self.moulding_at == "top":
+            high = min(high, self.crown - self.moulding)
+        if self.moulding and self.moulding_at == "bottom":
+            low = max(low, self.floor + self.moulding)
+        return low, high

@@ -8,12 +8,14 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.synth.assembly import Motion, Piece, assemble
-from grafu.synth.case import Case, case_pieces
+from grafu.synth.carcass import case_pieces
+from grafu.synth.case import Case
+from grafu.synth.construction import Top
 from grafu.synth.finish import PLAIN, Finish, surface_of
 from grafu.synth.shapes import board
 from grafu.vocabulary import JointType, PartLabel
 
-LOW_BOX = Case(width=1.0, height=0.45, depth=0.5, top="none")
+LOW_BOX = Case(width=1.0, height=0.45, depth=0.5, top=Top("none"))
 
 
 @final
@@ -35,7 +37,7 @@ class Chest:
 
 def make_chest(spec: Chest) -> Asset:
     """Returns the chest with its lid's true joint; a top that the box had is left away."""
-    box = replace(spec.box, top="none")
+    box = replace(spec.box, top=Top("none"))
     x, y, o = box.width / 2, box.depth / 2, spec.overhang
     front = board((box.panel - x, -y, box.floor + box.panel), (x - box.panel, box.panel - y, box.height))
     low = box.height + spec.seat

@@ -10,7 +10,7 @@ from grafu.synth.legs import Leg
 
 BaseKind = Literal["none", "plinth", "toe kick", "legs", "posts", "sled"]
 Stretcher = Literal["none", "sides", "H", "box", "shelf"]
-TopKind = Literal["between", "over", "none", "stretchers"]
+TopKind = Literal["between", "over", "none", "stretchers", "corner blocks"]
 TopEdge = Literal["square", "chamfered", "rounded", "moulded"]
 SideKind = Literal["panel", "framed", "slats", "metal", "none"]
 BackKind = Literal["full", "half", "split", "none"]
@@ -51,7 +51,7 @@ class Base:
 @final
 @dataclass(frozen=True, slots=True)
 class Top:
-    """The top: between the sides, over them, missing, or replaced by stretchers (flat bars `width` wide).
+    """The top: between the sides, over them, missing, or replaced by flat bars or blocks in the corners (`width` wide).
 
     `thickness` 0 means the case's panel. A top over the sides juts out by `overhang` beyond the front and the sides,
     by `front` and `sides` more, and by `back` behind. A moulded edge is two stacked boards, the lower one smaller. A

@@ -11,8 +11,9 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.assembly import Piece, assemble
 from grafu.synth.finish import PLAIN, Finish, surface_of
-from grafu.synth.fronts import Mount, Setting, front_pieces
+from grafu.synth.fronts import front_pieces
 from grafu.synth.layout import Cell, Door, Edges, Rect
+from grafu.synth.setting import Mount, Setting
 from grafu.synth.shapes import board, framed_opening, prism
 from grafu.vocabulary import PartLabel
 

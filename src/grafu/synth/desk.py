@@ -14,8 +14,9 @@ from grafu.synth.assembly import Piece, assemble
 from grafu.synth.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.case import Case
 from grafu.synth.finish import PLAIN, Finish, surface_of
-from grafu.synth.fronts import Setting, front_pieces
+from grafu.synth.fronts import front_pieces
 from grafu.synth.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Row, Stack, divide
+from grafu.synth.setting import Setting
 from grafu.vocabulary import PartLabel
 
 TWO_DRAWERS = Row((Drawer(), Drawer()), between="nothing")

@@ -68,10 +68,13 @@ def wood_texture(seed: int = 0, size: int = 192) -> Texture:
 
 
 def surface_of(mesh: TriangleMesh, material: Material) -> Surface:
-    """Returns the mesh with texture coordinates projected along each face's main direction, the grain lengthwise.
+    """Returns the mesh in that material, with texture coordinates where the material has a texture to show.
 
-    Vertices are split where faces of different directions meet, so that every face keeps its own scale.
+    They are projected along each face's main direction, the grain lengthwise. Vertices are split where faces of
+    different directions meet, so that every face keeps its own scale.
     """
+    if material.base_color_texture is None:
+        return Surface(mesh, material)
     main = np.abs(mesh.face_normals).argmax(axis=1)
     key, index = np.unique(mesh.faces * 3 + main[:, None], return_inverse=True)
     vertices, direction = mesh.vertices[key // 3], key % 3

@@ -5,63 +5,41 @@ thickness squared over twice its width, the far side of an inset opening. Fronts
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
-from typing import Literal, final
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.synth.assembly import Motion, Piece
 from grafu.synth.drawer_box import drawer_box
-from grafu.synth.finish import PLAIN, Finish, surface_of
+from grafu.synth.finish import surface_of
 from grafu.synth.handles import handle_pieces, held_side, opposite
-from grafu.synth.layout import Bay, Cell, Door, Drawer, Edge, Edges, Layout, Pair, Partition, Rect, Side, divide
+from grafu.synth.interior import RUNNER, interior_pieces, runner_pieces
+from grafu.synth.layout import (
+    Bay,
+    Blank,
+    Cell,
+    Door,
+    Drawer,
+    Edge,
+    Edges,
+    Layout,
+    Pair,
+    Partition,
+    Rect,
+    Side,
+    Tilt,
+    divide,
+)
 from grafu.synth.leaves import LeafShape, leaf_surfaces
+from grafu.synth.setting import Mount as Mount
+from grafu.synth.setting import Setting, front_rect, inner_span
 from grafu.synth.shapes import board
+from grafu.synth.tilt import tray_meshes
 from grafu.vocabulary import JointType, PartLabel
 
-Mount = Literal["overlay", "inset"]
 BEHIND_ROOM = 0.05  # metres between a door and the fronts behind it: their knobs need 26 mm
 BEHIND_SIDE = 0.035  # metres on either side of the fronts behind a door: an inset door stands there when open
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """Where fronts sit, metres: `plane` is the y of the case's front and `back` that of its back panel's inner face.
-
-    Openings lie `panel` apart; walls behind them stand back by `wall` (half of it on either side of a partition).
-    An overlay front stands `seat` before the plane and covers at most `lap` of a panel; an inset front is flush.
-    """
-
-    plane: float
-    back: float
-    mount: Mount = "overlay"
-    thickness: float = 0.018
-    gap: float = 0.003
-    seat: float = 0.001
-    lap: float = 1.0
-    panel: float = 0.018
-    wall: float = 0.0
-    slide_gap: float = 0.0125
-    finish: Finish = PLAIN
-
-    @property
-    def front(self) -> float:
-        """The y of the fronts' outer faces."""
-        return self.plane - self.seat - self.thickness if self.mount == "overlay" else self.plane
-
-    @property
-    def behind(self) -> float:
-        """The y of the fronts' inner faces."""
-        return self.front + self.thickness
-
-
-def front_rect(cell: Cell, setting: Setting) -> Rect:
-    """Returns the outline of a cell's front: its opening moved outwards (overlay) or inwards (inset) edge by edge."""
-    o, e = cell.opening, cell.edges
-    left, right, bottom, top = (_reach(edge, setting) for edge in (e.left, e.right, e.bottom, e.top))
-    return Rect(o.x0 - left, o.x1 + right, o.z0 - bottom, o.z1 + top)
 
 
 def front_pieces(cell: Cell, setting: Setting) -> tuple[Piece, ...]:
@@ -81,29 +59,15 @@ def partition_piece(partition: Partition, setting: Setting) -> Piece:
     return Piece(label, label.value, (surface,))
 
 
-def inner_span(cell: Cell, setting: Setting) -> tuple[float, float]:
-    """Returns the x between the walls of a cell: behind a face frame they stand further apart than its opening."""
-    room = {Edge.CASE: setting.wall, Edge.SHARED: setting.wall / 2}
-    return cell.opening.x0 - room.get(cell.edges.left, 0.0), cell.opening.x1 + room.get(cell.edges.right, 0.0)
-
-
-def _reach(edge: Edge, setting: Setting) -> float:
-    if edge is Edge.SEAM:
-        return -setting.gap / 2
-    if setting.mount == "inset" or edge is Edge.STOP:
-        return -setting.gap
-    cover = setting.panel - setting.gap if edge is Edge.CASE else (setting.panel - setting.gap) / 2
-    return min(cover, setting.lap)
-
-
 def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     door = cell.leaf
     assert isinstance(door, Door)
     limited = replace(door, opening=_opening(door, cell.edges))
     yield _door(limited, front_rect(cell, setting), setting)
-    yield from _shelves(door.shelves, cell, setting)
     if door.behind is not None:
         yield from _behind(door.behind, cell, setting)
+    else:
+        yield from interior_pieces(door.shelves, door.inside, cell, setting)
 
 
 def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
@@ -114,39 +78,75 @@ def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     half = replace(o, x1=middle - pair.muntin / 2), replace(o, x0=middle + pair.muntin / 2)
     left = Cell(door, half[0], replace(e, right=edge))
     right = Cell(replace(door, hinge="right"), half[1], replace(e, left=edge))
-    yield from _door_pieces(left, setting)
-    yield from _door_pieces(right, setting)
+    for half_cell in (left, right):
+        assert isinstance(half_cell.leaf, Door)
+        limited = replace(half_cell.leaf, opening=_opening(half_cell.leaf, half_cell.edges))
+        yield _door(limited, front_rect(half_cell, setting), setting)
     if pair.muntin:
         yield _muntin(replace(front_rect(left, setting), x0=half[0].x1, x1=half[1].x0), setting)
-    yield from _shelves(pair.shelves, cell, setting)
     if pair.behind is not None:
         yield from _behind(pair.behind, cell, setting)
+    else:
+        yield from interior_pieces(pair.shelves, pair.inside, cell, setting)
 
 
 def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     drawer, rect, finish = cell.leaf, front_rect(cell, setting), setting.finish
     assert isinstance(drawer, Drawer)
-    o, depth = cell.opening, setting.back - 0.02 - setting.behind
+    o, start = cell.opening, setting.plane if drawer.box == "tray" else setting.behind
+    depth = drawer.depth * (setting.back - 0.02 - start)
     inner = Rect(o.x0 + setting.slide_gap, o.x1 - setting.slide_gap, o.z0 + 0.012, max(o.z1 - 0.02, o.z0 + 0.02))
-    box = drawer_box(drawer.box, inner, (setting.behind, setting.behind + depth))
-    leaf = _leaf(drawer, rect, None, setting)
-    surfaces = (*leaf_surfaces(leaf, finish), *(surface_of(mesh, finish.inside) for mesh in box))
+    surfaces = [surface_of(mesh, finish.inside) for mesh in drawer_box(drawer.box, inner, (start, start + depth))]
+    handle: tuple[Piece, ...] = ()
+    if drawer.box != "tray":
+        leaf = _leaf(drawer, rect, None, setting)
+        surfaces = [*leaf_surfaces(leaf, finish), *surfaces]
+        handle = handle_pieces(drawer.handle, drawer.hold, leaf, None, finish.metal)
     middle = rect.center
     slide = Axis(vec3(middle[0], setting.front, middle[1]), vec3(0.0, -1.0, 0.0))
     motion = Motion(JointType.PRISMATIC, slide, drawer.travel * depth)
-    handle = handle_pieces(drawer.handle, drawer.hold, leaf, None, finish.metal)
-    yield Piece(PartLabel.DRAWER, "drawer", surfaces, motion, handle)
+    yield Piece(PartLabel.DRAWER, "drawer", tuple(surfaces), motion, handle)
+    thick = min(RUNNER[0], 0.8 * setting.slide_gap)
+    if drawer.runners and thick > 0.002:
+        yield from runner_pieces(cell, setting, o.z0 + 0.35 * o.height, thick)
+
+
+def _tilt_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields a front that tilts about its lower edge, its tray with it."""
+    tilt, o, rect = cell.leaf, cell.opening, front_rect(cell, setting)
+    assert isinstance(tilt, Tilt)
+    door = _door(Door("bottom", tilt.leaf, tilt.handle, tilt.opening, hold=tilt.hold, grip=tilt.grip), rect, setting)
+    if tilt.tray:
+        side = max(setting.slide_gap, setting.gap)
+        inner = Rect(o.x0 + side, o.x1 - side, o.z0, o.z1)
+        trays = tray_meshes(inner, (setting.front, rect.z0), setting.behind, setting.back)
+        inside = tuple(surface_of(mesh, setting.finish.inside) for mesh in trays)
+        door = replace(door, surfaces=(*door.surfaces, *inside))
+    yield door
+
+
+def _blank_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields a board that touches the case: against its front where overlaid, filling the opening where inset."""
+    blank = cell.leaf
+    assert isinstance(blank, Blank)
+    tight = replace(setting, seat=0.0, gap=0.0) if setting.mount == "inset" else replace(setting, seat=0.0)
+    leaf = LeafShape(blank.leaf, front_rect(cell, tight), tight.front, tight.thickness)
+    yield Piece(PartLabel.FACE_FRAME, blank.name, leaf_surfaces(leaf, setting.finish))
+    for handle in handle_pieces(blank.handle, blank.hold, leaf, None, setting.finish.metal):
+        yield replace(handle, label=PartLabel.MISC, stem="false_pull")
 
 
 def _bay_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     assert isinstance(cell.leaf, Bay)
-    yield from _shelves(cell.leaf.shelves, cell, setting)
+    yield from interior_pieces(cell.leaf.shelves, cell.leaf.inside, cell, setting)
 
 
 _MAKERS: dict[type, Callable[[Cell, Setting], Iterator[Piece]]] = {
     Door: _door_pieces,
     Pair: _pair_pieces,
     Drawer: _drawer_pieces,
+    Tilt: _tilt_pieces,
+    Blank: _blank_pieces,
     Bay: _bay_pieces,
 }
 
@@ -173,33 +173,29 @@ def _leaf(front: Door | Drawer, rect: Rect, hinge: Side | None, setting: Setting
 
 
 def _opening(door: Door, edges: Edges) -> float:
-    """Returns how far a door opens, radians: at most square where something juts out beside its pin."""
-    return min(door.opening, pi / 2) if getattr(edges, door.hinge) is Edge.STOP else door.opening
+    """Returns how far a door opens, radians: at most square where something juts out beside its pin.
+
+    Above and below a flap that may also be a bowed neighbour.
+    """
+    edge = getattr(edges, door.hinge)
+    level = door.hinge in ("top", "bottom")
+    return min(door.opening, pi / 2) if edge is Edge.STOP or (level and edge is not Edge.CASE) else door.opening
 
 
 def _muntin(rect: Rect, setting: Setting) -> Piece:
-    back = max(setting.plane, setting.behind)
+    back = setting.inner
     mesh = board((rect.x0, setting.front, rect.z0), (rect.x1, back, rect.z1))
     return Piece(PartLabel.BAR, "muntin", (surface_of(mesh, setting.finish.front),))
 
 
-def _shelves(count: int, cell: Cell, setting: Setting) -> Iterator[Piece]:
-    front, half = max(setting.plane, setting.behind) + 0.01, min(setting.panel, 0.018) / 2
-    x0, x1 = inner_span(cell, setting)
-    for k in range(count):
-        z = cell.opening.z0 + cell.opening.height * (k + 1) / (count + 1)
-        mesh = board((x0, front, z - half), (x1, setting.back, z + half))
-        yield Piece(PartLabel.SHELF, "shelf", (surface_of(mesh, setting.finish.inside),))
-
-
 def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[Piece]:
     """Yields inset fronts inside an opening, between two fillers that keep them clear of the door."""
-    o, plane = cell.opening, max(setting.plane, setting.behind) + BEHIND_ROOM
+    o, plane = cell.opening, setting.inner + BEHIND_ROOM
     side = BEHIND_SIDE if setting.mount == "inset" else 0.018
     rect = replace(o, x0=o.x0 + side, x1=o.x1 - side)
     for low, high in zip(inner_span(cell, setting), (rect.x0, rect.x1), strict=True):
         mesh = board((min(low, high), plane, o.z0), (max(low, high), setting.back, o.z1))
         yield Piece(PartLabel.DIVIDER, "divider", (surface_of(mesh, setting.finish.inside),))
-    inner = replace(setting, plane=plane, mount="inset", wall=0.0)
+    inner = replace(setting, plane=plane, mount="inset", wall=0.0, case_wall=None, borders=None)
     for item in divide(layout, rect, Edges(), setting.panel):
         yield from (partition_piece(item, inner),) if isinstance(item, Partition) else front_pieces(item, inner)

@@ -14,10 +14,11 @@ from grafu.synth import untidy
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
+from grafu.synth.construction import Back, Base, FaceFrame, Top
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, Table, make_desk, make_table
-from grafu.synth.fronts import Mount
 from grafu.synth.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
+from grafu.synth.setting import Mount
 
 Maker = Callable[[], Asset]
 NARROW = Case(width=0.45)
@@ -50,8 +51,8 @@ TIDY: dict[str, Maker] = {
     "inset door, tight": _cabinet(Door(), "inset", gap=0.001),
     "half-overlay doors on one divider": _cabinet(Row((Door("right"), Door("left"))), case=Case()),
     "three doors in a row": _cabinet(Row((Door("left"), Door("left"), Door("right"))), case=Case(1.2)),
-    "inset doors in a face frame": _cabinet(Pair(), "inset", Case(frame=0.04), gap=0.002),
-    "overlay doors on a face frame": _cabinet(Pair(), case=Case(frame=0.04), lap=0.012),
+    "inset doors in a face frame": _cabinet(Pair(), "inset", Case(frame=FaceFrame(0.04)), gap=0.002),
+    "overlay doors on a face frame": _cabinet(Pair(), case=Case(frame=FaceFrame(0.04)), lap=0.012),
     "drawers behind a pair": _cabinet(Pair(behind=Stack((Drawer(handle="knob-round"), Bay()))), case=Case()),
     "drawers behind an inset door": _cabinet(Door(behind=Stack((Drawer(handle="none"),) * 2)), "inset"),
     "drawers with rails between": _cabinet(Stack((Drawer(),) * 3, between="rail"), "inset"),
@@ -64,7 +65,7 @@ TIDY: dict[str, Maker] = {
     "drawer fronts alone": _box("front only"),
     "lift-up flap": _cabinet(Door("top"), case=Case(height=0.4)),
     "drop-down flap": _cabinet(Door("bottom"), case=Case(height=0.4)),
-    "inset flap under an overhang": _cabinet(Door("top"), "inset", Case(top="over", overhang=0.03)),
+    "inset flap under an overhang": _cabinet(Door("top"), "inset", Case(top=Top("over", overhang=0.03))),
     "chest with a lid": lambda: make_chest(Chest()),
     "corner door at 45 degrees": lambda: make_corner_cabinet(CornerCabinet()),
     "corner door at 30 degrees": lambda: make_corner_cabinet(CornerCabinet(along_x=1.043, along_y=0.75)),
@@ -74,10 +75,10 @@ TIDY: dict[str, Maker] = {
     "table without aprons": lambda: make_table(Table(has_aprons=False)),
     "two-sided table": lambda: make_table(Table(two_sided=True)),
     "desk with a pedestal": lambda: make_desk(Desk()),
-    "tall wardrobe": _cabinet(Pair(), case=Case(1.0, 2.2, 0.6, base="plinth")),
-    "thin panels": _cabinet(Pair(), case=Case(panel=0.008, back=0.003), front=0.008),
+    "tall wardrobe": _cabinet(Pair(), case=Case(1.0, 2.2, 0.6, base=Base("plinth"))),
+    "thin panels": _cabinet(Pair(), case=Case(panel=0.008, back=Back(thickness=0.003)), front=0.008),
     "thick panels": _cabinet(Pair(), "inset", Case(1.0, panel=0.05), front=0.05, gap=0.003),
-    "no top": _cabinet(Pair(), case=Case(top="none")),
+    "no top": _cabinet(Pair(), case=Case(top=Top("none"))),
     "chamfered door": _leaf("chamfered"),
     "rounded door": _leaf("rounded"),
     "bowed door": _leaf("bowed"),

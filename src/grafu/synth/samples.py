@@ -6,6 +6,7 @@ from grafu.asset.part import Asset
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
+from grafu.synth.construction import Base, FaceFrame, Top
 from grafu.synth.desk import Desk, make_desk
 from grafu.synth.finish import textured_finish
 from grafu.synth.layout import Bay, Door, Drawer, Pair, Row, Stack
@@ -15,7 +16,7 @@ def kitchen_base() -> Asset:
     """Returns a kitchen base cabinet: two overlay doors under two drawers, a worktop, a plinth."""
     drawers = Row((Drawer(), Drawer()))
     layout = Stack((Pair(leaf="shaker", shelves=1), drawers), (3.4, 1.0))
-    case = Case(0.9, 0.9, 0.56, base="plinth", top="over", overhang=0.025)
+    case = Case(0.9, 0.9, 0.56, base=Base("plinth"), top=Top("over", overhang=0.025))
     return make_cabinet(Cabinet("kitchen_base", case, layout, finish=textured_finish(1)))
 
 
@@ -23,7 +24,7 @@ def dresser() -> Asset:
     """Returns a dresser on legs: six inset drawers in a face frame, with knobs."""
     row = Row((Drawer(handle="knob-round", leaf="chamfered"), Drawer(handle="knob-round", leaf="chamfered")))
     layout = Stack((row, row, row), (1.3, 1.15, 1.0), between="rail")
-    case = Case(1.3, 0.85, 0.48, base="legs", base_height=0.14, top="over", overhang=0.02, frame=0.032)
+    case = Case(1.3, 0.85, 0.48, base=Base("legs", 0.14), top=Top("over", overhang=0.02), frame=FaceFrame(0.032))
     return make_cabinet(Cabinet("dresser", case, layout, "inset", gap=0.002, finish=textured_finish(2)))
 
 
@@ -33,7 +34,7 @@ def wardrobe() -> Asset:
         (Drawer(handle="knob-round"), Drawer(handle="knob-round"), Bay(shelves=2)), (1.0, 1.0, 4.0), between="nothing"
     )
     layout = Row((Pair(leaf="shaker", shelves=1), Door("right", "shaker", behind=chest)), (2.0, 1.0))
-    case = Case(1.5, 2.1, 0.58, panel=0.02, base="plinth", base_height=0.08, moulding=0.06)
+    case = Case(1.5, 2.1, 0.58, panel=0.02, base=Base("plinth", 0.08), moulding=0.06)
     return make_cabinet(Cabinet("wardrobe", case, layout, front=0.022, finish=textured_finish(3)))
 
 
@@ -41,7 +42,7 @@ def sideboard() -> Asset:
     """Returns a sideboard: a glass door, three drawers, a drop-down flap over an open bay."""
     drawers = Stack((Drawer(), Drawer(), Drawer()), between="nothing")
     layout = Row((Door("left", "glass", "knob-round", shelves=2), drawers, Stack((Bay(), Door("bottom")))))
-    case = Case(1.6, 0.75, 0.42, base="legs", base_height=0.15)
+    case = Case(1.6, 0.75, 0.42, base=Base("legs", 0.15))
     return make_cabinet(Cabinet("sideboard", case, layout, finish=textured_finish(4)))
 
 

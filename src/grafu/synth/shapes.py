@@ -20,6 +20,36 @@ def board(low: tuple[float, float, float], high: tuple[float, float, float]) -> 
     return TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))
 
 
+def sheet(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:
+    """Returns the rectangle between two corners that agree along one axis, with faces on both sides."""
+    corners = Box(vec3(*low), vec3(*high)).corners()
+    flat = int(np.argmin(np.abs(np.subtract(high, low))))
+    a, b = (1 << k for k in range(3) if k != flat)
+    return TriangleMesh(corners[[0, a, a + b, b]], np.array([[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]]))
+
+
+def arched_rail(box: Box, rise: float, steps: int = 10) -> TriangleMesh:
+    """Returns an upright board along x whose lower edge is an arch, `rise` higher in the middle than at its ends."""
+    (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
+    shares = np.linspace(0.0, 1.0, steps + 1)
+    low = z0 + rise * (1 - (2 * shares - 1) ** 2)
+    rings = [
+        [(x, y0, z), (x, y1, z), (x, y1, z1), (x, y0, z1)]
+        for x, z in zip((x0 + shares * (x1 - x0)).tolist(), low.tolist(), strict=True)
+    ]
+    return loft(np.array(rings))
+
+
+def table_board(box: Box, edge: float, rounded: bool, steps: int = 4) -> TriangleMesh:
+    """Returns a level board whose upper edges are chamfered or rounded by `edge`."""
+    angles = np.linspace(0.0, np.pi / 2, (steps if rounded else 1) + 1)
+    rings = [_level_ring(box, float(box.low[2]), 0.0)]
+    for angle in angles.tolist():
+        z, inset = box.high[2] - edge * (1 - np.sin(angle)), edge * (1 - np.cos(angle))
+        rings.append(_level_ring(box, float(z), float(inset)))
+    return loft(np.stack(rings))
+
+
 def loft(rings: Rings) -> TriangleMesh:
     """Returns the solid through convex rings of equally many points, both ends capped.
 
@@ -103,3 +133,9 @@ def _front_ring(box: Box, y: float, inset: float) -> Float[np.ndarray, "4 3"]:
     x0, z0 = box.low[0] + inset, box.low[2] + inset
     x1, z1 = box.high[0] - inset, box.high[2] - inset
     return np.array([(x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1)])
+
+
+def _level_ring(box: Box, z: float, inset: float) -> Float[np.ndarray, "4 3"]:
+    x0, y0 = box.low[0] + inset, box.low[1] + inset
+    x1, y1 = box.high[0] - inset, box.high[1] - inset
+    return np.array([(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)])

@@ -1,0 +1,115 @@
+"""What fills the room behind an opening: shelves, dividers, rods, baskets, runners. It knows no fronts."""
+
+from collections.abc import Iterator
+
+from grafu.geometry.arrays import vec3
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.synth.assembly import Piece
+from grafu.synth.inside import Inside
+from grafu.synth.layout import Cell, Edge
+from grafu.synth.planks import Span, plank, solid
+from grafu.synth.setting import Setting, inner_span
+from grafu.synth.shapes import rod
+from grafu.vocabulary import PartLabel
+
+FRONT_ROOM = 0.01  # metres between fronts and what lies behind them
+GLASS_SHELF = 0.006  # metres
+WIRE = 0.002  # metres: the radius of a basket's wires
+ROD = 0.0125  # metres: the radius of a hanging rod, 25 mm tubes being the usual ones
+RUNNER = (0.011, 0.035)  # metres: how thick and how high slides are
+
+
+def interior_pieces(shelves: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields the shelves and fittings of one opening."""
+    yield from _shelves(shelves, inside, cell, setting)
+    o, (x0, x1) = cell.opening, inner_span(cell, setting)
+    y0, y1 = setting.inner + FRONT_ROOM, setting.back
+    room = o.height / (shelves + 1) - min(setting.panel, 0.018) / 2
+    if inside.dividers:
+        yield from _dividers(inside.dividers, ((x0, y0, o.z0), (x1, y1, o.z0 + room)), setting)
+    if inside.rod:
+        z, y = o.z1 - min(0.06, 0.3 * room), (y0 + y1) / 2
+        yield solid(PartLabel.BAR, "hanging_rod", setting.finish.metal, [rod(vec3(x0, y, z), vec3(x1, y, z), ROD, 10)])
+    if inside.basket != "none":
+        mesh = _basket if inside.basket == "wire" else _rack
+        span = ((x0 + 0.01, y0 + 0.01, o.z0), (x1 - 0.01, y1 - 0.01, o.z0 + min(0.15, 0.6 * room)))
+        yield solid(PartLabel.MISC, f"{inside.basket}_basket", setting.finish.metal, [mesh(span)])
+    for k in range(inside.runners):
+        yield from runner_pieces(cell, setting, o.z0 + o.height * (k + 1) / (inside.runners + 1), RUNNER[0])
+    yield from _wall_rails(inside.rails, cell, setting)
+
+
+def runner_pieces(cell: Cell, setting: Setting, z: float, thick: float) -> Iterator[Piece]:
+    """Yields a slide on either wall of a cell at the height `z`, where there is a wall; `thick` into the opening."""
+    o, (x0, x1) = cell.opening, inner_span(cell, setting)
+    y0, y1, half = setting.inner + FRONT_ROOM, setting.back - 0.01, min(RUNNER[1], 0.3 * o.height) / 2
+    walls = ((cell.edges.left, x0, o.x0 + thick), (cell.edges.right, o.x1 - thick, x1))
+    for edge, low, high in walls:
+        if edge is not Edge.SEAM:
+            yield plank(
+                PartLabel.MISC, "drawer_runner", setting.finish.metal, ((low, y0, z - half), (high, y1, z + half))
+            )
+
+
+def _shelves(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+    x0, x1 = inner_span(cell, setting)
+    y0, finish = setting.inner + FRONT_ROOM, setting.finish
+    if inside.shelf == "short":
+        y0 = setting.back - 0.6 * (setting.back - y0)
+    glass = inside.shelf == "glass"
+    half = GLASS_SHELF / 2 if glass else min(setting.panel, 0.018) / 2
+    for k in range(count):
+        z = cell.opening.z0 + cell.opening.height * (k + 1) / (count + 1)
+        span = ((x0, y0, z - half), (x1, setting.back, z + half))
+        yield plank(PartLabel.SHELF, "shelf", finish.glass if glass else finish.inside, span)
+
+
+def _dividers(count: int, room: Span, setting: Setting) -> Iterator[Piece]:
+    (x0, y0, z0), (x1, y1, z1) = room
+    half = min(setting.panel, 0.012) / 2
+    for k in range(count):
+        x = x0 + (x1 - x0) * (k + 1) / (count + 1)
+        yield plank(PartLabel.DIVIDER, "divider", setting.finish.inside, ((x - half, y0, z0), (x + half, y1, z1)))
+
+
+def _basket(span: Span) -> TriangleMesh:
+    """Returns an open basket: wires along and across its floor, which turn up at its sides, and a rim."""
+    (x0, y0, z0), (x1, y1, z1) = span
+    low, high, count = z0 + WIRE, z1 - WIRE, 6
+    wires = []
+    for k in range(count):
+        x = x0 + (x1 - x0) * (k + 0.5) / count
+        y = y0 + (y1 - y0) * (k + 0.5) / count
+        wires += [_wire((x, y0, low), (x, y1, low)), _wire((x0, y, low), (x1, y, low))]
+    for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)):
+        wires.append(_wire((x, y, z0), (x, y, z1)))
+    return merge_meshes([*wires, *_rim(span, high)])
+
+
+def _rack(span: Span) -> TriangleMesh:
+    """Returns a plate rack: two bars on the floor and a row of upright wires between them and a rim."""
+    (x0, y0, z0), (x1, y1, z1) = span
+    low, count = z0 + WIRE, 8
+    wires = [_wire((x0, y, low), (x1, y, low)) for y in (y0, y1)]
+    for k in range(count):
+        x = x0 + (x1 - x0) * k / (count - 1)
+        wires += [_wire((x, y0, z0), (x, y0, z1)), _wire((x, y1, z0), (x, y1, z1))]
+    return merge_meshes([*wires, *_rim(span, z1 - WIRE)])
+
+
+def _rim(span: Span, z: float) -> list[TriangleMesh]:
+    (x0, y0, _), (x1, y1, _) = span
+    corners = ((x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z))
+    return [_wire(a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True)]
+
+
+def _wire(start: tuple[float, float, float], end: tuple[float, float, float]) -> TriangleMesh:
+    return rod(vec3(*start), vec3(*end), WIRE, 4)
+
+
+def _wall_rails(count: int, cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields bars along the back wall: the first below the top, the second above the bottom."""
+    o, (x0, x1), high = cell.opening, inner_span(cell, setting), min(0.07, 0.2 * cell.opening.height)
+    for z in (o.z1 - high, o.z0)[:count]:
+        span = ((x0, setting.back - 0.012, z), (x1, setting.back, z + high))
+        yield plank(PartLabel.BAR, "wall_rail", setting.finish.inside, span)
