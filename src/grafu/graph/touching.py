@@ -22,7 +22,7 @@ Pairs = Sequence[tuple[int, int]]
 # So many of a part's largest triangles are tried before all of them: on real furniture 50 to 100 are quickest, four
 # times as quick as none.
 _FEW = 100
-_MOST_CORNERS = 2000  # corners of a mesh that are tried; more cost more than the triangles' own distance
+_MOST_FACES = 1000  # a mesh of more is rarely boards, and looking costs more than the triangles' own distance
 _MOST_PAIRS = 20_000  # of rectangles and corners between two meshes, likewise
 _EXACT = 1e-9  # metres by which a corner may miss its rectangle
 
@@ -56,7 +56,7 @@ def counters(counts: Indices) -> np.ndarray:
 @final
 @dataclass(frozen=True, eq=False)
 class _Flats:
-    """Rectangles and loose corners of all meshes, those of mesh k from `starts[k]` to `starts[k + 1]`.
+    """Rectangles and loose corners of all but large meshes, those of mesh k from `starts[k]` to `starts[k + 1]`.
 
     `is_whole` says of each mesh whether it is rectangles and nothing else.
     """
@@ -68,29 +68,23 @@ class _Flats:
 
 
 def _flats(triangles: list[np.ndarray]) -> _Flats:
-    counts = np.array([len(t) for t in triangles])
+    sizes = np.array([len(t) for t in triangles])
+    counts = np.where(sizes <= _MOST_FACES, sizes, 0)
     ends = np.cumsum(counts)
-    corners = np.concatenate(triangles)
+    corners = np.concatenate([t[:n] for t, n in zip(triangles, counts.tolist(), strict=True)])
     first = np.concatenate([np.arange(e - n, e - 1, 2) for n, e in zip(counts.tolist(), ends.tolist(), strict=True)])
     is_rectangle, low, high = _rectangles(corners[first], corners[first + 1])
     first = first[is_rectangle]
     is_loose = np.ones(len(corners), dtype=bool)
     is_loose[first] = is_loose[first + 1] = False
     owner = np.repeat(np.arange(len(counts)), counts)
-    loose = np.bincount(owner[is_loose], minlength=len(counts))
-    tried = _thinned(np.flatnonzero(is_loose), loose)
-    points = corners[tried].reshape(-1, 3)
-    of = np.concatenate([owner[first], np.repeat(owner[tried], 3)])
+    points = corners[is_loose].reshape(-1, 3)
+    of = np.concatenate([owner[first], np.repeat(owner[is_loose], 3)])
     order = np.argsort(of, kind="stable")
     starts = np.searchsorted(of[order], np.arange(len(counts) + 1))
     low, high = np.concatenate([low[is_rectangle], points])[order], np.concatenate([high[is_rectangle], points])[order]
-    return _Flats(low, high, starts, loose == 0)
-
-
-def _thinned(rows: np.ndarray, counts: Indices) -> np.ndarray:
-    """Returns rows that come one mesh after another, `counts` of each, those of large meshes thinned out."""
-    steps = np.repeat(np.maximum(3 * counts // _MOST_CORNERS, 1), counts)
-    return rows[counters(counts) % steps == 0]
+    loose = np.bincount(owner[is_loose], minlength=len(counts))
+    return _Flats(low, high, starts, (loose == 0) & (counts == sizes))
 
 
 def _rectangles(a: np.ndarray, b: np.ndarray) -> tuple[Mask, np.ndarray, np.ndarray]:
