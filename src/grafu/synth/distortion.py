@@ -1,0 +1,99 @@
+"""Furniture out of shape: stretched along its axes, turned the wrong way, bent as scans are, fronts left ajar.
+
+Joints follow: axes stay on their lines, slides scale with the axis they run along, angles stay. Positive still opens
+and 0 is the pose as modelled, so that what is ajar has that much less to go.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Mat4, Points, Vec3
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import from_rotation
+from grafu.vocabulary import JointType
+
+STRAIGHT = 0.93  # mean largest component of a face normal: 1 for boards along the axes, 0.87 for a door at 30 degrees
+
+
+def stretched(asset: Asset, factors: Vec3) -> Asset:
+    """Returns the asset scaled by its own factor along each axis, about the origin; a negative one mirrors.
+
+    Where a door or drawer stands at an angle (a corner cabinet), x and y share their mean factor: it stays square.
+
+    Raises:
+        ValueError: if a factor is 0.
+    """
+    if np.any(factors == 0):
+        raise ValueError(f"`factors` must not be 0: got {factors.tolist()}")
+    if abs(factors[0]) != abs(factors[1]) and not all(_is_straight(asset.part(j.part)) for j in asset.joints):
+        mean = float(np.abs(factors[:2]).mean())
+        factors = np.sign(factors) * np.array([mean, mean, abs(factors[2])])
+    T = from_rotation(np.diag(factors))
+    return replace(
+        asset,
+        parts=tuple(_moved(p, T) for p in asset.parts),
+        joints=tuple(_stretched_joint(joint, T) for joint in asset.joints),
+    )
+
+
+def ajar(asset: Asset, part_id: str, share: float) -> Asset:
+    """Returns the asset with a door or drawer, and what rides on it, opened by a share of its range.
+
+    Raises:
+        ValueError: if the share is not in 0..1.
+    """
+    if not 0.0 <= share <= 1.0:
+        raise ValueError(f"`share` must be in 0..1: got {share}")
+    joint = next(j for j in asset.joints if j.part == part_id)
+    amount = share * joint.upper
+    T = joint.axis.rotation(amount) if joint.type is JointType.REVOLUTE else joint.axis.shift(amount)
+    shorter = replace(joint, upper=joint.upper - amount)
+    return replace(
+        asset,
+        parts=tuple(_moved(p, T) if part_id in (p.id, p.rides_on) else p for p in asset.parts),
+        joints=tuple(shorter if j is joint else j for j in asset.joints),
+    )
+
+
+def bent(asset: Asset, amplitude: float, rng: np.random.Generator) -> Asset:
+    """Returns the asset with its vertices shifted by a smooth random field of at most `amplitude` metres per axis.
+
+    Neighbours shift almost alike, so that gaps stay; joints stay where they were.
+    """
+    waves = rng.normal(size=(3, 3)) * 2 * np.pi / max(asset.unit, 1e-6)
+    phases = rng.uniform(0, 2 * np.pi, 3)
+
+    def field(points: Points) -> Points:
+        return np.asarray(points + amplitude * np.sin(points @ waves.T + phases))
+
+    return _with_points(asset, field)
+
+
+def _with_points(asset: Asset, move: Callable[[Points], Points]) -> Asset:
+    def moved(surface: Surface) -> Surface:
+        mesh = TriangleMesh(move(surface.mesh.vertices), surface.mesh.faces)
+        return Surface(mesh, surface.material, surface.uv)
+
+    return replace(asset, parts=tuple(replace(p, surfaces=tuple(moved(s) for s in p.surfaces)) for p in asset.parts))
+
+
+def _moved(part: Part, T: Mat4) -> Part:
+    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
+
+
+def _stretched_joint(joint: AnnotatedJoint, T: Mat4) -> AnnotatedJoint:
+    if joint.type is JointType.REVOLUTE:
+        return replace(joint, axis=joint.axis.transformed(T))
+    growth = float(np.linalg.norm(T[:3, :3] @ joint.axis.direction))
+    axis = joint.axis.transformed(T, rotational=False)
+    return replace(joint, axis=axis, lower=joint.lower * growth, upper=joint.upper * growth)
+
+
+def _is_straight(part: Part) -> bool:
+    largest = np.abs(part.mesh.face_normals).max(axis=1)
+    areas = part.mesh.face_areas
+    return float((largest * areas).sum()) >= STRAIGHT * float(areas.sum())

@@ -1,0 +1,141 @@
+"""The true functional graph of made furniture: what touches, and what carries each door, drawer and handle.
+
+Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door is the
+still part nearest to its pin, those of a drawer the nearest ones beside its flanks, by distances from real meshes; a
+part that touches nothing has its mount all the same. It knows no grammar: a shifted or merged model is read alike.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.point_distance import point_triangle_distances
+from grafu.graph.edges import Attached, Edge, Hinge, Rail
+from grafu.graph.edit import with_edges
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import axis_to_hinge, axis_to_rail
+from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.vocabulary import JointType, PartLabel
+
+PIN_SAMPLES = np.linspace(0.1, 0.9, 5)  # shares of a door's border: its ends are where other parts are nearest
+RAIL_SAMPLES = np.linspace(0.25, 0.9, 4)  # shares of a drawer's depth: the front itself often laps the case
+LEAST_DEPTH = 0.15  # metres behind a front without a box in which its carriers are sought
+REACH = 0.12  # metres from a flank within which a part can carry a rail: a wider gap needs a part above instead
+NEAREST = 6  # parts whose meshes are asked, chosen by their boxes: a frame's box can hold a pin that the frame does not
+ALIKE = 0.003  # metres: of parts as near as this to the nearest one, the largest carries (a panel, not its edge sheet)
+APART = 0.015  # metres added where a part does not touch what it might carry
+ODD = 0.03  # metres added for odds and ends (runners, brackets): what they are screwed to carries
+
+
+def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGraph:
+    """Returns the functional graph of an asset with true labels, joints and riders; `points` on each node.
+
+    A joint that the codes cannot say (a sliding door) has no edge.
+
+    Raises:
+        GraphError: if a door turns about an axis across its thin side.
+    """
+    graph = parse_graph(whole, ParsingConfig(points=points, seed=seed))
+    moving = {joint.part for joint in whole.joints}
+    still = [p for p in whole.parts if p.id not in moving and p.rides_on is None and p.label.is_support]
+    edges: list[Edge] = []
+    for joint in whole.joints:
+        edges += _joint_edges(joint, whole.part(joint.part), graph, still)
+    for part in whole.parts:
+        if part.label is PartLabel.HANDLE and part.rides_on and whole.part(part.rides_on).label.is_movable:
+            edges.append(Attached(part.rides_on, part.id))
+    return with_edges(graph, edges)
+
+
+def carriers(graph: FunctionalGraph) -> frozenset[str]:
+    """Returns the parts that carry a door, a drawer or a handle in a functional graph."""
+    edges = (*graph.hinges, *graph.rails, *graph.attachments)
+    return frozenset(edge.parent for edge in edges)
+
+
+def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, still: list[Part]) -> list[Edge]:
+    if not still:
+        return []
+    touching = set(graph.neighbours[part.id])
+    if joint.type is JointType.REVOLUTE and part.label is PartLabel.DOOR:
+        border, sign = axis_to_hinge(part.box, joint.axis)
+        return [Hinge(_door_mount(joint, part, still, touching), part.id, border, sign)]
+    if joint.type is JointType.PRISMATIC and part.label is PartLabel.DRAWER:
+        slide = axis_to_rail(joint.axis)
+        return [Rail(mount, part.id, slide) for mount in _drawer_mounts(joint, part, still, touching)]
+    return []
+
+
+def _door_mount(joint: AnnotatedJoint, door: Part, still: list[Part], touching: set[str]) -> str:
+    axis = joint.axis
+    along = (door.box.corners() - axis.point) @ axis.direction
+    shares = along.min() + PIN_SAMPLES * np.ptp(along)
+    return _best(axis.point + shares[:, None] * axis.direction, still, touching)[0]
+
+
+def _drawer_mounts(joint: AnnotatedJoint, drawer: Part, still: list[Part], touching: set[str]) -> list[str]:
+    """Returns one or two mounts: beside each flank; else what lies above; else the nearest part."""
+    slide, up = joint.axis.direction, np.array([0.0, 0.0, 1.0])
+    across = np.cross(up, slide)
+    beside = [p for p in still if _share_of_height(drawer, p) > 0.3]
+    found: dict[str, None] = {}
+    for side in (-across, across):
+        samples = _flank(drawer, slide, side)
+        middle = float(np.mean(_span(drawer, side)))
+        outside = [p for p in beside if _span(p, side)[1] > middle + 0.01]
+        best = _best(samples, outside, touching) if outside else None
+        if best and best[1] < REACH:
+            found[best[0]] = None
+    if found:
+        return list(found)
+    above = [p for p in still if p.box.high[2] > drawer.box.high[2] - 0.005 and p.box.center[2] > drawer.box.center[2]]
+    top = _flank(drawer, slide, np.zeros(3))
+    top[:, 2] = drawer.box.high[2]
+    return [_best(top, above or still, touching)[0]]
+
+
+def _flank(drawer: Part, slide: Vec3, side: Vec3) -> Points:
+    """Returns points on a drawer's flank towards `side` (its middle where that is zero), from the front backwards."""
+    center = drawer.box.center
+    (inner, front), (_, flank) = _span(drawer, slide), _span(drawer, side)
+    start = center + slide * (front - center @ slide) + side * (flank - center @ side)
+    return np.asarray(start - np.outer(RAIL_SAMPLES * max(front - inner, LEAST_DEPTH), slide))
+
+
+def _best(samples: Points, parts: Sequence[Part], touching: set[str]) -> tuple[str, float]:
+    """Returns the part that carries what runs along the samples, and its mean distance in metres."""
+    near = _nearest_boxes(samples, parts)
+    distances = _mesh_distances(samples, near)
+    score = distances + [APART * (p.id not in touching) + ODD * (p.label is PartLabel.MISC) for p in near]
+    alike = np.flatnonzero(score <= score.min() + ALIKE)
+    chosen = max(alike, key=lambda k: near[k].box.volume)
+    return near[chosen].id, float(distances[chosen])
+
+
+def _nearest_boxes(samples: Points, parts: Sequence[Part]) -> list[Part]:
+    low, high = np.array([p.box.low for p in parts]), np.array([p.box.high for p in parts])
+    outside = np.maximum(np.maximum(low[:, None] - samples, samples - high[:, None]), 0.0)
+    order = np.argsort(np.linalg.norm(outside, axis=2).mean(axis=1), kind="stable")
+    return [parts[k] for k in order[:NEAREST]]
+
+
+def _mesh_distances(samples: Points, parts: Sequence[Part]) -> Scalars:
+    """Returns each part's mean distance from the samples."""
+    counts = [len(p.mesh.faces) for p in parts]
+    all_distances = point_triangle_distances(samples, np.concatenate([p.mesh.triangles for p in parts]))
+    starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.int64)
+    return np.asarray(np.minimum.reduceat(all_distances, starts, axis=1).mean(axis=0))
+
+
+def _share_of_height(drawer: Part, part: Part) -> float:
+    """Returns how much of the lower of the two heights the parts share."""
+    shared = min(drawer.box.high[2], part.box.high[2]) - max(drawer.box.low[2], part.box.low[2])
+    return float(shared / max(min(drawer.box.size[2], part.box.size[2]), 1e-9))
+
+
+def _span(part: Part, direction: Vec3) -> tuple[float, float]:
+    """Returns how far a part reaches along a direction, from and to, in metres from the origin."""
+    along = part.mesh.vertices @ direction
+    return float(along.min()), float(along.max())
