@@ -6,12 +6,12 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from small_graphs import cabinet
 
 from grafu.data.corruption.config import PAPER, CorruptionConfig
 from grafu.data.fold import FOLDS, fold, folded
 from grafu.data.pair import natural_pair
 from grafu.data.split import Split, split_models, split_of
+from small_graphs import cabinet
 
 OTHER = replace(cabinet(), model_id="other")
 

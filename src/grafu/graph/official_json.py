@@ -17,7 +17,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
 from grafu.graph.json_values import Json, read_list, read_object, read_text, read_vector
 from grafu.graph.motion import signed_axis
 from grafu.graph.official_labels import material_to_label, node_to_material
-from grafu.graph.official_motion import motion_fields, read_hinge, read_rail
+from grafu.graph.official_motion import motion_fields, older_motion_fields, read_hinge, read_rail
 from grafu.vocabulary import PartLabel
 
 _DIGITS = 6  # the authors' builder rounds to micrometres
@@ -38,19 +38,24 @@ def input_to_official(graph: FunctionalGraph) -> dict[str, Any]:
     return {"model_id": graph.model_id, "nodes": _nodes_to_official(graph), "edges": edges}
 
 
-def functional_to_official(graph: FunctionalGraph) -> dict[str, Any]:
-    """Returns the authors' functional graph: motion keys on edges, `handle_border` on doors that have a handle."""
+def functional_to_official(graph: FunctionalGraph, older_labels: bool = False) -> dict[str, Any]:
+    """Returns the authors' functional graph: motion keys on edges, `handle_border` on doors that have a handle.
+
+    With `older_labels` the edges also carry the keys of the second label version (official.md 2.5).
+    """
     nodes = _nodes_to_official(graph)
     for edge in graph.attachments:
         door, handle = graph.node(edge.parent), graph.node(edge.child)
         if door.label is PartLabel.DOOR:
             nodes[door.id].setdefault("handle_border", handle_border(door.box, handle.box))
     edges = [_edge_to_official(e, graph) | motion_fields(e, graph) for e in graph.edges]
+    if older_labels:
+        edges = [d | older_motion_fields(e, graph, d["src"]) for d, e in zip(edges, graph.edges, strict=True)]
     return {"model_id": graph.model_id, "nodes": nodes, "edges": edges}
 
 
 def graph_from_official(data: Json) -> OfficialReading:
-    """Returns an input or functional graph.
+    """Returns an input or functional graph; `nodes` may also be a list, whose order is the slots' then.
 
     Raises:
         GraphError: if a value is missing or wrong, or the graph breaks an invariant.
@@ -109,7 +114,11 @@ def _edge_to_official(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
 
 
 def _node_items(data: Json) -> list[tuple[str, Json]]:
-    nodes = read_object(data.get("nodes"), "`nodes`")
+    nodes = data.get("nodes")
+    if isinstance(nodes, list):
+        listed = [read_object(node, "a node") for node in nodes]
+        return [(read_text(node, "id", "a node"), node) for node in listed]
+    nodes = read_object(nodes, "`nodes`")
     return [(key, read_object(node, f"node `{key}`")) for key, node in nodes.items()]
 
 

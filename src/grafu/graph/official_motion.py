@@ -3,11 +3,13 @@
 from dataclasses import dataclass
 from typing import Any, cast, final
 
+import numpy as np
+
 from grafu.geometry.box import Box
 from grafu.graph.edges import AxisSign, Edge, Hinge, HingeBorder, Rail, SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.json_values import Json, read_code
-from grafu.graph.motion import border_to_face, border_to_signed_axis, face_to_border
+from grafu.graph.motion import border_to_face, border_to_signed_axis, face_to_border, opposite, signed_axis
 
 
 @final
@@ -34,6 +36,27 @@ def motion_fields(edge: Edge, graph: FunctionalGraph) -> dict[str, int]:
     }
 
 
+def older_motion_fields(edge: Edge, graph: FunctionalGraph, src: str) -> dict[str, int]:
+    """Returns the motion keys of the authors' second label version: unsigned axes, and the faces that touch.
+
+    `src` is the end of the edge that is written first. The face of a part that touches another is the one towards it
+    along the axis on which the two boxes are farthest apart.
+    """
+    if isinstance(edge, Rail):
+        return {"rail_axis": edge.axis // 2}
+    if not isinstance(edge, Hinge):
+        return {}
+    signed = border_to_signed_axis(graph.node(edge.child).box.thin_axis, edge.border, edge.sign)
+    first, second = (edge.parent, edge.child) if src == edge.parent else (edge.child, edge.parent)
+    face = _face_towards(graph.node(first).box, graph.node(second).box)
+    return {
+        "hinge_axis": signed // 2,
+        "hinge_direction": 1 - signed % 2,
+        "hinge_face_src": face,
+        "hinge_face_dst": opposite(face),
+    }
+
+
 def read_hinge(data: Json, door: Box, door_end: str) -> HingeCodes | None:
     """Returns the hinge that an edge states, in the newest of the three label versions that it has, or None.
 
@@ -56,6 +79,11 @@ def read_rail(data: Json) -> SignedAxis | None:
 def _second_version_axis(data: Json) -> int | None:
     axis, direction = read_code(data, "hinge_axis", 3), read_code(data, "hinge_direction", 2)
     return None if axis is None or direction is None else 2 * axis + (1 - direction)
+
+
+def _face_towards(box: Box, other: Box) -> SignedAxis:
+    axis = int(np.argmax(box.axis_gaps(other)))
+    return signed_axis(axis, bool(other.center[axis] >= box.center[axis]))
 
 
 def _codes_of(face: Any, axis: int | None, thin: int) -> HingeCodes | None:

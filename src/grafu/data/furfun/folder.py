@@ -1,0 +1,151 @@
+"""A release on disk as pairs, read one model at a time: FurFun-233, PN-M, HSSD, or one written by `write`."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import final
+
+from grafu.data.furfun.anchoring import paired
+from grafu.data.furfun.graph_files import GraphFile, load_graph_json, read_graph_file, why_skipped, with_points
+from grafu.data.furfun.layout import FurFunLayout, find_layout
+from grafu.data.furfun.points import PointFolder
+from grafu.data.furfun.split_files import read_split
+from grafu.data.pair import GraphPair
+from grafu.data.split import Split, split_models
+from grafu.errors import AssetError, GraphError
+from grafu.graph.functional_graph import FunctionalGraph
+
+
+@final
+@dataclass(frozen=True)
+class FurFunModel:
+    """One model of a release: its input graph, the whole one where the release has it, and notes on the reading."""
+
+    id: str
+    input: FunctionalGraph
+    pair: GraphPair | None
+    notes: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class FurFunFolder:
+    """The folder of a release; it is asked for models by id and keeps none of them.
+
+    Units are the files'. `points` is the number of points on each part (0: none), drawn with `seed` where a file has
+    more. Graphs without nodes are left out, and so are functional graphs that fall apart (the authors' loader does the
+    same; `keep_disconnected` keeps them). No graph is too large.
+
+    Raises:
+        UnreadableAsset: if the folder is not laid out like a release.
+    """
+
+    path: Path
+    points: int = 512  # the authors'
+    seed: int = 0
+    keep_disconnected: bool = False
+
+    def __post_init__(self) -> None:
+        if self.points < 0 or self.seed < 0:
+            raise ValueError(f"`points` and `seed` must not be negative: got {self.points}, {self.seed}")
+        self.layout  # noqa: B018  # a folder of another kind is refused now
+
+    @cached_property
+    def layout(self) -> FurFunLayout:
+        """Where everything lies."""
+        return find_layout(self.path)
+
+    @cached_property
+    def skipped(self) -> Mapping[str, str]:
+        """The ids of the models that are left out, and why."""
+        return MappingProxyType({i: why for i in self.layout.inputs if (why := self._why_skipped(i))})
+
+    @cached_property
+    def models(self) -> tuple[str, ...]:
+        """The ids of all models that can be read, sorted.
+
+        Raises:
+            UnreadableAsset: if a graph file is damaged.
+            GraphError: if a graph file is not JSON.
+        """
+        return tuple(i for i in self.layout.inputs if i not in self.skipped)
+
+    @property
+    def paired(self) -> tuple[str, ...]:
+        """The ids of the models that have a functional graph, sorted."""
+        return tuple(i for i in self.models if i in self.layout.functional)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was left out, in words."""
+        lonely = sorted(set(self.layout.functional) - set(self.layout.inputs))
+        return tuple(f"skipped {i}: {why}" for i, why in self.skipped.items()) + tuple(
+            f"skipped {i}: it has no input graph" for i in lonely
+        )
+
+    def model(self, model_id: str) -> FurFunModel:
+        """Returns a model.
+
+        Raises:
+            AssetError: if there is no such model, it is left out, or a file of it is damaged.
+            GraphError: if a graph of it is.
+        """
+        self._require_known(model_id)
+        given = read_graph_file(self.layout.inputs[model_id], model_id)
+        if model_id not in self.layout.functional:
+            points = self._point_folder(given, model_id)
+            graph = with_points(given.graph, points) if self.points else given.graph
+            return FurFunModel(model_id, graph, None, given.notes + _boxed(points, graph))
+        target = read_graph_file(self.layout.functional[model_id], model_id)
+        points = self._point_folder(target, model_id)
+        whole = with_points(target.graph, points) if self.points else target.graph
+        pair, notes = paired(given.graph, whole, given.kinds, model_id)
+        return FurFunModel(model_id, pair.input, pair, target.notes + notes + _boxed(points, whole))
+
+    def pair(self, model_id: str) -> GraphPair:
+        """Returns the natural pair of a model.
+
+        Raises:
+            AssetError: if there is no such model, it is left out, or a file of it is damaged.
+            GraphError: if a graph of it is, or it has no functional graph.
+        """
+        pair = self.model(model_id).pair
+        if pair is None:
+            raise GraphError(f"`{model_id}` of {self.path} has no functional graph: ask for its model instead")
+        return pair
+
+    def split(self, name: str = "full_split") -> Split:
+        """Returns a split of the release, without models that are not there; 80/10/10 where there is no split file.
+
+        Raises:
+            AssetError: if there are split files but none of this name, or it is damaged.
+        """
+        if not self.layout.splits.is_dir():
+            return split_models(self.paired or self.models)
+        return read_split(self.layout.splits, name).only(self.models)
+
+    def _point_folder(self, file: GraphFile, model_id: str) -> PointFolder:
+        folders = [self.layout.geometry / name for name in (file.geometry_id, model_id) if Path(name).name == name]
+        folder = next((f for f in folders if f.is_dir()), self.layout.geometry / model_id)
+        return PointFolder(folder, self.points, self.seed)
+
+    def _why_skipped(self, model_id: str) -> str:
+        reason = why_skipped(load_graph_json(self.layout.inputs[model_id]), whole=False)
+        if reason or model_id not in self.layout.functional:
+            return reason
+        return why_skipped(load_graph_json(self.layout.functional[model_id]), whole=not self.keep_disconnected)
+
+    def _require_known(self, model_id: str) -> None:
+        if model_id not in self.layout.inputs:
+            raise AssetError(f"{self.path} holds no model `{model_id}`: it has {len(self.layout.inputs)} others")
+        if model_id in self.skipped:
+            raise AssetError(f"`{model_id}` of {self.path} is left out: {self.skipped[model_id]}")
+
+
+def _boxed(points: PointFolder, graph: FunctionalGraph) -> tuple[str, ...]:
+    count = len(points.boxed)
+    if not count:
+        return ()
+    return (f"drew points on the boxes of {count} of {len(graph.nodes)} parts: they have no .npy and no .ply",)

@@ -1,0 +1,112 @@
+"""One graph file of a release to one graph with points, and what its JSON says beyond it. It knows no folders."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, final
+
+from grafu.asset.mesh_files import read_bytes
+from grafu.asset.options import Limits
+from grafu.data.furfun.points import PointFolder
+from grafu.errors import GraphError, UnreadableAsset
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.json_values import Json
+from grafu.graph.official_json import graph_from_official
+from grafu.graph.serialize import load_json
+
+_LIMITS = Limits()
+
+
+@final
+@dataclass(frozen=True)
+class GraphFile:
+    """A graph as it was read. `geometry_id` is the id in its JSON, under which its points lie (official.md 2.3).
+
+    `kinds` are the words for the edges in the file, the functional one where an edge is stated twice.
+    """
+
+    graph: FunctionalGraph
+    geometry_id: str
+    kinds: Mapping[frozenset[str], str]
+    notes: tuple[str, ...]
+
+
+def read_graph_file(path: Path, model_id: str) -> GraphFile:
+    """Returns the graph in a file, named `model_id`, without points.
+
+    Raises:
+        UnreadableAsset: if the file is missing or not text.
+        GraphError: if it is not JSON, a value is missing or wrong, or the graph breaks an invariant.
+    """
+    data = load_graph_json(path)
+    try:
+        reading = graph_from_official(data)
+    except GraphError as error:
+        raise GraphError(f"{path}: {error}") from error
+    geometry_id = reading.graph.model_id or model_id
+    return GraphFile(replace(reading.graph, model_id=model_id), geometry_id, _kinds(data), reading.notes)
+
+
+def load_graph_json(path: Path) -> Json:
+    """Returns the JSON object in a graph file.
+
+    Raises:
+        UnreadableAsset: if the file is missing or not text.
+        GraphError: if it is not a JSON object.
+    """
+    try:
+        return load_json(read_bytes(path, _LIMITS).decode())
+    except UnicodeDecodeError:
+        raise UnreadableAsset(f"{path} is no text: expected a graph as JSON in UTF-8") from None
+    except GraphError as error:
+        raise GraphError(f"{path}: {error}") from error
+
+
+def with_points(graph: FunctionalGraph, points: PointFolder) -> FunctionalGraph:
+    """Returns the graph with the points of each part.
+
+    Raises:
+        UnreadableAsset: if a point file is damaged.
+    """
+    return replace(graph, nodes=tuple(replace(n, points=points.points(n.id, n.box)) for n in graph.nodes))
+
+
+def why_skipped(data: Json, whole: bool) -> str:
+    """Returns why the authors' loader leaves a graph out, in words, or nothing where it does not.
+
+    `whole` says that all parts must hang together over edges of any kind.
+    """
+    listed = data.get("nodes")
+    if not listed:
+        return "it has no nodes"
+    if not whole:
+        return ""
+    ids = [str(n.get("id")) if isinstance(n, Mapping) else str(n) for n in listed]
+    pieces = _count_pieces(ids, [e for e in data.get("edges") or () if isinstance(e, Mapping)])
+    return f"its functional graph falls into {pieces} pieces" if pieces > 1 else ""
+
+
+def _count_pieces(ids: list[str], edges: list[Mapping[str, Any]]) -> int:
+    root = {i: i for i in ids}
+
+    def find(i: str) -> str:
+        while root[i] != i:
+            root[i] = root[root[i]]
+            i = root[i]
+        return i
+
+    for edge in edges:
+        src, dst = str(edge.get("src")), str(edge.get("dst"))
+        if src in root and dst in root:
+            root[find(src)] = find(dst)
+    return sum(root[i] == i for i in root)
+
+
+def _kinds(data: Json) -> dict[frozenset[str], str]:
+    kinds: dict[frozenset[str], str] = {}
+    for edge in data.get("edges", ()):
+        ends, kind = frozenset((str(edge.get("src")), str(edge.get("dst")))), str(edge.get("kind"))
+        kind = kind if kind in ("hinge", "rail", "attached") else "contact"
+        if kinds.get(ends, "contact") == "contact":
+            kinds[ends] = kind
+    return kinds
