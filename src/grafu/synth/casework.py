@@ -1,0 +1,165 @@
+"""Draws the still part of a cabinet for a style: its case with base, top, sides, back, bottom and face frame.
+
+A family says what it allows (`Build`); the style's tradition weighs what is allowed. It knows no fronts.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.synth.case import Case
+from grafu.synth.chance import Span, between, chance, only, pick
+from grafu.synth.construction import (
+    Back,
+    BackKind,
+    Base,
+    BaseKind,
+    Bottom,
+    BottomKind,
+    FaceFrame,
+    FrameKind,
+    SideKind,
+    Sides,
+    Stretcher,
+    Top,
+    TopEdge,
+    TopKind,
+)
+from grafu.synth.legs import Leg, LegShape
+from grafu.synth.style import Style
+
+# How backs are modelled: nearly all are full sheets; the half and split ones are cheap furniture's.
+BACKS: Mapping[BackKind, float] = {"full": 0.92, "split": 0.03, "half": 0.02, "none": 0.03}
+BOTTOMS: Mapping[BottomKind, float] = {"between": 0.74, "sheet": 0.1, "under": 0.14, "none": 0.02}
+SIDES: Mapping[SideKind, float] = {"panel": 0.95, "framed": 0.05}
+CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.7, "framed": 0.3}
+# A face frame is one part in tidy models, its bars one by one in kitchen models (44781, 45001, 45463, 45940).
+FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
+EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.06}
+ORNATE_EDGES: Mapping[TopEdge, float] = {"square": 0.3, "chamfered": 0.15, "rounded": 0.2, "moulded": 0.35}
+STRETCHERS: Mapping[Stretcher, float] = {"none": 0.75, "sides": 0.05, "H": 0.07, "box": 0.06, "shelf": 0.07}
+HEIGHTS: Mapping[BaseKind, Span] = {  # metres: what a floor is swept under, and what a foot is tall
+    "none": (0.0, 0.0),
+    "plinth": (0.05, 0.15),
+    "toe kick": (0.08, 0.14),
+    "legs": (0.08, 0.25),
+    "posts": (0.08, 0.4),
+    "sled": (0.08, 0.22),
+}
+FOOT_HEIGHTS: Mapping[LegShape, Span] = {
+    "pad": (0.004, 0.02), "block": (0.02, 0.08), "bun": (0.04, 0.1), "caster": (0.04, 0.09)
+}  # fmt: skip
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Build:
+    """What a family allows of its cases: kinds of bases and tops, and how tall its legs are (None: as usual)."""
+
+    bases: tuple[BaseKind, ...] = ("none", "plinth", "toe kick", "legs", "posts", "sled")
+    tops: tuple[TopKind, ...] = ("between", "over")
+    legs: Span | None = None
+    open_back: bool = False
+    framed: bool = True
+    moulded: bool = True
+    top_thickness: Span | None = None
+
+
+ANY = Build()
+WALL_HUNG = Build(bases=("none",), tops=("between",))
+
+
+def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build = ANY) -> Case:
+    """Returns a case of the given outer size (width, depth, height) in this style.
+
+    Raises:
+        ValueError: if its panels leave no room inside.
+    """
+    width, depth, height = size
+    base = draw_base(rng, style, size, build)
+    framed = style.frame > 0 and build.framed and base.kind != "posts"
+    top = _top(rng, style, build)
+    moulding = style.moulding if build.moulded and top.kind in ("between", "over") and base.kind != "posts" else 0.0
+    classic = style.tradition in ("shaker", "ornate")
+    plain_side = base.kind == "posts" or style.panel < 0.012
+    return Case(
+        width=width,
+        height=height,
+        depth=depth,
+        panel=style.panel,
+        back=_back(rng, style, build),
+        base=base,
+        top=top,
+        frame=_frame(rng, style) if framed else None,
+        sides=Sides("panel" if plain_side else pick(rng, CLASSIC_SIDES if classic else SIDES)),
+        bottom=_bottom(rng, base),
+        moulding=moulding if height > 0.7 else 0.0,
+        moulding_at="top" if chance(rng, 0.8) else "bottom",
+        pilaster=between(rng, (0.03, 0.05)) if framed and style.tradition == "ornate" and chance(rng, 0.12) else 0.0,
+    )
+
+
+def draw_base(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build = ANY) -> Base:
+    """Returns what a case of this size stands on."""
+    width, depth, height = size
+    kind = pick(rng, only(style.rules.base, build.bases))
+    leg = draw_leg(rng, style, min(width, depth))
+    span = build.legs if kind in ("legs", "posts", "sled") and build.legs else HEIGHTS[kind]
+    if kind == "legs" and leg.shape in FOOT_HEIGHTS:
+        span = FOOT_HEIGHTS[leg.shape]
+    tall = min(between(rng, span), 0.5 * height)
+    stretcher: Stretcher = pick(rng, STRETCHERS) if kind in ("legs", "posts") and tall > 0.18 else "none"
+    apron = between(rng, (0.3, 0.6)) * tall if kind == "legs" and tall > 0.1 and chance(rng, 0.15) else 0.0
+    return Base(
+        kind=kind,
+        height=tall,
+        leg=leg,
+        inset=between(rng, (0.0, 0.03)),
+        recess=between(rng, (0.0, 0.08)),
+        boards=pick(rng, {1: 0.15, 2: 0.15, 3: 0.2, 4: 0.5}),
+        stretcher=stretcher,
+        stretcher_at=between(rng, (0.15, 0.6)),
+        apron=apron,
+        arched=chance(rng, 0.5),
+    )
+
+
+def draw_leg(rng: np.random.Generator, style: Style, side: float) -> Leg:
+    """Returns a leg of the style's tradition for furniture whose smaller side is `side` metres."""
+    thick = min(between(rng, (0.025, 0.065)), side / 7)
+    return Leg(pick(rng, style.rules.leg), thick, between(rng, (0.4, 0.8)), between(rng, (0.05, 0.18)))
+
+
+def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
+    kind = pick(rng, only(style.rules.top, build.tops))
+    if kind != "over":
+        thick = 0.0 if kind != "between" or chance(rng, 0.85) else between(rng, (0.9, 1.6)) * style.panel
+        return Top(kind, thick, width=between(rng, (0.05, 0.12)))
+    thick = between(rng, build.top_thickness or (style.panel, 1.8 * style.panel))
+    ornate = style.tradition in ("ornate", "shaker")
+    return Top(
+        "over",
+        thick if build.top_thickness or chance(rng, 0.6) else 0.0,
+        overhang=between(rng, style.rules.overhang) if chance(rng, 0.75) else 0.0,
+        edge=pick(rng, ORNATE_EDGES if ornate else EDGES),
+        rim=between(rng, (0.02, 0.1)) if chance(rng, 0.04) else 0.0,
+    )
+
+
+def _back(rng: np.random.Generator, style: Style, build: Build) -> Back:
+    kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
+    rails = 3 if chance(rng, 0.08) else 0
+    return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
+
+
+def _bottom(rng: np.random.Generator, base: Base) -> Bottom:
+    kind = pick(rng, only(BOTTOMS, ("between", "sheet", "none") if base.kind in ("toe kick", "posts") else BOTTOMS))
+    overhang = between(rng, (0.005, 0.025)) if kind == "under" and chance(rng, 0.5) else 0.0
+    return Bottom(kind, overhang=overhang)
+
+
+def _frame(rng: np.random.Generator, style: Style) -> FaceFrame:
+    rail = style.frame * between(rng, (0.8, 1.5)) if chance(rng, 0.3) else 0.0
+    return FaceFrame(style.frame, pick(rng, FRAMES), 0.018 if style.panel < 0.012 else 0.0, rail, chance(rng, 0.05))

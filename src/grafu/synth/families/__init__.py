@@ -1,0 +1,1 @@
+"""Families of furniture: each draws a spec; `table` lists them all with their weights."""

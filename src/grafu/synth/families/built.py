@@ -1,0 +1,69 @@
+"""From a style, a size and a layout of bare fronts to a cabinet; it knows no family."""
+
+import numpy as np
+
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.carpentry import FREE, Site, fitted, needed_gap
+from grafu.synth.case import Case
+from grafu.synth.casework import ANY, Build, draw_case
+from grafu.synth.chance import Span, between
+from grafu.synth.layout import Layout
+from grafu.synth.style import Style
+
+Size = tuple[float, float, float]
+
+
+def draw_size(rng: np.random.Generator, width: Span, depth: Span, height: Span) -> Size:
+    """Returns a size (width, depth, height) in metres, each drawn evenly."""
+    return between(rng, width), between(rng, depth), between(rng, height)
+
+
+def build_cabinet(
+    rng: np.random.Generator,
+    name: str,
+    style: Style,
+    size: Size,
+    layout: Layout,
+    build: Build = ANY,
+    site: Site = FREE,
+) -> Cabinet:
+    """Returns the cabinet with every front decided and gaps wide enough for its doors to turn.
+
+    Raises:
+        ValueError: if the size leaves some part no room.
+    """
+    return cabinet_of(rng, name, style, draw_case(rng, style, size, build), layout, site)
+
+
+def cabinet_of(
+    rng: np.random.Generator,
+    name: str,
+    style: Style,
+    case: Case,
+    layout: Layout,
+    site: Site = FREE,
+    rear: Layout | None = None,
+) -> Cabinet:
+    """Returns a cabinet with this case, its fronts decided; `rear` faces +Y.
+
+    Raises:
+        ValueError: if the case leaves some front no room.
+    """
+    room = case.opening
+    fronts = fitted(rng, layout, room, style, site)
+    behind = None if rear is None else fitted(rng, rear, room, style, site)
+    gaps = [needed_gap(sides, room, style.front) for sides in (fronts, behind) if sides is not None]
+    return Cabinet(
+        name=name,
+        case=case,
+        layout=fronts,
+        mount=style.mount,
+        front=style.front,
+        gap=max(style.gap, *gaps),
+        seat=style.seat,
+        lap=style.lap,
+        slide_gap=style.slide_gap,
+        finish=style.finish,
+        rear=behind,
+        share=between(rng, (0.45, 0.65)),
+    )

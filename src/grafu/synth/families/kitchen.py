@@ -1,0 +1,154 @@
+"""Kitchens: base, wall, tall, sink and corner cabinets, islands, rows of units.
+
+Sizes are the trade's: base units 300 to 1200 mm wide, 550 to 650 deep, 720 to 900 high; wall units 300 to 370 deep.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.carpentry import FREE, Site, fitted
+from grafu.synth.casework import WALL_HUNG, Build, draw_case
+from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.construction import Top
+from grafu.synth.corner import CornerCabinet
+from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
+from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
+from grafu.synth.layout import Bay, Blank, Door, Layout, Pair, Rect, Row, Stack
+from grafu.synth.style import Style, draw_style
+from grafu.synth.traditions import TraditionName
+
+KITCHEN: Mapping[TraditionName, float] = {
+    "frameless": 0.42,
+    "face frame": 0.38,
+    "minimal": 0.1,
+    "shaker": 0.06,
+    "flat-pack": 0.04,
+}
+BASE = Build(
+    bases=("toe kick", "plinth", "legs", "none"),
+    tops=("between", "over", "none", "stretchers"),
+    legs=(0.08, 0.15),
+    moulded=False,
+)
+TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "over"), legs=(0.05, 0.15))
+ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
+BASE_FRONTS = {"doors": 0.3, "under drawers": 0.36, "drawers": 0.22, "beside": 0.06, "open": 0.06}
+
+
+def base_cabinet(rng: np.random.Generator) -> Cabinet:
+    """Returns a base unit: doors, doors under drawers, or drawers alone."""
+    style = draw_style(rng, KITCHEN)
+    size = draw_size(rng, (0.3, 1.2), (0.42, 0.65), (0.72, 0.9))
+    return build_cabinet(rng, "base_cabinet", style, size, base_layout(rng, style, size), BASE)
+
+
+def base_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
+    """Returns the fronts of a base unit of this size."""
+    width, _, height = size
+    kind = pick(rng, BASE_FRONTS)
+    if kind == "drawers":
+        return drawer_stack(rng, style, count(rng, 2, 5))
+    if kind == "under drawers":
+        return doors_under_drawers(rng, style, width, height)
+    if kind == "beside" and width > 0.7:
+        return doors_beside_drawers(rng, style, width, count(rng, 3, 4))
+    if kind == "open":
+        return Stack((doors_across(rng, width), Bay()), (between(rng, (1.0, 2.5)), 1.0))
+    return doors_across(rng, width)
+
+
+def wall_cabinet(rng: np.random.Generator) -> Cabinet:
+    """Returns a wall unit: doors, or a lift-up flap where it is wide and low (six in ten of those)."""
+    style = draw_style(rng, KITCHEN)
+    size = draw_size(rng, (0.3, 1.0), (0.28, 0.38), (0.3, 0.95))
+    return build_cabinet(
+        rng, "wall_cabinet", style, size, wall_layout(rng, style, size), WALL_HUNG, _beside(rng, ON_WALL)
+    )
+
+
+def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
+    """Returns the fronts of a wall unit of this size."""
+    width, _, height = size
+    if width > 1.5 * height and chance(rng, 0.6):
+        return Door("top")
+    if height > 0.6 and width > 0.5 and chance(rng, 0.08):
+        return Stack((Door("top"), Door("top")), between=style.between)
+    doors = doors_across(rng, width)
+    if height > 0.6 and chance(rng, 0.08):
+        return Stack((Bay(), doors), (1.0, between(rng, (1.5, 3.0))))
+    return doors
+
+
+def tall_cabinet(rng: np.random.Generator) -> Cabinet:
+    """Returns a tall unit: doors above doors, above drawers, or one door over all its height."""
+    style = draw_style(rng, KITCHEN)
+    size = draw_size(rng, (0.3, 0.95), (0.35, 0.62), (1.35, 2.3))
+    layout = tall_layout(rng, style, size)
+    return build_cabinet(rng, "tall_cabinet", style, size, layout, TALL, _beside(rng, FREE))
+
+
+def tall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
+    """Returns the fronts of a tall unit of this size."""
+    width = size[0]
+    doors = doors_across(rng, width)
+    kind = pick(rng, {"two": 0.45, "one": 0.2, "drawers": 0.2, "niche": 0.1, "three": 0.05})
+    if kind == "one":
+        return doors
+    low = between(rng, (0.25, 1.4))
+    if kind == "drawers":
+        return Stack((drawer_stack(rng, style, count(rng, 2, 4)), doors), (low, 1.5), style.between)
+    if kind == "niche":
+        return Stack((drawer_stack(rng, style, count(rng, 1, 2)), Bay(), doors), (1.0, 0.8, 1.2))
+    cells = (doors,) * (2 if kind == "two" else 3)
+    return Stack(cells, (low, *(1.0 for _ in cells[1:])), style.between)
+
+
+def sink_cabinet(rng: np.random.Generator) -> Cabinet:
+    """Returns a sink unit: doors, mostly under a false drawer front, a worktop with a basin or none at all."""
+    style = draw_style(rng, KITCHEN)
+    size = draw_size(rng, (0.6, 1.2), (0.5, 0.65), (0.72, 0.9))
+    doors: Layout = Pair() if size[0] > 0.65 else Door()
+    if chance(rng, 0.7):
+        share = between(rng, (0.14, 0.2)) / 0.75
+        blank: Layout = Row((Blank(), Blank())) if size[0] > 0.8 and chance(rng, 0.5) else Blank()
+        doors = Stack((doors, blank), (1.0 - share, share), "rail" if style.between == "panel" else style.between)
+    case = draw_case(rng, style, size, BASE)
+    if chance(rng, 0.5):
+        thick, over = between(rng, (0.02, 0.05)), between(rng, (0.0, 0.03))
+        case = replace(case, moulding=0.0, top=Top("over", thick, over, sink=True))
+    return cabinet_of(rng, "sink_cabinet", style, case, doors)
+
+
+def corner_cabinet(rng: np.random.Generator) -> CornerCabinet:
+    """Returns a corner unit with an angled front, high or low."""
+    style = draw_style(rng, KITCHEN)
+    tall = chance(rng, 0.5)
+    depth = between(rng, (0.3, 0.38)) if tall else between(rng, (0.45, 0.6))
+    along = depth + between(rng, (0.28, 0.45))
+    return CornerCabinet(
+        along_x=along,
+        along_y=along if chance(rng, 0.8) else depth + between(rng, (0.28, 0.45)),
+        depth=depth,
+        height=between(rng, (0.55, 0.95)),
+        panel=style.panel,
+        frame=max(style.frame, between(rng, (0.025, 0.05))),
+        door=_corner_door(rng, style),
+        mount=style.mount,
+        finish=style.finish,
+    )
+
+
+def _corner_door(rng: np.random.Generator, style: Style) -> Door:
+    door = fitted(rng, Door(), Rect(0.0, 0.45, 0.0, 0.7), style)
+    assert isinstance(door, Door)
+    return door
+
+
+def _beside(rng: np.random.Generator, site: Site) -> Site:
+    """Returns the site, in one of five cases with a wall or a tall unit on one side."""
+    if not chance(rng, 0.2):
+        return site
+    return Site("left" if chance(rng, 0.5) else "right", site.hand)

@@ -1,0 +1,129 @@
+"""Layouts of bare fronts that many families share: doors across a width, stacks and rows of drawers, a free grammar.
+
+Hinges, leaves and handles are left at their defaults: `carpentry` decides them.
+"""
+
+import numpy as np
+
+from grafu.synth.carpentry import drawer_heights
+from grafu.synth.chance import between, chance, count, pick, weights
+from grafu.synth.layout import Bay, Between, Blank, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.style import Style
+
+WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a pair
+WIDEST_PAIR = 1.15
+INNER_KNOBS = {"knob-round": 1.0, "none": 2.0}  # drawers behind doors are low: their handles must fit the room
+
+
+def doors_across(rng: np.random.Generator, width: float) -> Layout:
+    """Returns one door, a pair, or a row of them, as many as a carpenter would put across this width."""
+    if width < 0.4 or (width < WIDEST_DOOR and chance(rng, 0.55)):
+        return Door(behind=_behind(rng, width))
+    if width < WIDEST_PAIR:
+        return Pair(behind=_behind(rng, width)) if chance(rng, 0.86) else Row((Door(), Door()))
+    number = max(2, round(width / between(rng, (0.4, 0.6))))
+    pairs, single = divmod(number, 2)
+    cells: list[Layout] = [Pair()] * pairs
+    if chance(rng, 0.25):
+        return Row((Door(),) * number)
+    if single:
+        cells.insert(pick(rng, {0: 1.0, pairs: 1.0}), Door())
+    return Row(tuple(cells), tuple(1.0 if isinstance(cell, Door) else 2.0 for cell in cells))
+
+
+def drawer_stack(rng: np.random.Generator, style: Style, number: int) -> Layout:
+    """Returns drawers above each other, parted in the style's way."""
+    if number == 1:
+        return Drawer()
+    return Stack((Drawer(),) * number, drawer_heights(rng, number), style.between)
+
+
+def drawer_row(rng: np.random.Generator, number: int, spread: float = 0.0) -> Layout:
+    """Returns drawers side by side, parted by panels: their slides need a wall."""
+    if number == 1:
+        return Drawer()
+    return Row((Drawer(),) * number, weights(rng, number, spread))
+
+
+def drawer_grid(rng: np.random.Generator, style: Style, columns: int, rows: int) -> Layout:
+    """Returns drawers in rows, or in columns parted by uprights from top to bottom."""
+    if columns == 1:
+        return drawer_stack(rng, style, rows)
+    if chance(rng, 0.5):
+        return Row((drawer_stack(rng, style, rows),) * columns)
+    row = drawer_row(rng, columns)
+    return Stack((row,) * rows, drawer_heights(rng, rows), _level(style))
+
+
+def doors_under_drawers(rng: np.random.Generator, style: Style, width: float, height: float) -> Layout:
+    """Returns doors with a drawer above, or one above each door, or a false front."""
+    below = doors_across(rng, width)
+    number = 1 if width < 0.6 or chance(rng, 0.45) else 2 if width < 1.3 else round(width / 0.55)
+    above = drawer_row(rng, number) if chance(rng, 0.9) else Blank()
+    share = between(rng, (0.13, 0.19)) / max(height - 0.1, 0.3)
+    return Stack((below, above), (1.0 - share, share), _level(style))
+
+
+def doors_beside_drawers(rng: np.random.Generator, style: Style, width: float, number: int) -> Layout:
+    """Returns a stack of drawers with doors on one side of it or on both."""
+    drawers = drawer_stack(rng, style, number)
+    if width > 1.0 and chance(rng, 0.5):
+        if chance(rng, 0.65):
+            return Row((Door(), drawers, Door()), (1.0, between(rng, (0.8, 1.5)), 1.0))
+        side = drawer_stack(rng, style, number)
+        return Row((side, Pair(), side), (1.0, between(rng, (1.2, 2.0)), 1.0))
+    doors: Layout = Pair() if width > 0.9 and chance(rng, 0.6) else Door()
+    cells = (doors, drawers) if chance(rng, 0.5) else (drawers, doors)
+    wide = 1.5 if isinstance(doors, Pair) else 1.0
+    return Row(cells, (wide, 1.0) if cells[0] is doors else (1.0, wide))
+
+
+def free_layout(rng: np.random.Generator, style: Style, width: float, height: float, depth: int = 3) -> Layout:
+    """Returns a random layout: the opening is split into rows and stacks down to `depth`, each cell then filled."""
+    splits = {"row": max(width - 0.5, 0.0), "stack": max(height - 0.45, 0.0), "leaf": 0.4 if depth < 3 else 0.1}
+    kind = pick(rng, splits) if depth > 0 else "leaf"
+    if kind == "leaf":
+        return free_leaf(rng, style, width, height)
+    number = count(rng, 2, 3) if (width if kind == "row" else height) > 0.9 else 2
+    shares = weights(rng, number, pick(rng, {0.0: 0.5, 0.4: 0.5})) or (1.0,) * number
+    whole = sum(shares)
+    if kind == "row":
+        cells = tuple(free_layout(rng, style, width * share / whole, height, depth - 1) for share in shares)
+        return Row(cells, shares)
+    cells = tuple(free_layout(rng, style, width, height * share / whole, depth - 1) for share in shares)
+    return Stack(cells, shares, "panel" if any(isinstance(cell, Bay) for cell in cells) else _level(style))
+
+
+def free_leaf(rng: np.random.Generator, style: Style, width: float, height: float) -> Layout:
+    """Returns what fills one opening of this size: doors, drawers, a flap, or nothing."""
+    low = height < 0.3
+    kinds = {
+        "doors": 0.1 if low else 4.0,
+        "drawers": 3.0 if height < 1.2 else 0.2,
+        "flap": 1.0 if height < 0.55 and width > 1.4 * height else 0.02,
+        "bay": 1.2,
+    }
+    match pick(rng, kinds):
+        case "doors":
+            return doors_across(rng, width)
+        case "drawers":
+            number = max(1, round(height / between(rng, (0.14, 0.3))))
+            return drawer_grid(rng, style, 2, number) if width > 1.0 else drawer_stack(rng, style, min(number, 5))
+        case "flap":
+            return Door("top" if chance(rng, 0.4) else "bottom")
+        case _:
+            return Bay()
+
+
+def _level(style: Style) -> Between:
+    """Returns what lies between rows of fronts: what the style puts there."""
+    return style.between
+
+
+def _behind(rng: np.random.Generator, width: float) -> Layout | None:
+    """Returns drawers behind a door, with open room above them; seldom."""
+    if width < 0.35 or not chance(rng, 0.04):
+        return None
+    knob = pick(rng, INNER_KNOBS)
+    drawers = (Drawer(handle=knob),) * count(rng, 1, 3)
+    return Stack((*drawers, Bay()), (*(1.0 for _ in drawers), between(rng, (1.0, 3.0))))

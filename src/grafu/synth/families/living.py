@@ -1,0 +1,157 @@
+"""Living rooms: sideboards, TV stands, lowboards, bookcases, display cabinets, shelves, racks, pieces of any kind."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.carpentry import Site
+from grafu.synth.casework import Build, draw_case
+from grafu.synth.chance import between, chance, count, pick, weights
+from grafu.synth.construction import Sides
+from grafu.synth.families.built import build_cabinet, cabinet_of, draw_size
+from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
+from grafu.synth.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
+from grafu.synth.style import draw_style
+from grafu.synth.traditions import TraditionName
+
+LIVING: Mapping[TraditionName, float] = {
+    "shaker": 0.22, "mid-century": 0.26, "minimal": 0.2, "ornate": 0.14, "flat-pack": 0.14, "frameless": 0.04
+}  # fmt: skip
+LOW = Build(tops=("over", "between"), legs=(0.08, 0.3))
+SLENDER = Build(tops=("between", "over"), legs=(0.04, 0.15), open_back=True, bases=("none", "plinth", "legs"))
+STAND = Site(hand=0.9)
+GLASS: Mapping[LeafStyle, float] = {"glass": 0.65, "muntins": 0.35}
+
+
+def sideboard(rng: np.random.Generator) -> Cabinet:
+    """Returns a sideboard: doors, drawers beside or above them, an open bay now and then."""
+    style = draw_style(rng, LIVING)
+    size = draw_size(rng, (0.8, 2.0), (0.33, 0.5), (0.6, 1.0))
+    width = size[0]
+    kind = pick(rng, {"beside": 0.36, "above": 0.24, "doors": 0.22, "bay": 0.18})
+    if kind == "beside":
+        layout = doors_beside_drawers(rng, style, width, count(rng, 2, 4))
+    elif kind == "above":
+        row = drawer_row(rng, 2 if width < 1.2 else count(rng, 2, 4))
+        layout = Stack((doors_across(rng, width), row), (between(rng, (2.5, 4.0)), 1.0), style.between)
+    elif kind == "doors":
+        layout = doors_across(rng, width)
+    else:
+        bay: Layout = Bay() if chance(rng, 0.5) else Stack((Drawer(), Bay()), (1.0, between(rng, (1.0, 2.0))))
+        cells: tuple[Layout, ...] = (Door(), bay, Door()) if width > 1.1 else (Door(), bay)
+        layout = Row(cells, weights(rng, len(cells), 0.25))
+    return build_cabinet(rng, "sideboard", style, size, layout, LOW, STAND)
+
+
+def tv_stand(rng: np.random.Generator) -> Cabinet:
+    """Returns a low TV stand: open bays between drawers and doors."""
+    style = draw_style(rng, LIVING)
+    size = draw_size(rng, (0.9, 2.2), (0.33, 0.5), (0.32, 0.65))
+    low = style.between
+    closed: Layout = pick(rng, {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25})
+    kind = pick(rng, {"sides": 0.5, "below": 0.25, "middle": 0.15, "row": 0.1})
+    if kind == "sides":
+        layout: Layout = Row((closed, Bay(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
+    elif kind == "below":
+        layout = Stack((drawer_row(rng, count(rng, 2, 3)), Bay()), (between(rng, (0.8, 1.4)), 1.0))
+    elif kind == "middle":
+        layout = Row((Bay(), Pair() if isinstance(closed, Door) else closed, Bay()), (1.0, 1.4, 1.0))
+    else:
+        layout = Row((closed,) * count(rng, 2, 4))
+    return build_cabinet(rng, "tv_stand", style, size, layout, LOW, STAND)
+
+
+def lowboard(rng: np.random.Generator) -> Cabinet:
+    """Returns a lowboard: flaps that drop down (mostly) or lift up, drawers or bays beside them."""
+    style = draw_style(rng, {"minimal": 0.35, "frameless": 0.25, "mid-century": 0.25, "flat-pack": 0.15})
+    size = draw_size(rng, (0.9, 2.4), (0.35, 0.5), (0.28, 0.6))
+    flap = Door("bottom" if chance(rng, 0.8) else "top")
+    columns = max(1, round(size[0] / between(rng, (0.6, 0.95))))
+    cells: list[Layout] = [flap] * columns
+    if chance(rng, 0.4):
+        cells[count(rng, 0, columns - 1)] = pick(rng, {Bay(): 1.0, Drawer(): 1.0})
+    if chance(rng, 0.3):
+        cells = [Stack((cell, Bay()), (1.0, between(rng, (0.4, 0.8)))) for cell in cells]
+    layout = Row(tuple(cells)) if columns > 1 else cells[0]
+    if not any(isinstance(c, Door | Stack) for c in cells):
+        layout = flap
+    return build_cabinet(rng, "lowboard", style, size, layout, LOW, STAND)
+
+
+def bookcase(rng: np.random.Generator) -> Cabinet:
+    """Returns a bookcase: open shelves above doors or drawers."""
+    style = draw_style(rng, LIVING)
+    size = draw_size(rng, (0.5, 1.6), (0.26, 0.42), (1.2, 2.2))
+    width, _, height = size
+    low: Layout = doors_across(rng, width) if chance(rng, 0.75) else drawer_stack(rng, style, count(rng, 1, 3))
+    bay = Bay(shelves=max(2, round(0.65 * height / between(rng, (0.28, 0.42)))))
+    above: Layout = bay
+    if width > 0.9:
+        above = Row((bay,) * (2 if width < 1.35 else 3))
+    kind = pick(rng, {"below": 0.72, "all": 0.1, "middle": 0.18})
+    if kind == "all":
+        layout: Layout = Row((doors_across(rng, width / 2), bay)) if width > 0.8 else doors_across(rng, width)
+    elif kind == "middle":
+        layout = Stack((Bay(shelves=1), low, replace(bay, shelves=2)), (1.0, 0.8, 1.4))
+    else:
+        layout = Stack((low, above), (1.0, between(rng, (1.3, 2.6))))
+    return build_cabinet(rng, "bookcase", style, size, layout, SLENDER, STAND)
+
+
+def display_cabinet(rng: np.random.Generator) -> Cabinet:
+    """Returns a cabinet with glass doors, over all its height or above plain doors or drawers."""
+    style = draw_style(rng, LIVING)
+    size = draw_size(rng, (0.4, 1.4), (0.3, 0.45), (1.1, 2.1))
+    glass = pick(rng, GLASS)
+    tall: Layout = Door(leaf=glass) if size[0] < 0.55 else Pair(leaf=glass)
+    if size[0] > 1.1:
+        tall = Row((Door(leaf=glass), Pair(leaf=glass)), (1.0, 2.0)) if chance(rng, 0.4) else Pair(leaf=glass)
+    if chance(rng, 0.5):
+        low = doors_across(rng, size[0]) if chance(rng, 0.6) else drawer_row(rng, 1 if size[0] < 0.7 else 2)
+        share = between(rng, (1.5, 3.0)) if not isinstance(low, Drawer) else 6.0
+        tall = Stack((low, tall), (1.0, share), style.between)
+    return build_cabinet(rng, "display_cabinet", style, size, tall, replace(SLENDER, open_back=False))
+
+
+def open_shelf(rng: np.random.Generator) -> Cabinet:
+    """Returns an open shelf in a grid, a few of its cells closed by a door or a drawer."""
+    style = draw_style(rng, {"minimal": 0.45, "flat-pack": 0.3, "mid-century": 0.15, "frameless": 0.1})
+    columns, rows = count(rng, 1, 4), count(rng, 2, 5)
+    pitch = between(rng, (0.3, 0.42))
+    size = (columns * pitch * between(rng, (1.0, 1.3)), between(rng, (0.28, 0.42)), rows * pitch)
+    closed = between(rng, (0.1, 0.45))
+
+    def cell() -> Layout:
+        if not chance(rng, closed):
+            return Bay()
+        return pick(rng, {Door(): 3.0, Drawer(): 1.0, Stack((Drawer(), Drawer()), (), "nothing"): 1.0})
+
+    stacks = [Stack(tuple(cell() for _ in range(rows))) for _ in range(columns)]
+    if all(isinstance(c, Bay) for stack in stacks for c in stack.cells):
+        stacks[0] = replace(stacks[0], cells=(Door(), *stacks[0].cells[1:]))
+    layout: Layout = Row(tuple(stacks)) if columns > 1 else stacks[0]
+    return build_cabinet(rng, "open_shelf", style, size, layout, replace(SLENDER, moulded=False, framed=False), STAND)
+
+
+def free_form(rng: np.random.Generator) -> Cabinet:
+    """Returns a cabinet of any size whose front is split at random into rows and stacks."""
+    style = draw_style(rng, dict.fromkeys(LIVING, 1.0) | {"office": 1.0, "face frame": 1.0})
+    size = draw_size(rng, (0.4, 2.2), (0.3, 0.65), (0.4, 2.2))
+    layout = free_layout(rng, style, size[0], size[2])
+    if isinstance(layout, Bay):
+        layout = doors_across(rng, size[0])
+    return build_cabinet(rng, "cabinet", style, size, layout)
+
+
+def rack(rng: np.random.Generator) -> Cabinet:
+    """Returns shelves between slats, metal uprights or panels, over a few drawers or a door."""
+    style = replace(draw_style(rng, {"minimal": 0.6, "flat-pack": 0.4}), frame=0.0, moulding=0.0)
+    size = draw_size(rng, (0.45, 1.0), (0.28, 0.42), (1.1, 2.1))
+    number = count(rng, 1, 3)
+    low: Layout = drawer_stack(rng, style, number) if chance(rng, 0.75) else Door()
+    case = draw_case(rng, style, size, replace(SLENDER, framed=False, moulded=False))
+    case = replace(case, sides=Sides(pick(rng, {"slats": 0.4, "metal": 0.6})))
+    bay = Bay(shelves=count(rng, 2, 4))
+    return cabinet_of(rng, "rack", style, case, Stack((low, bay), (0.22 * number, between(rng, (0.9, 1.4)))), STAND)

@@ -1,0 +1,52 @@
+"""All families of furniture: a table from name to weight and drawing function.
+
+The weights follow what PartNet-Mobility's StorageFurniture and Table hold: kitchen base and wall units about a third,
+sideboards, dressers and nightstands a quarter, wardrobes and tall units one in eight, TV furniture and shelves one in
+twelve each; tables and desks with drawers one in eight; the rest is there for variety.
+"""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.chest import Chest
+from grafu.synth.corner import CornerCabinet
+from grafu.synth.desk import Desk, Table
+from grafu.synth.ensemble import Ensemble
+from grafu.synth.families import bedroom, composed, kitchen, living, office
+
+Spec = Cabinet | Table | Desk | Chest | CornerCabinet | Ensemble
+Draw = Callable[[np.random.Generator], Spec]
+
+FAMILIES: Mapping[str, tuple[float, Draw]] = {
+    "base cabinet": (15.0, kitchen.base_cabinet),
+    "wall cabinet": (9.0, kitchen.wall_cabinet),
+    "sink cabinet": (3.0, kitchen.sink_cabinet),
+    "corner cabinet": (1.5, kitchen.corner_cabinet),
+    "kitchen island": (1.0, composed.island),
+    "kitchen units": (1.5, composed.kitchen_units),
+    "tall cabinet": (5.0, kitchen.tall_cabinet),
+    "wardrobe": (6.0, bedroom.wardrobe),
+    "sideboard": (7.5, living.sideboard),
+    "dresser": (7.0, bedroom.dresser),
+    "nightstand": (6.0, bedroom.nightstand),
+    "shoe cabinet": (1.0, bedroom.shoe_cabinet),
+    "apothecary chest": (1.2, bedroom.apothecary),
+    "chest": (1.0, bedroom.chest),
+    "TV stand": (4.5, living.tv_stand),
+    "lowboard": (2.5, living.lowboard),
+    "bookcase": (3.5, living.bookcase),
+    "display cabinet": (2.5, living.display_cabinet),
+    "hutch": (1.5, composed.hutch),
+    "open shelf": (1.5, living.open_shelf),
+    "rack": (1.0, living.rack),
+    "free form": (3.5, living.free_form),
+    "filing cabinet": (1.5, office.filing_cabinet),
+    "desk": (4.0, office.desk),
+    "writing desk": (3.0, office.writing_desk),
+    "table with drawers": (4.0, office.drawer_table),
+    "vanity": (1.2, office.vanity),
+    "fridge": (0.6, office.fridge),
+    "oven": (0.8, office.oven),
+}

@@ -1,0 +1,170 @@
+"""One front at a time in the style of its piece: leaf, handle, hold, grip, shelves. It knows no neighbours.
+
+Rates: handles that say nothing about the hinge (centred on an edge) sit on about one door in seven, none at all on one
+in ten, one on the hinge side on fewer than one in 200.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.hold import Grip, HandleStyle, Hold
+from grafu.synth.inside import Inside
+from grafu.synth.layout import CURVED, Bay, Blank, Door, Drawer, LeafStyle, Pair, Rect, Side, Tilt
+from grafu.synth.style import Style
+
+HINGE_EDGE = 0.003  # doors whose handle sits on the hinge side: modellers' errors
+SMALL_FRONT = 0.15  # metres: a framed leaf of this height would be all frame, so small fronts are mostly plain
+SHELF_PITCH = 0.33  # metres between shelves, usually
+NO_SHELVES = 0.22  # openings left empty: modellers often stop at what is seen
+INSIDES = {
+    Inside(): 0.86,
+    Inside(shelf="short"): 0.08,
+    Inside(basket="wire"): 0.02,
+    Inside(basket="rack"): 0.01,
+    Inside(rails=2): 0.03,
+}
+
+
+def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style: Style, hand: float) -> Door:
+    """Returns the door hung on this side, with its leaf, handle, grip and shelves."""
+    flap = side in ("top", "bottom")
+    leaf = _leaf(rng, door.leaf, style.leaf, room, flap)
+    grip = style.grip if leaf == "slab" else "none"
+    hold = _flap_hold(style) if flap else _door_hold(rng, style, room, hand)
+    return replace(
+        door,
+        hinge=side,
+        leaf="slab" if leaf in ("swept", "half arched") and flap else leaf,
+        handle=_handle(door.handle, style.handle, grip),
+        hold=hold,
+        grip=grip,
+        opening=min(style.opening, 1.75) if flap else style.opening,
+        shelves=_shelves(rng, door.shelves, room, door.behind is not None),
+        inside=_inside(rng, door.inside, leaf),
+    )
+
+
+def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: Style, hand: float) -> Pair:
+    """Returns the pair with leaves, handles, grips, muntin and shelves."""
+    half = replace(room, x1=room.center[0])
+    leaf = _leaf(rng, pair.leaf, style.leaf, half, False)
+    grip = style.grip if leaf == "slab" else "none"
+    return replace(
+        pair,
+        leaf=leaf,
+        handle=_handle(pair.handle, style.handle, grip),
+        hold=_door_hold(rng, style, half, hand),
+        grip=grip,
+        opening=style.opening,
+        muntin=pair.muntin or style.muntin,
+        shelves=_shelves(rng, pair.shelves, room, pair.behind is not None),
+        inside=_inside(rng, pair.inside, leaf),
+    )
+
+
+def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: Style) -> Drawer:
+    """Returns the drawer with its box, leaf, handle and grip."""
+    leaf = _leaf(rng, drawer.leaf, style.drawer_leaf, room, True)
+    if style.drawer_leaf == "bowed" and drawer.leaf == "slab" and room.height > SMALL_FRONT:
+        leaf = "bowed"
+    grip = style.grip if leaf == "slab" else "none"
+    return replace(
+        drawer,
+        box=style.box if drawer.box == "whole" else drawer.box,
+        leaf=leaf,
+        handle=_handle(drawer.handle, style.drawer_handle, grip),
+        hold=_drawer_hold(style, room),
+        grip=grip,
+        travel=style.travel,
+        runners=style.runners,
+        depth=1.0 if chance(rng, 0.7) else between(rng, (0.6, 0.95)),
+    )
+
+
+def fit_tilt(tilt: Tilt, style: Style) -> Tilt:
+    """Returns the tilting front with its leaf and handle."""
+    leaf = style.leaf if style.leaf in ("slab", "chamfered", "shaker", "louvred", "planks") else "slab"
+    return replace(tilt, leaf=leaf, handle=style.drawer_handle)
+
+
+def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:
+    """Returns the still board: a false drawer front looks like the drawers, fillers and panels stay plain."""
+    if blank.name != "false_front":
+        return blank
+    return replace(blank, leaf="slab" if room.height < SMALL_FRONT else style.drawer_leaf)
+
+
+def fit_bay(rng: np.random.Generator, bay: Bay, room: Rect) -> Bay:
+    """Returns the open bay with its shelves."""
+    return replace(bay, shelves=_shelves(rng, bay.shelves, room, False))
+
+
+def _leaf(rng: np.random.Generator, asked: LeafStyle, usual: LeafStyle, room: Rect, level: bool) -> LeafStyle:
+    """Returns the leaf: what is asked for unless that is the default; plain where it is small or bends wrongly."""
+    leaf = usual if asked == "slab" else asked
+    if leaf in CURVED and level:
+        return "slab"
+    if leaf in ("arched", "half arched", "arched rail") and (level or room.height < room.width):
+        return "shaker"
+    small = min(room.width, room.height) < SMALL_FRONT
+    return "slab" if small and leaf != "rounded" and chance(rng, 0.75) else leaf
+
+
+def _handle(asked: HandleStyle, usual: HandleStyle, grip: Grip) -> HandleStyle:
+    if asked != "bar-round":  # a family's own choice
+        return asked
+    return "none" if grip != "none" else usual
+
+
+def _door_hold(rng: np.random.Generator, style: Style, room: Rect, hand: float) -> Hold:
+    """Returns how a side-hung door is held."""
+    share, length = _length(style)
+    plain = Hold(length=length, share=share, inset=style.inset)
+    if chance(rng, HINGE_EDGE):
+        return replace(plain, place="hinge edge", along=0.5)
+    reach = (hand - room.z0) / room.height
+    if style.carry == "top line":
+        return replace(plain, place="top edge" if reach > 0.5 else "bottom edge", inset=min(style.inset, 0.05))
+    if style.carry == "middle line":
+        return replace(plain, place="middle line", along=0.5)
+    if style.carry == "corner":
+        return replace(plain, place="free edge", along=0.98 if reach > 0.5 else 0.02)
+    if style.carry == "middle":
+        return replace(plain, place="free edge", along=0.5)
+    return replace(plain, place="free edge", along=float(np.clip(reach, 0.14, 0.86)))
+
+
+def _flap_hold(style: Style) -> Hold:
+    share, length = _length(style)
+    return Hold(length=length, share=share, inset=style.inset)
+
+
+def _drawer_hold(style: Style, room: Rect) -> Hold:
+    share, length = _length(style)
+    high = style.drawer_high and room.height > 0.12
+    two = room.width > 0.65 and not style.full and (style.length is None or style.length < 0.15)
+    hold = Hold(length=length, share=share, inset=style.inset, count=2 if two and style.inset > 0.04 else 1)
+    return replace(hold, place="top edge") if high else hold
+
+
+def _length(style: Style) -> tuple[float, float | None]:
+    """Returns the most that a handle takes of its front's side, and its length."""
+    return (0.94, 3.0) if style.full else (0.8 if style.length else 0.4, style.length)
+
+
+def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool) -> int:
+    """Returns the shelves of an opening, by its height; none where something stands behind the door."""
+    if asked or filled or room.height < 0.3 or chance(rng, NO_SHELVES):
+        return asked
+    usual = round(room.height / SHELF_PITCH) - 1 + count(rng, -1, 1)
+    return max(1 if room.height > 0.45 else 0, min(usual, 6))
+
+
+def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle) -> Inside:
+    if asked != Inside():
+        return asked
+    if leaf in ("glass", "muntins") and chance(rng, 0.4):
+        return Inside(shelf="glass")
+    return pick(rng, INSIDES)

@@ -1,0 +1,147 @@
+"""What one maker keeps the same over one piece of furniture: thicknesses, mount, leaves, handles. It places nothing.
+
+`draw_style` draws a style within a tradition (`traditions`): choices that go together in real furniture are drawn
+together, once for the whole piece, so that all its doors look alike.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import radians
+from typing import Literal, final
+
+import numpy as np
+
+from grafu.synth.chance import between, chance, only, pick
+from grafu.synth.finish import Finish
+from grafu.synth.finishes import draw_finish
+from grafu.synth.hold import Grip, HandleStyle
+from grafu.synth.layout import CURVED, Between, DrawerBox, LeafStyle
+from grafu.synth.setting import Mount
+from grafu.synth.traditions import KNOBS, TRADITIONS, Tradition, TraditionName
+
+Carry = Literal["reach", "middle", "corner", "top line", "middle line"]
+
+# Where a piece carries the handles of its side-hung doors. "reach": as near to the hand as the free edge allows (high
+# on base units, low on wall units); "top line" is the lying bar in the middle of the upper or lower edge, which says
+# nothing about the hinge (3 of the 17 development models); "middle line" is an ornamental ring or knob in the middle.
+CARRIES: Mapping[Carry, float] = {"reach": 0.44, "middle": 0.29, "corner": 0.1, "top line": 0.145, "middle line": 0.025}
+KNOB_CARRIES: Mapping[Carry, float] = {
+    "reach": 0.42,
+    "middle": 0.34,
+    "corner": 0.18,
+    "top line": 0.03,
+    "middle line": 0.03,
+}
+
+# A piece whose fronts have no handle: pushed, or held by something cut into the front.
+GRIPS: Mapping[Grip, float] = {
+    "none": 0.42, "edge channel": 0.18, "lip": 0.1, "scoop": 0.14, "slot": 0.08, "finger hole": 0.08
+}  # fmt: skip
+LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
+PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
+    {"glass", "mirror", "muntins", "louvred", "arched rail", "two panels", "swept", "half arched", "arched", "planks"}
+)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Style:
+    """The choices of one maker for one piece, metres and radians.
+
+    `lap` is the most that overlay fronts cover of a panel, `frame` the width of a face frame (0: frameless). `carry`
+    says where side-hung doors carry their handles, `length` how long handles are (None: each handle's own), `full`
+    that they run along the whole front.
+    """
+
+    tradition: TraditionName
+    panel: float
+    front: float
+    back: float
+    mount: Mount
+    gap: float
+    seat: float
+    lap: float
+    frame: float
+    muntin: float
+    moulding: float
+    leaf: LeafStyle
+    drawer_leaf: LeafStyle
+    handle: HandleStyle
+    drawer_handle: HandleStyle
+    grip: Grip
+    carry: Carry
+    length: float | None
+    full: bool
+    inset: float
+    drawer_high: bool
+    box: DrawerBox
+    between: Between
+    opening: float
+    travel: float
+    runners: bool
+    slide_gap: float
+    finish: Finish
+
+    @property
+    def rules(self) -> Tradition:
+        """The tables of the style's tradition."""
+        return TRADITIONS[self.tradition]
+
+
+def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, float]) -> Style:
+    """Returns a style of one of these traditions, drawn by their weights."""
+    name = pick(rng, traditions)
+    rules = TRADITIONS[name]
+    mount = pick(rng, rules.mount)
+    leaf, handle = pick(rng, rules.leaf), pick(rng, rules.handle)
+    grip: Grip = pick(rng, GRIPS) if handle == "none" and leaf == "slab" else "none"
+    frame = between(rng, (0.025, 0.055)) if chance(rng, rules.framed) else 0.0
+    full = chance(rng, 0.6 if handle == "bar-profile" else LONG_SHARE)
+    return Style(
+        tradition=name,
+        panel=pick(rng, rules.panel),
+        front=pick(rng, rules.front),
+        back=pick(rng, rules.back),
+        mount=mount,
+        gap=between(rng, rules.gap),
+        # real doors of models touch the case more often than not; bumpers and play make up to 3 mm
+        seat=0.0002 if chance(rng, 0.5) else between(rng, (0.0005, 0.003)),
+        # fronts cover all of a panel, or leave a visible reveal as face frames mostly do
+        lap=between(rng, (0.01, 0.02)) if chance(rng, 0.7 if frame else 0.08) else 1.0,
+        frame=frame,
+        muntin=between(rng, (0.02, 0.07)) if chance(rng, rules.muntin) else 0.0,
+        moulding=between(rng, (0.03, 0.08)) if chance(rng, rules.moulded) else 0.0,
+        leaf=leaf,
+        drawer_leaf=_drawer_leaf(rng, leaf, rules),
+        handle=handle,
+        drawer_handle=_drawer_handle(rng, handle, rules),
+        grip=grip,
+        carry=pick(rng, KNOB_CARRIES if handle.startswith(("knob", "ring")) else CARRIES),
+        length=None if chance(rng, 0.35) else float(0.07 * (0.5 / 0.07) ** rng.random()),
+        full=full,
+        inset=between(rng, (0.025, 0.07)),
+        drawer_high=chance(rng, 0.3),
+        box=pick(rng, rules.box),
+        between=pick(rng, rules.between),
+        opening=radians(between(rng, rules.opening)),
+        travel=between(rng, (0.55, 0.95)),
+        runners=chance(rng, 0.08),
+        # slides need 12.5 mm; models are drawn tighter and looser
+        slide_gap=pick(rng, {0.0125: 5.0, 0.005: 2.0, 0.002: 1.0, 0.02: 1.0}),
+        finish=draw_finish(rng),
+    )
+
+
+def _drawer_leaf(rng: np.random.Generator, leaf: LeafStyle, rules: Tradition) -> LeafStyle:
+    """Returns the drawers' leaf: like the doors', or plainer where the doors' makes no drawer or makers skip it."""
+    if leaf in PLAIN_ON_DRAWERS:
+        return pick(rng, only(rules.leaf, ("slab", "shaker", "chamfered")))
+    return "slab" if leaf not in CURVED and chance(rng, rules.plain_drawers) else leaf
+
+
+def _drawer_handle(rng: np.random.Generator, handle: HandleStyle, rules: Tradition) -> HandleStyle:
+    """Returns the drawers' handle: the doors' own on seven pieces in eight, else cups or knobs beside bars."""
+    if handle == "none" or chance(rng, 0.86):
+        return handle
+    others = {k: v for k, v in rules.handle.items() if k not in ("none", handle)}
+    return pick(rng, others or KNOBS)
