@@ -38,11 +38,16 @@ def leg_piece(leg: Leg, at: tuple[float, float], outward: tuple[float, float], h
     return solid(PartLabel.LEG, stem, material, leg_meshes(leg, at, outward, high))
 
 
+def waist(leg: Leg) -> float:
+    """Returns how wide a leg is where stretchers meet it, metres: shaped legs are thinner than their tops."""
+    return leg.thick * (1.0 if leg.shape in ("square", "round") else 0.5)
+
+
 def stretcher_pieces(
     kind: Stretcher, feet: tuple[float, float], bar: float, z: float, finish: Finish, wide: float
 ) -> Iterator[Piece]:
     """Yields square bars between legs whose middles stand at (+-x, +-y); `wide` is a leg's width at their height."""
-    (x, y), h, free = feet, bar / 2, wide / 2
+    (x, y), h, free = feet, bar / 2, max(wide, bar) / 2
     if kind == "none":
         return
     for _, at in both_sides(((x - h, free - y, z - h), (x + h, y - free, z + h))):
@@ -104,7 +109,7 @@ def _below(case: Case, finish: Finish) -> Iterator[Piece]:
     bar = min(0.025, 0.7 * base.leg.thick)
     z = max(base.stretcher_at * (case.floor - base.apron), bar)
     if z + bar < case.floor - base.apron:
-        yield from stretcher_pieces(base.stretcher, feet, bar, z, finish, 0.5 * base.leg.thick)
+        yield from stretcher_pieces(base.stretcher, feet, bar, z, finish, waist(base.leg))
     if base.apron:
         x, y = feet[0] - base.leg.thick / 2, -feet[1] - base.leg.thick / 2
         low, high = (-x, y, case.floor - base.apron), (x, y + case.panel, case.floor)

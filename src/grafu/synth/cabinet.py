@@ -72,6 +72,7 @@ class Cabinet:
             finish=self.finish,
             borders=case.borders,
             case_wall=0.0 if case.posts else case.side_border - case.panel,
+            frame=case.face_depth,
         )
 
     @property

@@ -29,6 +29,10 @@ def side_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
 def back_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
     """Yields the back's panels and rails."""
     back, low, high = case.back, case.floor, case.crown
+    if case.bottom.kind == "under":
+        low += case.bottom_thickness
+    if case.top.kind == "stretchers":
+        high -= case.top.width
     x = case.width / 2 - (case.posts or case.panel)
     y = case.inner_back
     if back.planted:

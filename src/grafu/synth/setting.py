@@ -27,7 +27,8 @@ class Setting:
 
     Openings lie `panel` apart; walls behind them stand back by `wall` (half of it on either side of a partition), and
     the case's own sides by `case_wall` (none: by `wall`). An overlay front stands `seat` before the plane and covers at
-    most `lap` of a panel, and of the case what `borders` says (none: as of a panel); an inset front is flush.
+    most `lap` of a panel, and of the case what `borders` says (none: as of a panel); an inset front is flush. A frame
+    behind the plane is `frame` deep.
     """
 
     plane: float
@@ -43,6 +44,7 @@ class Setting:
     finish: Finish = PLAIN
     borders: Borders | None = None
     case_wall: float | None = None
+    frame: float = 0.0
 
     @property
     def front(self) -> float:
@@ -57,7 +59,7 @@ class Setting:
     @property
     def inner(self) -> float:
         """The y where the room behind the fronts begins."""
-        return max(self.plane, self.behind)
+        return max(self.plane + self.frame, self.behind)
 
 
 def front_rect(cell: Cell, setting: Setting) -> Rect:

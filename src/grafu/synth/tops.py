@@ -101,9 +101,11 @@ def _stretchers(case: Case, finish: Finish) -> Iterator[Piece]:
     y0, y1 = case.carcass, case.inner_back
     if case.posts > t:
         y0, y1 = case.posts - case.depth / 2, min(y1, case.depth / 2 - case.posts)
-    for _, at in both_sides(((inner - w, y0, h - t), (inner, y1 - t, h))):
+    for _, at in both_sides(((inner - w, y0, h - t), (inner, y1, h))):
         yield plank(PartLabel.BAR, "top_stretcher", finish.case, at)
-    yield plank(PartLabel.BAR, "top_stretcher", finish.case, ((-inner, y1 - t, h - w), (inner, y1, h)))
+    behind = case.inner_back, max(case.depth / 2, case.inner_back + 0.006)  # in line with the back, which ends below it
+    span = ((-inner, behind[0], h - case.top.width), (inner, behind[1], h))
+    yield plank(PartLabel.BAR, "top_stretcher", finish.case, span)
     if case.face is None:
         yield plank(PartLabel.BAR, "top_stretcher", finish.case, ((w - inner, y0, h - t), (inner - w, y0 + w, h)))
 
