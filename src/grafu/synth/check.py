@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.sweep import values_before
-from grafu.asset.part import AnnotatedJoint, Asset
+from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.edges import Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
@@ -26,7 +26,7 @@ from grafu.vocabulary import JointType, PartLabel
 FaultKind = Literal[
     "collision",  # a moving part cuts into another on its way, those it waits for being open
     "label",  # a door or drawer without a joint, a joint on something else, or of the wrong type; a label not declared
-    "rider",  # a handle that rides on nothing that moves, or does not touch what it rides on
+    "rider",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
     "limit",  # an opening that no such furniture has, or that does not lead out
     "double",  # two parts with one box
     "mount",  # a door without exactly one hinge edge, a drawer without one or two rails, a handle with another parent
@@ -39,7 +39,7 @@ FaultKind = Literal[
 # flat on their neighbours. Drawers: from an apothecary's to as far as the piece is long.
 DOOR_OPENING = (radians(15), radians(185))
 LEAST_SLIDE = 0.03
-HANDLE_REACH = 0.01  # metres that a handle may stand off what carries it, as in `asset.riders`
+RIDER_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.riders`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
 _SAME = 1e-4  # metres within which two boxes are one
 
@@ -121,9 +121,16 @@ def _rider_faults(whole: Asset) -> Iterator[Fault]:
                 yield Fault("rider", (part.id,), "a handle that rides on nothing")
         elif part.rides_on not in movers or part.id in movers:
             yield Fault("rider", (part.id,), f"it rides on {part.rides_on}")
-        elif part.box.gap(whole.part(part.rides_on).box) > HANDLE_REACH:
-            gap = part.box.gap(whole.part(part.rides_on).box)
-            yield Fault("rider", (part.id,), f"{gap:.3f} m off {part.rides_on}")
+        else:
+            gap = _gap_to_link(part, whole)
+            if gap > RIDER_REACH:
+                yield Fault("rider", (part.id,), f"{gap:.3f} m off {part.rides_on} and all that rides on it")
+
+
+def _gap_to_link(rider: Part, whole: Asset) -> float:
+    """Returns the distance between the boxes of a rider and the nearest part that moves with it."""
+    others = (p for p in whole.parts if p is not rider and rider.rides_on in (p.id, p.rides_on))
+    return min(rider.box.gap(other.box) for other in others)
 
 
 def _limit_faults(whole: Asset) -> Iterator[Fault]:
