@@ -13,7 +13,7 @@ from grafu.geometry.axis import Axis
 from grafu.synth.assembly import Motion, Piece
 from grafu.synth.drawer_box import drawer_box
 from grafu.synth.finish import surface_of
-from grafu.synth.handles import handle_pieces, held_side, opposite
+from grafu.synth.handles import handle_pieces, held_along, held_side, opposite
 from grafu.synth.interior import RUNNER, interior_pieces, runner_pieces
 from grafu.synth.layout import (
     Bay,
@@ -39,6 +39,7 @@ from grafu.synth.tilt import tray_meshes
 from grafu.vocabulary import JointType, PartLabel
 
 BEHIND_ROOM = 0.05  # metres between a door and the fronts behind it: their knobs need 26 mm
+TRAY_GAP = 0.001  # metres on either side of a tray that no runners carry: it lies in grooves
 BEHIND_SIDE = 0.035  # metres on either side of the fronts behind a door: an inset door stands there when open
 
 
@@ -95,7 +96,8 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     assert isinstance(drawer, Drawer)
     o, start = cell.opening, setting.plane if drawer.box == "tray" else setting.behind
     depth = drawer.depth * (setting.back - 0.02 - start)
-    inner = Rect(o.x0 + setting.slide_gap, o.x1 - setting.slide_gap, o.z0 + 0.012, max(o.z1 - 0.02, o.z0 + 0.02))
+    side = setting.slide_gap if drawer.box != "tray" or drawer.runners else TRAY_GAP
+    inner = Rect(o.x0 + side, o.x1 - side, o.z0 + 0.012, max(o.z1 - 0.02, o.z0 + 0.02))
     surfaces = [surface_of(mesh, finish.inside) for mesh in drawer_box(drawer.box, inner, (start, start + depth))]
     handle: tuple[Piece, ...] = ()
     if drawer.box != "tray":
@@ -166,10 +168,9 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
 
 
 def _leaf(front: Door | Drawer, rect: Rect, hinge: Side | None, setting: Setting) -> LeafShape:
-    free = opposite(hinge) if hinge else "top"
-    return LeafShape(
-        front.leaf, rect, setting.front, setting.thickness, free, front.grip, held_side(front.hold, hinge) or free
-    )
+    side, free = held_side(front.hold, hinge), opposite(hinge) if hinge else "top"
+    grip = front.grip, side or free, held_along(front.hold, side)
+    return LeafShape(front.leaf, rect, setting.front, setting.thickness, free, *grip)
 
 
 def _opening(door: Door, edges: Edges) -> float:
@@ -183,7 +184,7 @@ def _opening(door: Door, edges: Edges) -> float:
 
 
 def _muntin(rect: Rect, setting: Setting) -> Piece:
-    back = setting.inner
+    back = max(setting.plane, setting.behind)
     mesh = board((rect.x0, setting.front, rect.z0), (rect.x1, back, rect.z1))
     return Piece(PartLabel.BAR, "muntin", (surface_of(mesh, setting.finish.front),))
 
@@ -196,6 +197,6 @@ def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[Piece]:
     for low, high in zip(inner_span(cell, setting), (rect.x0, rect.x1), strict=True):
         mesh = board((min(low, high), plane, o.z0), (max(low, high), setting.back, o.z1))
         yield Piece(PartLabel.DIVIDER, "divider", (surface_of(mesh, setting.finish.inside),))
-    inner = replace(setting, plane=plane, mount="inset", wall=0.0, case_wall=None, borders=None)
+    inner = replace(setting, plane=plane, mount="inset", wall=0.0, case_wall=None, borders=None, frame=0.0)
     for item in divide(layout, rect, Edges(), setting.panel):
         yield from (partition_piece(item, inner),) if isinstance(item, Partition) else front_pieces(item, inner)

@@ -1,20 +1,29 @@
-"""Handles on fronts that face -Y: where each goes and how large it is. Their shapes are templates."""
+"""Handles on fronts that face -Y: where each goes, which way round and how large. Their shapes are templates."""
 
-from grafu.geometry.appearance import Material
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.box import Box
+from grafu.geometry.transform import from_rotation
 from grafu.synth.assembly import Piece
 from grafu.synth.finish import surface_of
 from grafu.synth.hold import HandleStyle, Hold
 from grafu.synth.layout import Side
-from grafu.synth.leaves import LeafShape
-from grafu.synth.shapes import rod, turned
+from grafu.synth.leaves import LeafShape, face_at, filled_rect
+from grafu.templates.handle import HandleTemplate
+from grafu.templates.handles import handle_template
 from grafu.vocabulary import PartLabel
 
-STANDOFF = 0.028  # metres from the front to a bar's middle: room for fingers
-KNOB = ((0.0, 0.006), (0.45, 0.006), (0.6, 0.014), (0.85, 0.015), (1.0, 0.010))
 HIGH = 0.65  # of a door's height: where its handle is if nothing else is said
+CLEAR = 0.002  # metres that every handle stays inside its leaf's border
+FEET = 0.4  # of a bar's length: how far from its middle it stands on the leaf
+_AT_EDGE = ("bar-profile",)  # handles that belong on the very edge, whatever the inset
 _OPPOSITE: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
+_UPRIGHT = from_rotation(np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]))  # x becomes z
 
 
 def opposite(side: Side) -> Side:
@@ -30,34 +39,85 @@ def held_side(hold: Hold, hinge: Side | None) -> Side | None:
     return hinge if hold.place == "hinge edge" else opposite(hinge)
 
 
+def held_along(hold: Hold, side: Side | None) -> float:
+    """Returns how far along its edge a front is held, as a share upwards or to the right."""
+    if hold.along is not None:
+        return hold.along
+    return HIGH if side in ("left", "right") else 0.5
+
+
 def handle_pieces(
     style: HandleStyle, hold: Hold, leaf: LeafShape, hinge: Side | None, material: Material
 ) -> tuple[Piece, ...]:
-    """Returns the handles of a front, none for the style "none"; `hinge` None: a drawer."""
+    """Returns the handles of a front, none for the style "none"; `hinge` None: a drawer.
+
+    They stay inside the leaf's border. A bar stands on the lower of the faces under its two ends.
+    """
     if style == "none":
         return ()
-    rect, side = leaf.rect, held_side(hold, hinge)
-    inset = min(hold.inset, rect.width / 5, rect.height / 5)
-    x, z = rect.center
-    along = hold.along if hold.along is not None else (HIGH if side in ("left", "right") else 0.5)
-    if side in ("left", "right"):
-        x, z = (rect.x1 - inset if side == "right" else rect.x0 + inset), rect.z0 + along * rect.height
-    elif side is not None:
-        x, z = rect.x0 + along * rect.width, (rect.z0 + inset if side == "bottom" else rect.z1 - inset)
-    upright = side in ("left", "right")
-    length = min(0.16, hold.share * (rect.height if upright else rect.width))
-    at = (x, leaf.front, z)
-    meshes = _knob(at) if style.startswith("knob") else _bar(at, length, upright)
-    return (Piece(PartLabel.HANDLE, "handle", tuple(surface_of(mesh, material) for mesh in meshes)),)
+    template = handle_template(style)
+    upright = _is_upright(template, hold, hinge)
+    surfaces = _surfaces(style, _length(template, hold, leaf, upright), hold.protrusion, upright, material)
+    box = _box(surfaces)
+    centers = _centers(hold, leaf, hinge, box, style in _AT_EDGE)
+    return tuple(_piece(leaf, x, z, surfaces, box) for x, z in centers)
 
 
-def _knob(at: tuple[float, float, float]) -> list[TriangleMesh]:
-    foot = vec3(*at)
-    return [turned(foot, foot - vec3(0.0, 0.026, 0.0), KNOB)]
+def _is_upright(template: HandleTemplate, hold: Hold, hinge: Side | None) -> bool:
+    if hold.orientation != "usual":
+        return hold.orientation == "upright"
+    along_level = hinge in (None, "top", "bottom") or hold.place in ("top edge", "bottom edge")
+    return template.turns and not along_level
 
 
-def _bar(at: tuple[float, float, float], length: float, upright: bool) -> list[TriangleMesh]:
-    along = vec3(0.0, 0.0, length / 2) if upright else vec3(length / 2, 0.0, 0.0)
-    foot, out = vec3(*at), vec3(0.0, -STANDOFF, 0.0)
-    posts = [rod(foot + side * 0.8 * along, foot + side * 0.8 * along + out, 0.004, 8) for side in (-1.0, 1.0)]
-    return [*posts, rod(foot + out - along, foot + out + along, 0.006)]
+def _length(template: HandleTemplate, hold: Hold, leaf: LeafShape, upright: bool) -> float:
+    rect = filled_rect(leaf)
+    side = rect.height if upright else rect.width
+    wanted = min(template.natural.length if hold.length is None else hold.length, template.longest)
+    return min(wanted, hold.share * side / (1 if upright else hold.count), side - 2 * CLEAR)
+
+
+@lru_cache(256)
+def _surfaces(
+    style: HandleStyle, length: float, protrusion: float | None, upright: bool, material: Material
+) -> tuple[Surface, ...]:
+    """Returns a handle at the origin: a piece of furniture repeats a few."""
+    meshes = handle_template(style).build(length, protrusion)
+    return tuple(surface_of(mesh.transformed(_UPRIGHT) if upright else mesh, material) for mesh in meshes)
+
+
+def _box(surfaces: Sequence[Surface]) -> Box:
+    boxes = [surface.mesh.box for surface in surfaces]
+    return Box(np.min([b.low for b in boxes], axis=0), np.max([b.high for b in boxes], axis=0))
+
+
+def _centers(hold: Hold, leaf: LeafShape, hinge: Side | None, box: Box, at_edge: bool) -> list[tuple[float, float]]:
+    """Returns where on the front the handles' middles go, (x, z)."""
+    rect, side = filled_rect(leaf), held_side(hold, hinge)
+    inset = 0.0 if at_edge else min(hold.inset, rect.width / 5, rect.height / 5)
+    level = side in ("top", "bottom") or (side is None and hold.count == 2)  # two go side by side
+    shares = (0.25, 0.75) if hold.count == 2 else (held_along(hold, side),)
+    height = held_along(hold, None)
+    centers = []
+    for share in shares:
+        x = rect.x0 + (share if level else 0.5) * rect.width
+        z = rect.z0 + (share if side in ("left", "right", None) and not level else height) * rect.height
+        x = {"left": rect.x0 + inset, "right": rect.x1 - inset}.get(side or "", x)
+        z = {"bottom": rect.z0 + inset, "top": rect.z1 - inset}.get(side or "", z)
+        centers.append((_within(x, rect.x0, rect.x1, box, 0), _within(z, rect.z0, rect.z1, box, 2)))
+    return centers
+
+
+def _within(middle: float, low: float, high: float, box: Box, axis: int) -> float:
+    """Returns the place nearest to `middle` where the handle is clear of both borders (halfway, if too big)."""
+    first, last = low + CLEAR - float(box.low[axis]), high - CLEAR - float(box.high[axis])
+    return (first + last) / 2 if first > last else min(max(middle, first), last)
+
+
+def _piece(leaf: LeafShape, x: float, z: float, surfaces: Sequence[Surface], box: Box) -> Piece:
+    dx, _, dz = (FEET * box.size).tolist()
+    dx, dz = (dx if dx > 1.2 * dz else 0.0), (dz if dz > 1.2 * dx else 0.0)  # a knob stands on one foot
+    y = max(face_at(leaf, x + sign * dx, z + sign * dz) for sign in (-1.0, 1.0))
+    offset = vec3(x, y, z)
+    moved = tuple(Surface(s.mesh.translated(offset), s.material, s.uv) for s in surfaces)
+    return Piece(PartLabel.HANDLE, "handle", moved)

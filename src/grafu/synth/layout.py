@@ -15,12 +15,12 @@ from grafu.synth.inside import EMPTY, Inside
 
 Side = Literal["left", "right", "top", "bottom"]
 LeafStyle = Literal[
-    "slab", "chamfered", "rounded", "bowed", "swept", "arched", "half arched", "planks", "shaker", "glass", "mirror",
-    "raised panel", "two panels", "muntins", "louvred", "arched rail",
+    "slab", "chamfered", "rounded", "bowed", "swept", "swept frame", "arched", "half arched", "planks", "shaker",
+    "glass", "mirror", "raised panel", "two panels", "muntins", "louvred", "arched rail",
 ]  # fmt: skip
 DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray"]
 Between = Literal["panel", "rail", "nothing"]
-CURVED: frozenset[LeafStyle] = frozenset({"bowed", "swept"})  # leaves that bulge before the front's plane
+CURVED: frozenset[LeafStyle] = frozenset({"bowed", "swept", "swept frame"})  # they bulge before the front's plane
 
 
 @final
@@ -96,7 +96,7 @@ class Drawer:
         _check_grip(self.grip, self.leaf)
         if self.hold.place in ("free edge", "hinge edge"):
             raise ValueError(f"a drawer has no hinge: its `place` must be another than {self.hold.place}")
-        if self.leaf in ("swept", "half arched"):
+        if self.leaf in ("swept", "swept frame", "half arched"):
             raise ValueError(f"a drawer has no free side: its leaf must be another than {self.leaf}")
 
 
