@@ -58,7 +58,7 @@ def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: Style, han
         hold=_door_hold(rng, style, half, hand),
         grip=grip,
         opening=style.opening,
-        muntin=pair.muntin or style.muntin,
+        muntin=0.0 if pair.behind else pair.muntin or style.muntin,  # what stands behind must come out
         shelves=_shelves(rng, pair.shelves, room, pair.behind is not None),
         inside=_inside(rng, pair.inside, leaf),
     )

@@ -37,8 +37,8 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
     if kind == "drawers below":
         number = max(1, round(size[0] / between(rng, (0.5, 0.9))))
         row = drawer_row(rng, number)
-        layout: Layout = Stack((row,) * count(rng, 1, 2) + (doors,), (), style.between)
-        layout = replace(layout, weights=(*(0.14 for _ in layout.cells[1:]), 1.0))
+        low = (row,) * count(rng, 1, 2)
+        layout: Layout = Stack((*low, doors), (*(0.14 for _ in low), 1.0), style.between)
     elif kind == "above":
         layout = Stack((doors, doors_across(rng, size[0])), (between(rng, (2.5, 4.5)), 1.0), style.between)
     elif kind == "open" and size[0] > 1.0:

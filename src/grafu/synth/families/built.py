@@ -7,9 +7,12 @@ from grafu.synth.carpentry import FREE, Site, fitted, needed_gap
 from grafu.synth.case import Case
 from grafu.synth.casework import ANY, Build, draw_case
 from grafu.synth.chance import Span, between
+from grafu.synth.families.layouts import with_inner_drawers
 from grafu.synth.layout import Layout
 from grafu.synth.style import Style
 
+INNER_DEPTH = 0.42  # metres: drawers behind doors need some length
+INNER_HEIGHT = 1.2  # metres: families of tall pieces say themselves what is behind their doors
 Size = tuple[float, float, float]
 
 
@@ -50,6 +53,8 @@ def cabinet_of(
         ValueError: if the case leaves some front no room.
     """
     room = case.opening
+    if case.depth > INNER_DEPTH and case.height < INNER_HEIGHT:
+        layout = with_inner_drawers(rng, layout, room.width)
     fronts = fitted(rng, layout, room, style, site)
     behind = None if rear is None else fitted(rng, rear, room, style, site)
     gaps = [needed_gap(sides, room, style.front) for sides in (fronts, behind) if sides is not None]

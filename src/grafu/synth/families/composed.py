@@ -1,6 +1,7 @@
 """Pieces of several cabinets: hutches on a base, kitchen islands with two fronts, rows of kitchen units."""
 
 from dataclasses import replace
+from math import pi
 
 import numpy as np
 
@@ -8,13 +9,14 @@ from grafu.synth.cabinet import Cabinet
 from grafu.synth.carpentry import Site
 from grafu.synth.casework import Build, draw_case
 from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.construction import Base
 from grafu.synth.ensemble import Ensemble, Placed, Slab
 from grafu.synth.families.bedroom import OVER
 from grafu.synth.families.built import build_cabinet, cabinet_of
 from grafu.synth.families.kitchen import BASE, KITCHEN, ON_WALL, base_layout, tall_layout, wall_layout
 from grafu.synth.families.layouts import doors_across, doors_under_drawers, drawer_stack
 from grafu.synth.families.living import GLASS, LIVING
-from grafu.synth.layout import Bay, Layout, Pair, Row, Stack
+from grafu.synth.layout import Bay, Layout, Pair, Row, Side, Stack
 from grafu.synth.style import Style, draw_style
 from grafu.vocabulary import PartLabel
 
@@ -64,14 +66,14 @@ def _island_front(rng: np.random.Generator, style: Style, width: float, height: 
 
 def kitchen_units(rng: np.random.Generator) -> Ensemble:
     """Returns kitchen units side by side under one worktop, mostly wall units above, now and then a tall one."""
-    style = replace(draw_style(rng, KITCHEN), moulding=0.0)
+    style = replace(draw_style(rng, KITCHEN), moulding=0.0, opening=pi / 2)  # further doors would strike neighbours
     height, depth = between(rng, (0.72, 0.88)), between(rng, (0.52, 0.62))
     widths = [pick(rng, UNIT_WIDTHS) for _ in range(count(rng, 2, 3))]
     whole = sum(widths)
     build = replace(BASE, tops=("between", "none", "stretchers"), bases=("plinth", "toe kick"))
     lows = [_unit(rng, style, (w, depth, height), build) for w in widths]
     base = lows[0].case.base
-    lows = [replace(unit, case=replace(unit.case, base=base)) for unit in lows]
+    lows = [_flush(unit, base) for unit in lows]
     members = [Placed(unit, (x, 0.0, 0.0)) for unit, x in zip(lows, _middles(widths), strict=True)]
     reach = -depth / 2 - style.front - style.seat - style.panel - 0.015
     thick = between(rng, (0.02, 0.04))
@@ -85,13 +87,19 @@ def kitchen_units(rng: np.random.Generator) -> Ensemble:
         tall = build_cabinet(
             rng, "kitchen", style, size, tall_layout(rng, style, size), replace(build, tops=("between",))
         )
-        tall = replace(tall, case=replace(tall.case, base=base))
-        members.append(Placed(tall, (tall_side * (whole + width) / 2, 0.0, 0.0)))
+        members.append(Placed(_flush(tall, base), (tall_side * (whole + width) / 2, 0.0, 0.0)))
     return Ensemble("kitchen", tuple(members), (top,))
 
 
 def _unit(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build) -> Cabinet:
     return build_cabinet(rng, "kitchen", style, size, base_layout(rng, style, size), build)
+
+
+def _flush(unit: Cabinet, base: Base) -> Cabinet:
+    """Returns the unit on this base, with nothing that juts out beyond its fronts into its neighbours' doors."""
+    case = unit.case
+    plain = replace(case, base=base, bottom=replace(case.bottom, overhang=0.0), top=replace(case.top, overhang=0.0))
+    return replace(unit, case=plain)
 
 
 def _wall_units(
@@ -104,12 +112,14 @@ def _wall_units(
     for k, (width, x) in enumerate(zip(widths, _middles(widths), strict=True)):
         if chance(rng, 0.12):
             continue  # a hood, a window
-        wall = "left" if tall_side < 0 and k == 0 else "right" if tall_side > 0 and k == len(widths) - 1 else None
+        wall: Side | None = (
+            "left" if tall_side < 0 and k == 0 else "right" if tall_side > 0 and k == len(widths) - 1 else None
+        )
         size = (width, deep, high)
         unit = build_cabinet(
             rng, "kitchen", style, size, wall_layout(rng, style, size), build, Site(wall, ON_WALL.hand)
         )
-        placed.append(Placed(unit, (x, (depth - deep) / 2, low)))
+        placed.append(Placed(_flush(unit, unit.case.base), (x, (depth - deep) / 2, low)))
     return placed
 
 

@@ -3,24 +3,33 @@
 Hinges, leaves and handles are left at their defaults: `carpentry` decides them.
 """
 
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 
 from grafu.synth.carpentry import drawer_heights
 from grafu.synth.chance import between, chance, count, pick, weights
+from grafu.synth.hold import HandleStyle
 from grafu.synth.layout import Bay, Between, Blank, Door, Drawer, Layout, Pair, Row, Stack
 from grafu.synth.style import Style
 
 WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a pair
 WIDEST_PAIR = 1.15
-INNER_KNOBS = {"knob-round": 1.0, "none": 2.0}  # drawers behind doors are low: their handles must fit the room
+BEHIND = 0.035  # doors of deep cases with drawers behind them: sold often, modelled seldom
+INNER_KNOBS: Mapping[HandleStyle, float] = {
+    "knob-round": 1.0,
+    "none": 2.0,
+}  # drawers behind doors are low: their handles must fit the room
 
 
 def doors_across(rng: np.random.Generator, width: float) -> Layout:
     """Returns one door, a pair, or a row of them, as many as a carpenter would put across this width."""
     if width < 0.4 or (width < WIDEST_DOOR and chance(rng, 0.55)):
-        return Door(behind=_behind(rng, width))
+        return Door()
     if width < WIDEST_PAIR:
-        return Pair(behind=_behind(rng, width)) if chance(rng, 0.86) else Row((Door(), Door()))
+        return Pair() if chance(rng, 0.86) else Row((Door(), Door()))
     number = max(2, round(width / between(rng, (0.4, 0.6))))
     pairs, single = divmod(number, 2)
     cells: list[Layout] = [Pair()] * pairs
@@ -120,10 +129,22 @@ def _level(style: Style) -> Between:
     return style.between
 
 
-def _behind(rng: np.random.Generator, width: float) -> Layout | None:
-    """Returns drawers behind a door, with open room above them; seldom."""
-    if width < 0.35 or not chance(rng, 0.04):
-        return None
+def with_inner_drawers(rng: np.random.Generator, layout: Layout, width: float) -> Layout:
+    """Returns the layout with drawers, and open room above them, behind a few of its doors; seldom."""
+    match layout:
+        case Row(cells=cells):
+            shares = layout.weights or (1.0,) * len(cells)
+            widths = [width * share / sum(shares) for share in shares]
+            return replace(layout, cells=tuple(map(partial(with_inner_drawers, rng), cells, widths)))
+        case Stack(cells=cells):
+            return replace(layout, cells=tuple(with_inner_drawers(rng, cell, width) for cell in cells))
+        case Door(hinge="left" | "right") | Pair():
+            if width > 0.35 and layout.behind is None and chance(rng, BEHIND):
+                return replace(layout, behind=_inner_drawers(rng))
+    return layout
+
+
+def _inner_drawers(rng: np.random.Generator) -> Layout:
     knob = pick(rng, INNER_KNOBS)
     drawers = (Drawer(handle=knob),) * count(rng, 1, 3)
     return Stack((*drawers, Bay()), (*(1.0 for _ in drawers), between(rng, (1.0, 3.0))))

@@ -22,6 +22,7 @@ LIVING: Mapping[TraditionName, float] = {
 LOW = Build(tops=("over", "between"), legs=(0.08, 0.3))
 SLENDER = Build(tops=("between", "over"), legs=(0.04, 0.15), open_back=True, bases=("none", "plinth", "legs"))
 STAND = Site(hand=0.9)
+CLOSED: Mapping[Layout, float] = {Door(): 3.0, Drawer(): 1.0, Stack((Drawer(), Drawer()), (), "nothing"): 1.0}
 GLASS: Mapping[LeafStyle, float] = {"glass": 0.65, "muntins": 0.35}
 
 
@@ -50,7 +51,8 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (0.9, 2.2), (0.33, 0.5), (0.32, 0.65))
     low = style.between
-    closed: Layout = pick(rng, {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25})
+    fronts: Mapping[Layout, float] = {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25}
+    closed = pick(rng, fronts)
     kind = pick(rng, {"sides": 0.5, "below": 0.25, "middle": 0.15, "row": 0.1})
     if kind == "sides":
         layout: Layout = Row((closed, Bay(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
@@ -70,13 +72,11 @@ def lowboard(rng: np.random.Generator) -> Cabinet:
     flap = Door("bottom" if chance(rng, 0.8) else "top")
     columns = max(1, round(size[0] / between(rng, (0.6, 0.95))))
     cells: list[Layout] = [flap] * columns
-    if chance(rng, 0.4):
-        cells[count(rng, 0, columns - 1)] = pick(rng, {Bay(): 1.0, Drawer(): 1.0})
+    if columns > 1 and chance(rng, 0.4):
+        cells[count(rng, 0, columns - 1)] = Bay() if chance(rng, 0.5) else Drawer()
     if chance(rng, 0.3):
         cells = [Stack((cell, Bay()), (1.0, between(rng, (0.4, 0.8)))) for cell in cells]
     layout = Row(tuple(cells)) if columns > 1 else cells[0]
-    if not any(isinstance(c, Door | Stack) for c in cells):
-        layout = flap
     return build_cabinet(rng, "lowboard", style, size, layout, LOW, STAND)
 
 
@@ -126,7 +126,7 @@ def open_shelf(rng: np.random.Generator) -> Cabinet:
     def cell() -> Layout:
         if not chance(rng, closed):
             return Bay()
-        return pick(rng, {Door(): 3.0, Drawer(): 1.0, Stack((Drawer(), Drawer()), (), "nothing"): 1.0})
+        return pick(rng, CLOSED)
 
     stacks = [Stack(tuple(cell() for _ in range(rows))) for _ in range(columns)]
     if all(isinstance(c, Bay) for stack in stacks for c in stack.cells):
