@@ -199,6 +199,32 @@ def test_a_contradiction_gives_way_to_what_came_first():
     assert "contradicts" in reading.notes[0]
 
 
+def test_every_motion_key_of_the_authors_is_written_on_request():
+    hinge, rail, attached, contact = functional_to_official(graph(border=1, sign=1), older_labels=True)["edges"]
+    assert hinge == {
+        "src": "zz side",
+        "dst": "door",
+        "kind": "hinge",
+        "connector": None,
+        "hinge_border_4": 1,
+        "hinge_axis_sign": 1,
+        "hinge_border": 1,
+        "hinge_axis_signed": 5,
+        "hinge_axis": 2,
+        "hinge_direction": 0,
+        "hinge_face_src": 1,
+        "hinge_face_dst": 0,
+    }
+    assert (rail["rail_axis_signed"], rail["rail_axis"]) == (2, 1)
+    assert set(attached) == set(contact) == {"src", "dst", "kind", "connector"}
+
+
+def test_nodes_may_be_a_list():
+    data = functional_to_official(graph())
+    listed = graph_from_official(data | {"nodes": list(data["nodes"].values())})
+    assert listed == graph_from_official(data)
+
+
 def test_a_door_says_where_its_handle_sits():
     nodes = functional_to_official(graph())["nodes"]
     assert nodes["door"]["handle_border"] == 1

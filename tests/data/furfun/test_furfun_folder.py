@@ -1,9 +1,12 @@
 """Releases laid out like the authors' are read from their path alone, with all that is odd in them."""
 
+import pickle
+
 import numpy as np
 import pytest
 from releases import HALVES, functional, put, put_model, unfunctional
 
+from grafu.data.fold import folded
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.errors import AssetError, GraphError, UnreadableAsset
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
@@ -152,6 +155,7 @@ def test_graphs_of_two_models_are_refused(tmp_path):
         (b"\xff\xfe\x00", "fur_001.json is no text"),
         (b"[]", "fur_001.json: a graph file must be a JSON object"),
         (b'{"nodes": {"a": 3}}', "fur_001.json: node `a` must be a JSON object"),
+        (b'{"nodes": 3}', "fur_001.json: `nodes` must be a JSON object"),
         (b'{"nodes": [{"material": "leg"}]}', "fur_001.json: `id` of a node must be a string"),
         (b'{"nodes": {"a": {"material": "leg"}}, "edges": {}}', "fur_001.json: "),
         (b'{"nodes": {"a": {"obb": {"center": [0, 0, NaN], "half": [1, 1, 1]}}}}', "finite numbers"),
@@ -184,6 +188,21 @@ def test_without_split_files_models_are_divided_80_10_10(tmp_path):
         put_model(tmp_path, f"fur_{k:03d}")
     split = FurFunFolder(tmp_path, points=0).split()
     assert (len(split.train), len(split.val), len(split.test)) == (8, 1, 1)
+
+
+def test_a_folder_can_be_sent_to_another_process(tmp_path):
+    folder = FurFunFolder(put_model(tmp_path), points=8, seed=2)
+    assert folder.models
+    sent = pickle.loads(pickle.dumps(folder))
+    assert sent == folder
+    assert sent.pair("fur_001") == folder.pair("fur_001") == pickle.loads(pickle.dumps(folder.pair("fur_001")))
+
+
+def test_a_release_gives_folds(tmp_path):
+    folder = FurFunFolder(put_model(put_model(tmp_path), "fur_002"), points=8)
+    pairs = list(folded((folder.pair(i) for i in folder.paired), 3))
+    assert [p.model_id for p in pairs] == ["fur_001"] * 4 + ["fur_002"] * 4
+    assert pairs[0] == folder.pair("fur_001")
 
 
 def test_options_must_not_be_negative(tmp_path):

@@ -52,6 +52,10 @@ class FurFunFolder:
             raise ValueError(f"`points` and `seed` must not be negative: got {self.points}, {self.seed}")
         self.layout  # noqa: B018  # a folder of another kind is refused now
 
+    def __reduce__(self) -> tuple[type["FurFunFolder"], tuple[Path, int, int, bool]]:
+        """What another process needs to look into the folder itself."""
+        return FurFunFolder, (self.path, self.points, self.seed, self.keep_disconnected)
+
     @cached_property
     def layout(self) -> FurFunLayout:
         """Where everything lies."""

@@ -76,13 +76,13 @@ def why_skipped(data: Json, whole: bool) -> str:
 
     `whole` says that all parts must hang together over edges of any kind.
     """
-    listed = data.get("nodes")
-    if not listed:
+    listed, edges = data.get("nodes"), data.get("edges", [])
+    if listed is None or listed in ({}, []):
         return "it has no nodes"
-    if not whole:
-        return ""
+    if not whole or not isinstance(listed, dict | list) or not isinstance(edges, list):
+        return ""  # whoever reads a damaged graph is told
     ids = [str(n.get("id")) if isinstance(n, Mapping) else str(n) for n in listed]
-    pieces = _count_pieces(ids, [e for e in data.get("edges") or () if isinstance(e, Mapping)])
+    pieces = _count_pieces(ids, [e for e in edges if isinstance(e, Mapping)])
     return f"its functional graph falls into {pieces} pieces" if pieces > 1 else ""
 
 
