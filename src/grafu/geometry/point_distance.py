@@ -1,4 +1,4 @@
-"""Distances of points from loose triangles, all at once. It builds no tree: meant for tens of points, hundreds of faces."""
+"""Distances of points from loose triangles, all at once. It builds no tree: for tens of points, hundreds of faces."""
 
 import numpy as np
 from jaxtyping import Float

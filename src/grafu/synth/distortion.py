@@ -20,9 +20,10 @@ STRAIGHT = 0.93  # mean largest component of a face normal: 1 for boards along t
 
 
 def stretched(asset: Asset, factors: Vec3) -> Asset:
-    """Returns the asset scaled by its own factor along each axis, about the origin; a negative one mirrors.
+    """Returns the asset scaled by its own factor along each axis, centred and standing on z = 0 again.
 
-    Where a door or drawer stands at an angle (a corner cabinet), x and y share their mean factor: it stays square.
+    A negative factor mirrors. Where a door or drawer stands at an angle (a corner cabinet), x and y share their mean
+    factor: it stays square.
 
     Raises:
         ValueError: if a factor is 0.
@@ -32,7 +33,9 @@ def stretched(asset: Asset, factors: Vec3) -> Asset:
     if abs(factors[0]) != abs(factors[1]) and not all(_is_straight(asset.part(j.part)) for j in asset.joints):
         mean = float(np.abs(factors[:2]).mean())
         factors = np.sign(factors) * np.array([mean, mean, abs(factors[2])])
-    T = from_rotation(np.diag(factors))
+    box = asset.box
+    foot = np.array([box.center[0], box.center[1], box.low[2] if factors[2] > 0 else box.high[2]])
+    T = from_rotation(np.diag(factors), -factors * foot)
     return replace(
         asset,
         parts=tuple(_moved(p, T) for p in asset.parts),

@@ -3,36 +3,62 @@
 import numpy as np
 
 from grafu.asset.part import Asset
-from grafu.graph.edges import Attached, Edge, Hinge, Rail
-from grafu.graph.edit import with_edges
+from grafu.errors import GraphError
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import axis_to_hinge, axis_to_rail
-from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.synth.kinds import TIDY
+from grafu.synth.blueprint import draw_made
+from grafu.synth.check import faults_of
+from grafu.synth.habits import draw_untidiness
 from grafu.synth.specimen import Specimen
-from grafu.vocabulary import JointType, PartLabel
+from grafu.synth.truth import carriers, true_graph
+from grafu.synth.untidiness import Untidiness, apply_untidiness, as_given
+from grafu.vocabulary import PartLabel
+
+ATTEMPTS = 40  # models drawn for one specimen before giving up: at a rejection rate of 30 % this never happens
+MOST_PARTS = 64  # of a whole model; the development models have 8 to 29, the authors' 67 at most
+LEAST_PARTS = 3  # of what is given
+RESTORABLE = frozenset(PartLabel) - {PartLabel.DOOR, PartLabel.DRAWER, PartLabel.UNKNOWN}
 
 
 def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
-    """Returns the specimen number `index` of the furniture of `seed`, with this many surface points on each node."""
+    """Returns the specimen number `index` of the furniture of `seed`, with this many surface points on each node.
+
+    Raises:
+        ValueError: if `seed` or `index` is negative, or no model that works is found.
+    """
+    if min(seed, index) < 0:
+        raise ValueError(f"`seed` and `index` must not be negative: got {seed} and {index}")
     rng = np.random.default_rng([seed, index])
-    kind = str(rng.choice(sorted(TIDY)))
-    whole = TIDY[kind]()
-    truth = _truth(whole, points, index)
     name = f"synth_{seed}_{index:07d}"
-    removable = frozenset(p.id for p in whole.parts if p.label in (PartLabel.HANDLE, PartLabel.TOP_PANEL))
-    return Specimen(name, kind, whole.without_annotation(), whole, truth, removable)
+    for _ in range(ATTEMPTS):
+        blueprint, tidy = draw_made(rng)
+        if len(tidy.parts) > MOST_PARTS or faults_of(tidy):
+            continue
+        untidiness = draw_untidiness(rng, tidy)
+        try:
+            specimen = untidied(name, blueprint.family, tidy, untidiness, points)
+        except GraphError:
+            continue  # a door stretched or opened until no border lies along its pin
+        if len(specimen.asset.parts) >= LEAST_PARTS and len(specimen.whole.parts) <= MOST_PARTS:
+            return specimen
+    raise ValueError(f"no sound model was found for {name} in {ATTEMPTS} draws")
 
 
-def _truth(whole: Asset, points: int, index: int) -> FunctionalGraph:
-    graph = parse_graph(whole, ParsingConfig(points=points, seed=index))
-    edges: list[Edge] = []
-    for joint in whole.joints:
-        node = graph.node(joint.part)
-        mount = next((i for i in graph.neighbours[node.id] if graph.node(i).label.is_support), None)
-        if mount and joint.type is JointType.REVOLUTE:
-            edges.append(Hinge(mount, node.id, *axis_to_hinge(node.box, joint.axis)))
-        elif mount:
-            edges.append(Rail(mount, node.id, axis_to_rail(joint.axis)))
-    edges += [Attached(p.rides_on, p.id) for p in whole.parts if p.rides_on]
-    return with_edges(graph, edges)
+def untidied(name: str, family: str, tidy: Asset, untidiness: Untidiness, points: int = 512) -> Specimen:
+    """Returns a tidy model as this untidiness leaves it, with its truth.
+
+    Raises:
+        GraphError: if a door cannot be said in the graph's codes any more.
+    """
+    whole, misfits = apply_untidiness(tidy, untidiness)
+    truth = true_graph(whole, points, untidiness.seed % 2**32)
+    removable = removable_parts(whole, truth)
+    given, flaws = as_given(whole, untidiness, removable)
+    return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws))
+
+
+def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:
+    """Returns the parts without which everything still hangs on something: none that moves, rides unseen or carries."""
+    moving = {joint.part for joint in whole.joints}
+    keep = moving | carriers(truth)
+    able = (p for p in whole.parts if p.label in RESTORABLE and p.id not in keep)
+    return frozenset(p.id for p in able if p.rides_on is None or p.label is PartLabel.HANDLE)

@@ -88,7 +88,8 @@ def with_edge_strip(asset: Asset, part_id: str, width: float) -> Asset:
 def with_box_apart(asset: Asset, drawer_id: str) -> Asset:
     """Returns the asset with a drawer's boards behind its front as parts of their own that ride on the front.
 
-    They are labelled misc: none of them is a panel of the case. A drawer that is a front alone stays as it is.
+    They are labelled misc: none of them is a panel of the case. Boards that do not reach the front stay with one that
+    does. A drawer that is a front alone stays as it is.
     """
     slides = [j.axis.direction for j in asset.joints if j.part == drawer_id and j.type is JointType.PRISMATIC]
     if not slides:
@@ -99,9 +100,14 @@ def with_box_apart(asset: Asset, drawer_id: str) -> Asset:
     if not behind or len(behind) == len(drawer.surfaces):
         return asset
     kept = tuple(s for s in drawer.surfaces if not any(s is b for b in behind))
-    ids = fresh_ids(asset, f"{drawer_id}_board", len(behind))
+    loose = [s for s in behind if front - float((s.mesh.vertices @ slide).max()) > _FRONT_ZONE]
+    held = [s for s in behind if not any(s is other for other in loose)]
+    if not held:
+        return asset
+    ids = fresh_ids(asset, f"{drawer_id}_board", len(held))
     boards = [
-        Part(i, PartLabel.MISC, (s,), PartSource(i), "annotation", drawer_id) for i, s in zip(ids, behind, strict=True)
+        Part(i, PartLabel.MISC, (s, *(loose if s is held[-1] else ())), PartSource(i), "annotation", drawer_id)
+        for i, s in zip(ids, held, strict=True)
     ]
     parts: list[Part] = []
     for part in asset.parts:

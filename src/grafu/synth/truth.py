@@ -51,8 +51,9 @@ def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGrap
 
 def carriers(graph: FunctionalGraph) -> frozenset[str]:
     """Returns the parts that carry a door, a drawer or a handle in a functional graph."""
-    edges = (*graph.hinges, *graph.rails, *graph.attachments)
-    return frozenset(edge.parent for edge in edges)
+    return frozenset(
+        [*(e.parent for e in graph.hinges), *(e.parent for e in graph.rails), *(e.parent for e in graph.attachments)]
+    )
 
 
 def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, still: list[Part]) -> list[Edge]:

@@ -1,0 +1,99 @@
+"""Which parts a modeller joins to one and which are in several pieces: the drawing of cuts, with their rates."""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.segmentation import is_board
+from grafu.synth.untidiness import Cut, Joined
+from grafu.vocabulary import PartLabel
+
+_CASE = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.TOP_PANEL, PartLabel.DIVIDER)
+
+# What is joined, by weight, and what the result is called. 32052 has each pedestal's whole case as one back panel, and
+# 22692 and 49182 have panels with their mouldings in one.
+GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...], dict[PartLabel, float]]]] = {
+    "case": (
+        0.22,
+        (*_CASE, PartLabel.SHELF),
+        {
+            PartLabel.SIDE_PANEL: 0.4,
+            PartLabel.BACK_PANEL: 0.2,
+            PartLabel.MISC: 0.25,
+            PartLabel.FACE_FRAME: 0.15,
+        },
+    ),
+    "case without shelves": (
+        0.13,
+        _CASE,
+        {PartLabel.SIDE_PANEL: 0.5, PartLabel.BACK_PANEL: 0.25, PartLabel.MISC: 0.25},
+    ),
+    "sides": (0.15, (PartLabel.SIDE_PANEL,), {PartLabel.SIDE_PANEL: 1.0}),
+    "sides and back": (
+        0.1,
+        (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL),
+        {PartLabel.SIDE_PANEL: 0.6, PartLabel.BACK_PANEL: 0.4},
+    ),
+    "shelves": (0.12, (PartLabel.SHELF,), {PartLabel.SHELF: 1.0}),
+    "legs": (0.1, (PartLabel.LEG,), {PartLabel.LEG: 1.0}),
+    "bars": (0.08, (PartLabel.BAR,), {PartLabel.BAR: 1.0}),
+    "front frame": (0.1, (PartLabel.FACE_FRAME, PartLabel.BAR), {PartLabel.FACE_FRAME: 0.6, PartLabel.BAR: 0.4}),
+}
+
+# A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
+FRAME_IN_BARS = 0.6
+STRIP = 0.15  # of cut models: solid-edge strips along panels
+BOX_APART = 0.12  # of cut models: fronts moved by the artist, their boxes left as boards
+
+
+def draw_joined(
+    rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float, handles: float
+) -> tuple[Joined, ...]:
+    """Returns which of the parts are joined: with chance `share` a group, with chance `handles` handles with fronts."""
+    found = []
+    busy = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
+    still = [p for p in parts if p.id not in busy and p.rides_on is None]
+    if chance(rng, share):
+        able = {
+            name: weight
+            for name, (weight, labels, _) in GROUPS.items()
+            if sum(p.label in labels for p in still) > 1
+            and len({p.label for p in still} & set(labels)) > (len(labels) > 1)
+        }
+        if able:
+            _, labels, names = GROUPS[pick(rng, able)]
+            found.append(Joined(tuple(p.id for p in still if p.label in labels), pick(rng, names)))
+    riders = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.rides_on)
+    if riders and chance(rng, handles):
+        found.append(Joined(riders, None))
+    return tuple(found)
+
+
+def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float) -> tuple[Cut, ...]:
+    """Returns which of the parts are in several pieces: frames often, panels with chance `share`."""
+    found = []
+    label = PartLabel.BAR if chance(rng, 0.7) else PartLabel.FACE_FRAME
+    if chance(rng, FRAME_IN_BARS):
+        frames = (p for p in parts if p.label is PartLabel.FACE_FRAME and len(p.surfaces) > 1)
+        found += [Cut(p.id, "pieces", label) for p in frames]
+    if not chance(rng, share):
+        return tuple(found)
+    boards = [p for p in parts if p.label in (*_CASE, PartLabel.SHELF) and is_board(p) and p.box.size.min() > 0.002]
+    if boards and chance(rng, STRIP):
+        width = between(rng, (0.01, 0.04))
+        return (*found, *(Cut(p.id, "edge strip", width=width) for p in boards if p.box.thin_axis != 1))
+    if chance(rng, BOX_APART):
+        return (*found, *(Cut(j.part, "box apart") for j in asset.joints))
+    for k in rng.permutation(len(boards))[: count(rng, 1, 2)]:
+        found.append(_planks(rng, boards[k]))
+    return tuple(found)
+
+
+def _planks(rng: np.random.Generator, board: Part) -> Cut:
+    """Returns a board in two to five, square to its longer or (seldom) shorter side."""
+    order = np.argsort(board.box.size)
+    axis = int(order[1] if chance(rng, 0.6) else order[2])
+    return Cut(board.id, "planks", count=count(rng, 2, 5), axis=axis)

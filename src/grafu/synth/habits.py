@@ -1,0 +1,199 @@
+"""Modellers' habits, and the drawing of one model's untidiness: all rates stand here, each with its reason.
+
+A modeller who draws panels as sheets does so all over the model, and one who exports merged meshes has no handles of
+their own: so a habit is drawn first and makes the rest likely or not. The shares come from the seventeen development
+models (numbers in brackets), which are few, widened towards what other sources of models are known for.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.clutter import CLUTTER
+from grafu.synth.cutting import draw_cuts, draw_joined
+from grafu.synth.naming import draw_wording
+from grafu.synth.untidiness import Faces, Misfit, Untidiness
+from grafu.vocabulary import PartLabel
+
+Masking = tuple[float, float, float, float]  # none, a few, many, all labels lost
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Habit:
+    """How one kind of modeller works: chances per model, but `sheets` per group of panels and `clutter` per kind."""
+
+    share: float
+    sheets: float
+    cuts: float
+    joined: float
+    handles_joined: float
+    clutter: float
+    misfits: float
+    faces: float
+    bend: float
+    masking: Masking
+
+
+# Sheets for panels: 5 of 17 models (41003, 44781, 45463, 45940, 32052), so about one group of panels in five over all.
+# Handles within doors: rare in segmented data (0 of 17), usual where meshes are merged.
+# Labels lost: over all about 45 % of models keep all, 25 % lose a few, 15 % many, 15 % all (files without names).
+HABITS: Final[dict[str, Habit]] = {
+    "clean cad": Habit(0.38, 0.10, 0.20, 0.12, 0.03, 0.09, 0.15, 0.04, 0.0, (0.56, 0.26, 0.11, 0.07)),
+    "sheets": Habit(0.22, 0.50, 0.20, 0.20, 0.05, 0.07, 0.25, 0.50, 0.0, (0.42, 0.25, 0.17, 0.16)),
+    "exploded export": Habit(0.13, 0.10, 0.75, 0.02, 0.0, 0.25, 0.20, 0.10, 0.0, (0.52, 0.28, 0.12, 0.08)),
+    "merged export": Habit(0.12, 0.15, 0.0, 1.0, 0.25, 0.05, 0.20, 0.20, 0.0, (0.34, 0.22, 0.16, 0.28)),
+    "game asset": Habit(0.12, 0.50, 0.05, 0.50, 0.25, 0.05, 0.25, 0.25, 0.0, (0.30, 0.22, 0.20, 0.28)),
+    "scan": Habit(0.03, 0.10, 0.05, 0.60, 0.30, 0.10, 0.30, 0.05, 1.0, (0.15, 0.15, 0.20, 0.50)),
+}
+LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))  # shares of labels for the four entries of a masking
+
+# Parts that are not there. Tops: 48 % of real storage furniture has none (kitchen bases under one worktop, cases whose
+# top lies below another), tables nearly always have theirs. No handles at all: 3 of 17 (22692, 26608, 46896; 32052 and
+# 49182 have grips of other kinds), some of which are pushed to open; single ones are rarely forgotten.
+NO_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.48, 0.01, 0.10, 0.08, 0.12
+NO_HANDLES, ONE_HANDLE_LOST, A_SHELF_LOST = 0.12, 0.03, 0.05
+
+# How likely panels are sheets, relative to the habit: those nobody looks at before those everybody sees.
+SHEETS: Final[dict[PartLabel, float]] = {
+    PartLabel.BACK_PANEL: 1.0,
+    PartLabel.BOTTOM_PANEL: 1.0,
+    PartLabel.BAR: 0.7,
+    PartLabel.FACE_FRAME: 0.5,
+    PartLabel.SHELF: 0.4,
+    PartLabel.DIVIDER: 0.3,
+    PartLabel.SIDE_PANEL: 0.3,
+    PartLabel.TOP_PANEL: 0.25,
+    PartLabel.DOOR: 0.12,
+}
+THICKEST_SHEET = 0.023  # metres: a thicker panel's outer face alone would stand too far off for any hinge
+FACES: Final[dict[Faces, float]] = {"doubled": 0.3, "inverted": 0.2, "loose": 0.2, "open back": 0.2, "shells": 0.1}
+CLUTTER_WEIGHT: Final[dict[str, float]] = {"things on top": 0.5, "things on shelves": 0.5, "basket": 0.4, "posts": 0.7}
+
+AJAR = 0.02  # of models: 22692 and 26608 have one drawer pulled out each; they were picked for it more than others
+MISFIT = (0.0005, 0.008)  # metres: below, no reader notices; above, no maker would have left it
+GROWN = (0.0003, 0.003)
+MISLABELLED = 0.01
+BEND = (0.0005, 0.003)  # metres: what scanning leaves on furniture
+YAWED, TURNED = 0.015, 0.025  # of models: askew by up to four degrees; front mistaken by quarter turns
+SHUFFLED = 0.6  # part order: exporters sort by name, material or not at all
+STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, and by up to a quarter
+MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
+
+
+def draw_untidiness(rng: np.random.Generator, tidy: Asset) -> Untidiness:
+    """Returns what will be untidy about a tidy model with true labels, joints and riders."""
+    name = pick(rng, {key: habit.share for key, habit in HABITS.items()})
+    habit = HABITS[name]
+    missing = _missing(rng, tidy)
+    kept = [p for p in tidy.parts if p.id not in missing]
+    joined = draw_joined(rng, tidy, kept, habit.joined, habit.handles_joined)
+    free = [p for p in kept if not any(p.id in group.ids for group in joined)]
+    return Untidiness(
+        name,
+        int(rng.integers(2**62)),
+        clutter=tuple(k for k in CLUTTER if chance(rng, habit.clutter * CLUTTER_WEIGHT.get(k, 1.0))),
+        joined=joined,
+        cuts=draw_cuts(rng, tidy, free, habit.cuts),
+        faces=_faces(rng, habit, kept),
+        misfits=_misfits(rng, free) if chance(rng, habit.misfits) else (),
+        ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
+        factors=_factors(rng),
+        bend=between(rng, BEND) if chance(rng, habit.bend) else 0.0,
+        yaw=_yaw(rng),
+        wording=draw_wording(rng),
+        missing=missing,
+        masked=between(rng, LOST[int(rng.choice(4, p=habit.masking))]),
+        mislabelled=chance(rng, MISLABELLED),
+        shuffled=chance(rng, SHUFFLED),
+    )
+
+
+def is_storage(asset: Asset) -> bool:
+    """Whether a model is a case rather than a table: not one on long legs without a bottom panel."""
+    labels = [p.label for p in asset.parts]
+    if PartLabel.LEG in labels:
+        legs = max(float(p.box.size[2]) for p in asset.parts if p.label is PartLabel.LEG)
+        if legs > 0.6 * float(asset.box.size[2]) and PartLabel.BOTTOM_PANEL not in labels:
+            return False
+    return PartLabel.BOTTOM_PANEL in labels or PartLabel.BACK_PANEL in labels
+
+
+def _missing(rng: np.random.Generator, asset: Asset) -> tuple[str, ...]:
+    by = {label: [p for p in asset.parts if p.label is label] for label in PartLabel}
+    groups = (
+        (by[PartLabel.TOP_PANEL], NO_TOP if is_storage(asset) else NO_TABLE_TOP),
+        (by[PartLabel.BACK_PANEL], NO_BACK),
+        (by[PartLabel.BOTTOM_PANEL], NO_BOTTOM),
+        (by[PartLabel.SHELF], NO_SHELVES),
+        (by[PartLabel.HANDLE], NO_HANDLES),
+        (_one(rng, by[PartLabel.HANDLE]), ONE_HANDLE_LOST),
+        (_one(rng, by[PartLabel.SHELF]), A_SHELF_LOST),
+    )
+    gone = [part.id for parts, share in groups if chance(rng, share) for part in parts]
+    return tuple(dict.fromkeys(gone))
+
+
+def _one(rng: np.random.Generator, parts: Sequence[Part]) -> list[Part]:
+    return [parts[int(rng.integers(len(parts)))]] if parts else []
+
+
+def _faces(rng: np.random.Generator, habit: Habit, parts: Sequence[Part]) -> tuple[tuple[Faces, tuple[str, ...]], ...]:
+    found: list[tuple[Faces, tuple[str, ...]]] = []
+    for label, weight in SHEETS.items():
+        ids = tuple(p.id for p in parts if p.label is label and p.box.size.min() < THICKEST_SHEET)
+        if ids and chance(rng, habit.sheets * weight):
+            found.append(("sheet", ids if chance(rng, 0.8) else ids[:1]))
+    if chance(rng, habit.faces):
+        everything = tuple(p.id for p in parts)
+        some = tuple(i for i in everything if chance(rng, 0.3))
+        found.append((pick(rng, FACES), everything if chance(rng, 0.5) else some))
+    return tuple(found)
+
+
+def _misfits(rng: np.random.Generator, parts: Sequence[Part]) -> tuple[Misfit, ...]:
+    """Returns one to three parts out of place, fronts before panels: a gap in a case is seldom left open."""
+    weights = np.array([3.0 if p.label.is_movable else 1.0 for p in parts])
+    if not len(weights):
+        return ()
+    number = min(count(rng, 1, 3), len(weights))
+    found = []
+    for k in rng.choice(len(weights), number, replace=False, p=weights / weights.sum()):
+        grown = chance(rng, 0.35)
+        offset = np.zeros(3)
+        amount = between(rng, GROWN if grown else MISFIT)
+        offset[int(rng.integers(3))] = amount if grown or chance(rng, 0.5) else -amount
+        found.append(Misfit(parts[k].id, (float(offset[0]), float(offset[1]), float(offset[2])), grown))
+    return tuple(found)
+
+
+def _ajar(rng: np.random.Generator, asset: Asset) -> tuple[tuple[str, float], ...]:
+    """Returns one front of those that nothing stands before, and how far it is open."""
+    front = min((asset.part(j.part).box.low[1] for j in asset.joints), default=0.0)
+    open_able = [j.part for j in asset.joints if asset.part(j.part).box.low[1] < front + 0.03]
+    if not open_able:
+        return ()
+    part = open_able[int(rng.integers(len(open_able)))]
+    drawer = asset.part(part).label is PartLabel.DRAWER
+    return ((part, between(rng, (0.05, 0.5) if drawer else (0.03, 0.3))),)
+
+
+def _factors(rng: np.random.Generator) -> tuple[float, float, float]:
+    factors = np.ones(3)
+    if chance(rng, STRETCHED):
+        widest = 0.22 if chance(rng, WIDELY) else 0.1
+        factors *= np.exp(rng.uniform(-widest, widest, 3))
+    if chance(rng, MIS_SCALED):
+        factors *= float(np.exp(np.clip(rng.normal(0.0, 0.22), -0.45, 0.45)))
+    factors[0] *= -1.0 if chance(rng, 0.5) else 1.0
+    return float(factors[0]), float(factors[1]), float(factors[2])
+
+
+def _yaw(rng: np.random.Generator) -> float:
+    if chance(rng, TURNED):
+        return float(np.pi / 2) * count(rng, 1, 3)
+    return float(np.radians(between(rng, (-4.0, 4.0)))) if chance(rng, YAWED) else 0.0
