@@ -17,7 +17,7 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == f"grafu {__version__}\n"
 
 
-@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates"])
+@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates", "synth"])
 def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main([verb, "--help"])
@@ -38,6 +38,13 @@ def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.Ca
         ["functionalize", "a.glb", "--out", "x", "--jobs", "two"],
         ["inspect", "a.glb", "--height", "tall"],
         ["inspect", "a.glb", "--labels", "some"],
+        ["synth", "--out", "x", "--count", "0"],
+        ["synth", "--out", "x", "--count", "many"],
+        ["synth", "--out", "x", "--seed", "-1"],
+        ["synth", "--out", "x", "--points", "1.5"],
+        ["synth", "--out", "x", "--jobs", "0"],
+        ["synth", "--out", "x", "--format", "zip"],
+        ["synth", "--out", "x", "--gallery", "--stats"],
     ],
 )
 def test_wrong_arguments_exit_with_2(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:

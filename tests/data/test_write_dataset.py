@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from grafu.data import write
+from grafu.data import write_plan
 from grafu.data.stream import stream_shards
-from grafu.data.write import MANIFEST, DatasetPlan, models_written, write_dataset
+from grafu.data.write import models_written, write_dataset
+from grafu.data.write_plan import MANIFEST, DatasetPlan
 from grafu.errors import ExportError, UnreadableAsset
 
 PLAN = DatasetPlan(seed=2, count=30, points=16, models_per_shard=8)
@@ -87,7 +88,7 @@ def test_another_generator_is_refused(tmp_path: Path, monkeypatch: pytest.Monkey
     (tmp_path / MANIFEST).write_text(json.dumps(manifest | {"first_model": "another"}))
     with pytest.raises(ExportError, match="a generator that makes other models"):
         list(write_dataset(PLAN, tmp_path))
-    monkeypatch.setattr(write, "__version__", "99")
+    monkeypatch.setattr(write_plan, "__version__", "99")
     with pytest.raises(ExportError, match=r"made with grafu .*, and this is 99"):
         list(write_dataset(PLAN, tmp_path))
 

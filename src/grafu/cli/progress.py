@@ -1,20 +1,46 @@
 """A progress bar on stderr, where it is a terminal. It knows nothing of the work."""
 
 from collections.abc import Iterable, Iterator
-from typing import TypeVar
+from typing import TypeVar, final
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+from rich.text import Text
 
 T = TypeVar("T")
 
 
-def with_progress(items: Iterable[T], total: int) -> Iterator[T]:
-    """Yields the items and counts them on a bar."""
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn())
+@final
+class _RateColumn(ProgressColumn):
+    """How many items per second, lately."""
+
+    def render(self, task: Task) -> Text:
+        return Text(f"{task.speed:.1f} per second," if task.speed else "")
+
+
+def with_progress(items: Iterable[T], total: int, word: str = "inputs") -> Iterator[T]:
+    """Yields the items and counts them on a bar, under this word."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        _RateColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
     console = Console(stderr=True)
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("inputs", total=total)
+        task = progress.add_task(word, total=total)
         for item in items:
             progress.advance(task)
             yield item

@@ -4,7 +4,7 @@ from rich.console import Console
 from rich.table import Table
 
 PIPE_WIDTH = 200  # a pipe or file has no width of its own; rich would fold at 80
-NUMBERS = ("doors", "drawers", "skipped", "seconds", "opening")
+NUMBERS = ("doors", "drawers", "skipped", "seconds", "opening", "models", "movable")
 
 
 def wide_console() -> Console:

@@ -1,222 +1,30 @@
-"""Writes a data set of made models as a folder of shards, and goes on where it was stopped. It prints nothing.
+"""Writes a data set of made models in either format, and goes on where it was stopped. It prints nothing."""
 
-    DIR/dataset.json       what was asked for: seed, points, models per shard, version, and a digest of the first model
-    DIR/shard_000000.npz   models 0..999, and so on; each appears whole, by one rename
-
-The bytes depend on the seed and the points alone: not on the number of processes, nor on how often it was stopped.
-"""
-
-import json
-import os
 from collections.abc import Iterator
-from contextlib import closing
-from dataclasses import asdict, dataclass
-from functools import partial
-from hashlib import blake2b
-from itertools import islice
 from pathlib import Path
-from typing import Any, final
-from uuid import uuid4
 
-import numpy as np
-
-from grafu.data.shards import MODELS_PER_SHARD, ShardReader, write_model_arrays
-from grafu.data.shards_arrays import ABSENT, LABELS, ModelArrays, record_to_arrays
-from grafu.data.shards_record import record_of
-from grafu.data.stream import ordered_map, shard_paths
-from grafu.errors import ExportError
-from grafu.synth.generate import make_specimen
-from grafu.version import __version__
-
-SCHEMA = "grafu.dataset/1"
-MANIFEST = "dataset.json"
-
-_MOVABLE = [code for code, label in enumerate(LABELS) if label.is_movable]
-_SAID = {"seed": "seed", "points": "points for each part", "models_per_shard": "models in each shard"}
-
-
-@final
-@dataclass(frozen=True)
-class DatasetPlan:
-    """What to make: `count` models of `seed`, with `points` surface points on each part.
-
-    Raises:
-        ExportError: if a number is out of range.
-    """
-
-    seed: int
-    count: int
-    points: int = 512  # the network's (paper, supplement)
-    models_per_shard: int = MODELS_PER_SHARD
-
-    def __post_init__(self) -> None:
-        if min(self.seed, self.count - 1, self.points, self.models_per_shard - 1) < 0:
-            raise ExportError(f"a data set must have a seed and points of at least 0, and a model: got {self}")
-
-    @property
-    def shards(self) -> int:
-        """How many files it takes."""
-        return -(-self.count // self.models_per_shard)
-
-    def indices(self, shard: int) -> range:
-        """The indices of a shard's models."""
-        first = shard * self.models_per_shard
-        return range(first, min(first + self.models_per_shard, self.count))
-
-
-@final
-@dataclass(frozen=True)
-class ModelSummary:
-    """One model in numbers: parts as given and of the repaired version, doors and drawers among these, defects.
-
-    Two models with one `shape` are doubles. `fresh`: it was made now, and not in an earlier run.
-    """
-
-    model_id: str
-    family: str
-    given: int
-    parts: int
-    movable: int
-    defects: tuple[str, ...]
-    shape: bytes
-    fresh: bool
+from grafu.data.shards import ShardReader
+from grafu.data.stream import shard_paths
+from grafu.data.write_furfun import furfun_models, write_furfun_models
+from grafu.data.write_plan import DatasetPlan, ModelSummary, begin_dataset
+from grafu.data.write_shards import write_shards
 
 
 def write_dataset(plan: DatasetPlan, folder: Path, jobs: int = 1, overwrite: bool = False) -> Iterator[ModelSummary]:
-    """Makes the models that the folder lacks, and yields a summary of each model, those of earlier runs first.
+    """Makes the models that the folder lacks with `jobs` processes, and yields a summary of each.
 
-    Stopping the iterator, or the process, loses the models of the shard in work and nothing else. With `overwrite` the
-    shards of an earlier run are removed first.
+    Of shards the models of earlier runs are summed up first; FurFun's files do not say enough for that. Stopping the
+    iterator, or the process, loses the shard or the model in work and nothing else. With `overwrite` the models of an
+    earlier run are removed first.
 
     Raises:
         ExportError: if the folder holds another data set or other things, or cannot be written.
         UnreadableAsset: if a shard that is there is damaged.
     """
-    _begin(plan, folder, overwrite)
-    done: list[ModelArrays] = []
-    shard = 0
-    for shard in range(plan.shards):
-        done = _made_before(shard_path(folder, shard), len(plan.indices(shard)))
-        yield from (_summary(arrays, fresh=False) for arrays in done)
-        if len(done) < len(plan.indices(shard)):
-            break
-    else:
-        return
-    start = plan.indices(shard).start + len(done)
-    with closing(ordered_map(partial(_make_arrays, plan.seed, plan.points), start, plan.count, jobs)) as models:
-        for number in range(shard, plan.shards):
-            held = done if number == shard else []
-            for arrays in islice(models, len(plan.indices(number)) - len(held)):
-                held.append(arrays)
-                yield _summary(arrays, fresh=True)
-            write_model_arrays(held, shard_path(folder, number))
-
-
-def shard_path(folder: Path, number: int) -> Path:
-    """Returns where a shard of a data set stands."""
-    return folder / f"shard_{number:06d}.npz"
+    begin_dataset(plan, folder, overwrite)
+    yield from (write_shards if plan.format == "shards" else write_furfun_models)(plan, folder, jobs)
 
 
 def models_written(folder: Path) -> int:
-    """Returns how many models the whole shards of a folder hold."""
-    return sum(len(ShardReader(path, points=False)) for path in shard_paths(folder))
-
-
-def _make_arrays(seed: int, points: int, index: int) -> ModelArrays:
-    return record_to_arrays(record_of(make_specimen(seed, index, points)))
-
-
-def _made_before(path: Path, wanted: int) -> list[ModelArrays]:
-    """Returns the models of a shard, with their points only where the shard will be written again."""
-    if not path.exists():
-        return []
-    reader = ShardReader(path, points=False)
-    if len(reader) < wanted:
-        reader = ShardReader(path)
-    return [reader.arrays(place) for place in range(len(reader))]
-
-
-def _summary(arrays: ModelArrays, fresh: bool) -> ModelSummary:
-    return ModelSummary(
-        arrays.model_id,
-        arrays.family,
-        int(np.count_nonzero(arrays.given_labels != ABSENT)),
-        len(arrays.labels),
-        int(np.isin(arrays.labels, _MOVABLE).sum()),
-        tuple(defect.kind for defect in arrays.defects),
-        _shape(arrays),
-        fresh,
-    )
-
-
-def _shape(arrays: ModelArrays) -> bytes:
-    """Returns the same for two models of the same parts in the same places, to a tenth of a millimetre."""
-    places = np.rint(arrays.boxes * 1e4).astype(np.int64)
-    return blake2b(places.tobytes() + arrays.labels.tobytes() + arrays.given_labels.tobytes(), digest_size=12).digest()
-
-
-def _begin(plan: DatasetPlan, folder: Path, overwrite: bool) -> None:
-    """Makes the folder and its manifest, or makes sure that what is there can be gone on with."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        held = sorted(path.name for path in folder.iterdir())
-    except OSError as error:
-        raise ExportError(f"cannot write the output `{folder}`: {error.strerror}; nothing was written") from error
-    if held and MANIFEST not in held:
-        raise ExportError(f"`{folder}` holds `{held[0]}` and no data set, so it is kept: choose another --out")
-    manifest = _manifest(plan)
-    if held and not overwrite:
-        _require_same(_stated(folder), manifest, folder)
-    else:
-        _write_manifest(folder, manifest, [*shard_paths(folder)])
-    for left in folder.glob(".shard_*.new"):  # of a run that was killed while it wrote
-        left.unlink(missing_ok=True)
-
-
-def _manifest(plan: DatasetPlan) -> dict[str, Any]:
-    asked = asdict(plan)
-    del asked["count"]  # a data set may grow
-    first = _make_arrays(plan.seed, plan.points, 0)
-    return {"schema": SCHEMA, "grafu": __version__, "format": "shards"} | asked | {"first_model": _digest(first)}
-
-
-def _digest(arrays: ModelArrays) -> str:
-    """Returns a digest of a model: another generator makes another, whatever its version says."""
-    words = [arrays.model_id, arrays.family, *arrays.node_ids, *map(str, arrays.defects)]
-    columns = (arrays.labels, arrays.given_labels, arrays.boxes, arrays.edges, arrays.given_edges, arrays.points)
-    return blake2b("\n".join(words).encode() + b"".join(c.tobytes() for c in columns), digest_size=16).hexdigest()
-
-
-def _write_manifest(folder: Path, manifest: dict[str, Any], outdated: list[Path]) -> None:
-    fresh = folder / f".{MANIFEST}.{uuid4().hex[:8]}.new"
-    try:
-        for path in outdated:
-            path.unlink()
-        fresh.write_text(json.dumps(manifest, indent=1) + "\n", encoding="utf-8")
-        os.replace(fresh, folder / MANIFEST)
-    except OSError as error:
-        raise ExportError(f"cannot write the output `{folder}`: {error.strerror}") from error
-    finally:
-        fresh.unlink(missing_ok=True)
-
-
-def _stated(folder: Path) -> dict[str, Any]:
-    try:
-        stated = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ExportError(f"`{folder / MANIFEST}` cannot be read ({error}): choose another --out") from error
-    if not isinstance(stated, dict) or stated.get("schema") != SCHEMA:
-        raise ExportError(f"`{folder / MANIFEST}` must be of the form `{SCHEMA}`: choose another --out")
-    return stated
-
-
-def _require_same(stated: dict[str, Any], asked: dict[str, Any], folder: Path) -> None:
-    """Refuses to go on with what was made in another way."""
-    ways = "choose another --out, or give --overwrite to start again"
-    for key, word in _SAID.items():
-        if stated.get(key) != asked[key]:
-            raise ExportError(f"`{folder}` was made with {stated.get(key)} as its {word}, not {asked[key]}: {ways}")
-    if stated != asked:
-        made, now = stated.get("grafu"), asked["grafu"]
-        which = f"grafu {made}, and this is {now}" if made != now else "a generator that makes other models"
-        raise ExportError(f"`{folder}` was made with {which}: {ways}")
+    """Returns how many whole models a folder holds, in whole files."""
+    return sum(len(ShardReader(path, points=False)) for path in shard_paths(folder)) + len(furfun_models(folder))

@@ -1,0 +1,185 @@
+"""What a data set of made models is asked to be, and the manifest that keeps runs of different ones apart.
+
+    DIR/dataset.json   seed, points, models in each shard, format, version, and a digest of the first model
+
+The digest tells another generator, whatever its version says. This module writes the manifest and no model.
+"""
+
+import json
+import os
+import shutil
+from dataclasses import asdict, dataclass
+from hashlib import blake2b
+from pathlib import Path
+from typing import Any, Literal, final
+from uuid import uuid4
+
+import numpy as np
+
+from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
+from grafu.data.shards import MODELS_PER_SHARD
+from grafu.data.shards_arrays import ABSENT, LABELS, ModelArrays, record_to_arrays
+from grafu.data.shards_record import record_of
+from grafu.data.stream import shard_paths
+from grafu.errors import ExportError
+from grafu.synth.generate import make_specimen
+from grafu.version import __version__
+
+DatasetFormat = Literal["shards", "furfun"]
+SCHEMA = "grafu.dataset/1"
+MANIFEST = "dataset.json"
+
+_MOVABLE = [code for code, label in enumerate(LABELS) if label.is_movable]
+_SAID = {
+    "format": "format",
+    "seed": "seed",
+    "points": "points for each part",
+    "models_per_shard": "models in each shard",
+}
+
+
+@final
+@dataclass(frozen=True)
+class DatasetPlan:
+    """What to make: `count` models of `seed`, with `points` surface points on each part.
+
+    Raises:
+        ExportError: if a number is out of range.
+    """
+
+    seed: int
+    count: int
+    points: int = 512  # the network's (paper, supplement)
+    models_per_shard: int = MODELS_PER_SHARD  # of the format `shards`
+    format: DatasetFormat = "shards"
+
+    def __post_init__(self) -> None:
+        if min(self.seed, self.count - 1, self.points, self.models_per_shard - 1) < 0:
+            raise ExportError(f"a data set must have a seed and points of at least 0, and a model: got {self}")
+
+    @property
+    def shards(self) -> int:
+        """How many files it takes."""
+        return -(-self.count // self.models_per_shard)
+
+    def indices(self, shard: int) -> range:
+        """The indices of a shard's models."""
+        first = shard * self.models_per_shard
+        return range(first, min(first + self.models_per_shard, self.count))
+
+
+@final
+@dataclass(frozen=True)
+class ModelSummary:
+    """One model in numbers: parts as given and of the repaired version, doors and drawers among these, defects.
+
+    Two models with one `shape` are doubles. `fresh`: it was made now, and not in an earlier run.
+    """
+
+    model_id: str
+    family: str
+    given: int
+    parts: int
+    movable: int
+    defects: tuple[str, ...]
+    shape: bytes
+    fresh: bool
+
+
+def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> None:
+    """Makes the folder and its manifest, or makes sure that the data set that is there can be gone on with.
+
+    With `overwrite` the models of an earlier run are removed.
+
+    Raises:
+        ExportError: if the folder holds another data set or other things, or cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        held = sorted(path.name for path in folder.iterdir() if not (path.name[0] == "." and path.suffix == ".new"))
+    except OSError as error:
+        raise ExportError(f"cannot write the output `{folder}`: {error.strerror}; nothing was written") from error
+    if held and MANIFEST not in held:
+        raise ExportError(f"`{folder}` holds `{held[0]}` and no data set, so it is kept: choose another --out")
+    manifest = _manifest(plan)
+    if held and not overwrite:
+        _require_same(_stated(folder), manifest, folder)
+    else:
+        _write_manifest(folder, manifest)
+
+
+def summary_of(arrays: ModelArrays, fresh: bool) -> ModelSummary:
+    """Returns a model in numbers."""
+    return ModelSummary(
+        arrays.model_id,
+        arrays.family,
+        int(np.count_nonzero(arrays.given_labels != ABSENT)),
+        len(arrays.labels),
+        int(np.isin(arrays.labels, _MOVABLE).sum()),
+        tuple(defect.kind for defect in arrays.defects),
+        _shape(arrays),
+        fresh,
+    )
+
+
+def _shape(arrays: ModelArrays) -> bytes:
+    """Returns the same for two models of the same parts in the same places, to a tenth of a millimetre."""
+    places = np.rint(arrays.boxes * 1e4).astype(np.int64)
+    return blake2b(places.tobytes() + arrays.labels.tobytes() + arrays.given_labels.tobytes(), digest_size=12).digest()
+
+
+def make_arrays(seed: int, points: int, index: int) -> ModelArrays:
+    """Returns a made model as arrays; a function of a module, so that another process can be asked for it."""
+    return record_to_arrays(record_of(make_specimen(seed, index, points)))
+
+
+def _manifest(plan: DatasetPlan) -> dict[str, Any]:
+    asked = asdict(plan)
+    del asked["count"]  # a data set may grow
+    first = make_arrays(plan.seed, plan.points, 0)
+    return {"schema": SCHEMA, "grafu": __version__} | asked | {"first_model": _digest(first)}
+
+
+def _digest(arrays: ModelArrays) -> str:
+    """Returns a digest of a model: another generator makes another, whatever its version says."""
+    words = [arrays.model_id, arrays.family, *arrays.node_ids, *map(str, arrays.defects)]
+    columns = (arrays.labels, arrays.given_labels, arrays.boxes, arrays.edges, arrays.given_edges, arrays.points)
+    return blake2b("\n".join(words).encode() + b"".join(c.tobytes() for c in columns), digest_size=16).hexdigest()
+
+
+def _write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
+    """Removes the models of an earlier run, and states what comes now."""
+    fresh = folder / f".{MANIFEST}.{uuid4().hex[:8]}.new"
+    try:
+        for path in shard_paths(folder):
+            path.unlink()
+        for name in (UNFUNCTIONAL, FUNCTIONAL, GEOMETRY, SPLITS):
+            shutil.rmtree(folder / name, ignore_errors=True)
+        fresh.write_text(json.dumps(manifest, indent=1) + "\n", encoding="utf-8")
+        os.replace(fresh, folder / MANIFEST)
+    except OSError as error:
+        raise ExportError(f"cannot write the output `{folder}`: {error.strerror}") from error
+    finally:
+        fresh.unlink(missing_ok=True)
+
+
+def _stated(folder: Path) -> dict[str, Any]:
+    try:
+        stated = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ExportError(f"`{folder / MANIFEST}` cannot be read ({error}): choose another --out") from error
+    if not isinstance(stated, dict) or stated.get("schema") != SCHEMA:
+        raise ExportError(f"`{folder / MANIFEST}` must be of the form `{SCHEMA}`: choose another --out")
+    return stated
+
+
+def _require_same(stated: dict[str, Any], asked: dict[str, Any], folder: Path) -> None:
+    """Refuses to go on with what was made in another way."""
+    ways = "choose another --out, or give --overwrite to start again"
+    for key, word in _SAID.items():
+        if stated.get(key) != asked[key]:
+            raise ExportError(f"`{folder}` was made with {stated.get(key)} as its {word}, not {asked[key]}: {ways}")
+    if stated != asked:
+        made, now = stated.get("grafu"), asked["grafu"]
+        which = f"grafu {made}, and this is {now}" if made != now else "a generator that makes other models"
+        raise ExportError(f"`{folder}` was made with {which}: {ways}")

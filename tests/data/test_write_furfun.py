@@ -1,0 +1,74 @@
+"""Made models laid out like the authors' release: it reads back, goes on where it was stopped, and never mixes."""
+
+from itertools import islice
+from pathlib import Path
+
+import pytest
+
+from grafu.data.furfun.folder import FurFunFolder
+from grafu.data.furfun.layout import FUNCTIONAL, SPLITS, UNFUNCTIONAL
+from grafu.data.stream import stream_synth
+from grafu.data.write import models_written, write_dataset
+from grafu.data.write_plan import DatasetPlan
+from grafu.errors import ExportError
+
+PLAN = DatasetPlan(seed=2, count=12, points=16, format="furfun")
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """The files of a run that nothing stopped, by one process."""
+    folder = tmp_path_factory.mktemp("whole")
+    assert len(list(write_dataset(PLAN, folder))) == 12
+    return contents(folder)
+
+
+def test_what_is_written_reads_back(tmp_path: Path) -> None:
+    list(write_dataset(PLAN, tmp_path))
+    release = FurFunFolder(tmp_path, points=16)
+    for record in stream_synth(2, points=16, stop=12):
+        graph = release.pair(record.model_id).target
+        assert [(n.id, n.label) for n in graph.nodes] == [(n.id, n.label) for n in record.truth.nodes]
+    split = release.split("full_split")
+    assert [len(ids) for ids in (split.train, split.val, split.test)] == [10, 1, 1]
+
+
+@pytest.mark.parametrize(("stopped", "jobs"), [(0, 1), (5, 1), (9, 2)])
+def test_a_stopped_run_goes_on(whole: dict[str, bytes], tmp_path: Path, stopped: int, jobs: int) -> None:
+    run = write_dataset(PLAN, tmp_path, jobs)
+    list(islice(run, stopped))
+    run.close()  # type: ignore[attr-defined]
+    assert models_written(tmp_path) == stopped
+    assert not (tmp_path / SPLITS).exists()
+
+    assert len(list(write_dataset(PLAN, tmp_path, jobs))) == 12 - stopped
+    assert contents(tmp_path) == whole
+    assert list(write_dataset(PLAN, tmp_path)) == []
+
+
+def test_half_a_model_is_written_again(whole: dict[str, bytes], tmp_path: Path) -> None:
+    list(write_dataset(DatasetPlan(2, 5, 16, format="furfun"), tmp_path))
+    half = tmp_path / FUNCTIONAL / f"{sorted((tmp_path / UNFUNCTIONAL).iterdir())[-1].name[:-1]}5"
+    half.mkdir()
+    (half / "half.json").write_text("half")
+    (tmp_path / ".model.0a1b2c3d.new" / FUNCTIONAL).mkdir(parents=True)
+    list(write_dataset(PLAN, tmp_path))
+    assert contents(tmp_path) == whole
+    assert not list(tmp_path.glob(".model.*"))
+
+
+def test_formats_do_not_mix(tmp_path: Path) -> None:
+    list(write_dataset(DatasetPlan(2, 1, 16), tmp_path))
+    with pytest.raises(ExportError, match="was made with shards as its format, not furfun"):
+        list(write_dataset(PLAN, tmp_path))
+
+
+def test_overwrite_starts_again(whole: dict[str, bytes], tmp_path: Path) -> None:
+    list(write_dataset(DatasetPlan(9, 14, 16, format="furfun"), tmp_path))
+    list(write_dataset(DatasetPlan(9, 4, 16), tmp_path, overwrite=True))
+    list(write_dataset(PLAN, tmp_path, overwrite=True))
+    assert contents(tmp_path) == whole
