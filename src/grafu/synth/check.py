@@ -148,8 +148,12 @@ def _slide_faults(whole: Asset, joint: AnnotatedJoint) -> Iterator[Fault]:
     if not LEAST_SLIDE <= joint.upper <= room:
         yield Fault("limit", (joint.part,), f"slides by {joint.upper:.3f} m of {room:.3f} m")
         return
+    moving = {j.part for j in whole.joints}
+    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in moving])
+    if not len(still):
+        return
     box, T = whole.part(joint.part).box, joint_motion(joint, joint.upper)
-    beyond = np.maximum(whole.box.low - box.low - T[:3, 3], box.high + T[:3, 3] - whole.box.high)
+    beyond = np.maximum(still[:, 0].min(axis=0) - box.low - T[:3, 3], box.high + T[:3, 3] - still[:, 1].max(axis=0))
     if beyond.max() < 0.3 * joint.upper:
         yield Fault("limit", (joint.part,), f"slides out by {beyond.max():.3f} of {joint.upper:.3f} m")
 
