@@ -5,6 +5,8 @@ import pytest
 
 from grafu.synth.finish import PLAIN
 from grafu.synth.grips import gripped_slab
+from grafu.synth.handles import gripped_side
+from grafu.synth.hold import Hold
 from grafu.synth.layout import Door, Drawer, Pair, Rect
 from grafu.synth.leaves import LeafShape, leaf_surfaces
 
@@ -61,3 +63,21 @@ def test_only_slabs_are_gripped(front):
     assert front(grip="scoop").grip == "scoop"
     with pytest.raises(ValueError, match="cut into a slab"):
         front(leaf="shaker", grip="scoop")
+
+
+@pytest.mark.parametrize(("free", "hinge_x"), [("right", 0.0), ("left", 0.5)])
+def test_a_lip_on_top_of_a_door_ends_before_its_hinge(free, hinge_x):
+    shape = LeafShape("slab", FRONT, 0.0, 0.02, free, "lip", "top")
+    lip = mesh_of(shape).vertices
+    lip = lip[lip[:, 1] < -0.01]
+    assert np.abs(lip[:, 0] - hinge_x).min() > 0.029
+    assert np.abs(lip[:, 0] - hinge_x).max() == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("place", "hinge", "side"),
+    [("usual", "left", "right"), ("hinge edge", "left", "right"), ("top edge", "left", "top"), ("top edge", "top", "bottom"),
+     ("usual", None, "top"), ("bottom edge", None, "bottom"), ("middle line", "right", "left")],
+)  # fmt: skip
+def test_no_grip_is_at_a_hinge(place, hinge, side):
+    assert gripped_side(Hold(place), hinge) == side

@@ -13,7 +13,7 @@ from grafu.geometry.axis import Axis
 from grafu.synth.assembly import Motion, Piece
 from grafu.synth.drawer_box import drawer_box
 from grafu.synth.finish import surface_of
-from grafu.synth.handles import handle_pieces, held_along, held_side, opposite
+from grafu.synth.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.interior import RUNNER, interior_pieces, runner_pieces
 from grafu.synth.layout import (
     Bay,
@@ -168,8 +168,8 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
 
 
 def _leaf(front: Door | Drawer, rect: Rect, hinge: Side | None, setting: Setting) -> LeafShape:
-    side, free = held_side(front.hold, hinge), opposite(hinge) if hinge else "top"
-    grip = front.grip, side or free, held_along(front.hold, side)
+    side, free = gripped_side(front.hold, hinge), opposite(hinge) if hinge else "top"
+    grip = front.grip, side, held_along(front.hold, side)
     return LeafShape(front.leaf, rect, setting.front, setting.thickness, free, *grip)
 
 

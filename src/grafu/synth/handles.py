@@ -39,6 +39,12 @@ def held_side(hold: Hold, hinge: Side | None) -> Side | None:
     return hinge if hold.place == "hinge edge" else opposite(hinge)
 
 
+def gripped_side(hold: Hold, hinge: Side | None) -> Side:
+    """Returns the edge that a front's grip is cut into: where it is held, but never at its hinge or in its middle."""
+    side, free = held_side(hold, hinge), opposite(hinge) if hinge else "top"
+    return free if side in (None, hinge) else side
+
+
 def held_along(hold: Hold, side: Side | None) -> float:
     """Returns how far along its edge a front is held, as a share upwards or to the right."""
     if hold.along is not None:

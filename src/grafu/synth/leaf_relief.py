@@ -21,6 +21,7 @@ Line = Float[np.ndarray, "_"]
 BOW = 0.03  # metres that a bowed leaf bulges, at most a twelfth of its width
 SWEEP = 0.06  # metres that one leaf of a bowed pair comes forward, at most a seventh: 49182 has 58 mm over 388 mm
 PLANK = 0.095  # metres a plank
+LIP_END = 0.03  # metres from a door's hinge side to a lip on its upper or lower edge
 STEP = 0.0006  # metres that an upright step of the relief is wide: a grid has no overhangs
 
 
@@ -163,7 +164,18 @@ def _gripped(leaf: LeafShape, distances: Sequence[float], depths: Sequence[float
     at, depth = (low + inwards, depth) if side in ("left", "bottom") else (high - inwards[::-1], depth[::-1])
     if upright:
         return _flat(leaf, at, (r.z0, r.z1), np.column_stack([depth, depth]))
+    if leaf.grip == "lip" and leaf.free in ("left", "right"):
+        return _short_lip(leaf, at, depth)
     return _flat(leaf, (r.x0, r.x1), at, np.stack([depth, depth]))
+
+
+def _short_lip(leaf: LeafShape, at: Line, depth: Line) -> Relief:
+    """Returns a leaf whose lip ends before its hinge: there it would strike the case as the door opens."""
+    r, end = leaf.rect, min(LIP_END, leaf.rect.width / 6)
+    x, shares = np.array([r.x0, r.x0 + end, r.x0 + end + STEP, r.x1]), np.array([0.0, 0.0, 1.0, 1.0])
+    if leaf.free == "left":
+        x, shares = r.x0 + r.x1 - x[::-1], shares[::-1]
+    return _flat(leaf, x, at, shares[:, None] * depth)
 
 
 # A channel of 20 mm for the fingers; a lip of 10 mm that stands 0.8 of the thickness before the front.
