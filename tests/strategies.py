@@ -13,8 +13,9 @@ from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
 from grafu.synth.construction import Base, FaceFrame, Top
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, Table, make_desk, make_table
+from grafu.synth.desk import Desk, make_desk
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.table import Table, make_table
 
 handles = st.sampled_from(["bar-round", "knob-round", "none"])
 flat_styles = st.sampled_from(["slab", "chamfered", "rounded", "shaker", "glass"])

@@ -9,8 +9,9 @@ from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
 from grafu.synth.construction import Base, FaceFrame
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, Table, make_desk, make_table
+from grafu.synth.desk import Desk, make_desk
 from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.table import Table, make_table
 from grafu.vocabulary import JointType, PartLabel
 from strategies import furniture_specs, made
 from sweeping import collisions

@@ -14,9 +14,10 @@ from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.chance import pick
 from grafu.synth.chest import Chest, make_chest
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, Table, make_desk, make_table
+from grafu.synth.desk import Desk, make_desk
 from grafu.synth.ensemble import Ensemble, make_ensemble
 from grafu.synth.families.table import FAMILIES
+from grafu.synth.table import Table, make_table
 
 Spec = Cabinet | Table | Desk | Chest | CornerCabinet | Ensemble
 ATTEMPTS = 50  # draws of one family before giving up: at a rejection rate of 20 % this never happens

@@ -16,9 +16,10 @@ from grafu.synth.case import Case
 from grafu.synth.chest import Chest, make_chest
 from grafu.synth.construction import Back, Base, FaceFrame, Top
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, Table, make_desk, make_table
+from grafu.synth.desk import Desk, make_desk
 from grafu.synth.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
 from grafu.synth.setting import Mount
+from grafu.synth.table import Table, make_table
 
 Maker = Callable[[], Asset]
 NARROW = Case(width=0.45)

@@ -9,11 +9,12 @@ from grafu.synth.cabinet import Cabinet
 from grafu.synth.carpentry import Site, fitted
 from grafu.synth.casework import Build
 from grafu.synth.chance import between, chance, count, pick, weights
-from grafu.synth.desk import Desk, Table
+from grafu.synth.desk import Desk
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
 from grafu.synth.layout import Blank, Door, Drawer, Layout, Pair, Rect, Row, Stack
 from grafu.synth.style import Style, draw_style
+from grafu.synth.table import Table
 from grafu.synth.traditions import TraditionName
 
 OFFICE: Mapping[TraditionName, float] = {"office": 0.5, "minimal": 0.2, "flat-pack": 0.2, "shaker": 0.1}

@@ -12,9 +12,10 @@ import numpy as np
 from grafu.synth.cabinet import Cabinet
 from grafu.synth.chest import Chest
 from grafu.synth.corner import CornerCabinet
-from grafu.synth.desk import Desk, Table
+from grafu.synth.desk import Desk
 from grafu.synth.ensemble import Ensemble
 from grafu.synth.families import bedroom, composed, kitchen, living, office
+from grafu.synth.table import Table
 
 Spec = Cabinet | Table | Desk | Chest | CornerCabinet | Ensemble
 Draw = Callable[[np.random.Generator], Spec]
