@@ -6,7 +6,7 @@ MODELS are inputs with annotated joints; without any, those in the folder that G
 ../shared/models. Every model runs in a fresh process on one core, once to warm up (and to import) and then `--repeats`
 times, from reading to writing. Bars are held against the processor's own time, which on one core is the clock's on a
 machine that does nothing else; the clock's spread stands beside it. `--quick` runs each once and leaves out what takes
-longest.
+longest. Made furniture is timed by the model (`bench_synth.py`).
 """
 
 import argparse
@@ -24,13 +24,17 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import median
+from typing import TypeVar
 
 import numpy as np
+from bench_synth import Making, making_table, time_making
 
+W, T = TypeVar("W"), TypeVar("T")
 ROOT = Path(__file__).parent.parent
 SIZES = (10, 20, 40, 80, 120, 200)
 QUICK_SIZES = (10, 80)
-BARS = {"median_s": 1.5, "p95_s": 5.0, "growth_exponent": 1.3, "help_s": 0.5, "peak_mb": 600.0}
+MADE, QUICK_MADE = 300, 40  # specimens
+BARS = {"median_s": 1.5, "p95_s": 5.0, "growth_exponent": 1.3, "help_s": 0.5, "peak_mb": 600.0, "made_s": 0.05}
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -58,11 +62,17 @@ def main() -> int:
     repeats, sizes = (1, QUICK_SIZES) if options.quick else (options.repeats, SIZES)
     models = [in_fresh_process(time_model, str(path), repeats) for path in inputs]
     walls = [in_fresh_process(time_wall, str(parts), repeats) for parts in sizes]
-    figures = summary(models, walls)
+    making = in_fresh_process(time_making, QUICK_MADE if options.quick else MADE, repeats)
+    figures = summary(models, walls) | {"made_s": round(1 / making.rate, 4)}
     options.out.mkdir(parents=True, exist_ok=True)
-    rows = {"figures": figures, "models": [asdict(m) for m in models], "growth": [asdict(w) for w in walls]}
+    rows = {
+        "figures": figures,
+        "models": [asdict(m) for m in models],
+        "growth": [asdict(w) for w in walls],
+        "making": asdict(making),
+    }
     (options.out / "bench.json").write_text(json.dumps(rows, indent=1) + "\n")
-    text = page(figures, models, walls)
+    text = page(figures, models, walls, making)
     (options.out / "bench.md").write_text(text)
     print(text)
     return 0
@@ -87,7 +97,7 @@ def development_models() -> list[Path]:
     return sorted(p for p in folder.glob("*") if p.is_dir())
 
 
-def in_fresh_process(job: Callable[[str, int], Timing], what: str, repeats: int) -> Timing:
+def in_fresh_process(job: Callable[[W, int], T], what: W, repeats: int) -> T:
     """Returns the timing of a job in a new process on one core, so that its peak memory is its own."""
     print(f"  {what}", file=sys.stderr)
     for name in THREADS:
@@ -175,7 +185,7 @@ def help_seconds() -> float:
     return median(run() for _ in range(7))
 
 
-def page(figures: dict[str, float], models: list[Timing], walls: list[Timing]) -> str:
+def page(figures: dict[str, float], models: list[Timing], walls: list[Timing], making: Making) -> str:
     """Returns the tables as Markdown."""
     verdicts = [
         f"| {name} | {value:g} | {BARS[name]:g} | {'yes' if value <= BARS[name] else 'NO'} |"
@@ -183,7 +193,8 @@ def page(figures: dict[str, float], models: list[Timing], walls: list[Timing]) -
     ]
     head = f"Python {platform.python_version()}, one core of {platform.processor() or platform.machine()}\n"
     bars = "| figure | measured | bar | met |\n|---|---|---|---|\n" + "\n".join(verdicts) + "\n"
-    return "\n".join(["# Bench\n", head, bars, table("Models", models), table("Growth", walls)])
+    tables = (table("Models", models), table("Growth", walls), making_table(making))
+    return "\n".join(["# Bench\n", head, bars, *tables])
 
 
 def table(title: str, timings: list[Timing]) -> str:
