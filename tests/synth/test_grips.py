@@ -76,8 +76,15 @@ def test_a_lip_on_top_of_a_door_ends_before_its_hinge(free, hinge_x):
 
 @pytest.mark.parametrize(
     ("place", "hinge", "side"),
-    [("usual", "left", "right"), ("hinge edge", "left", "right"), ("top edge", "left", "top"), ("top edge", "top", "bottom"),
-     ("usual", None, "top"), ("bottom edge", None, "bottom"), ("middle line", "right", "left")],
-)  # fmt: skip
+    [
+        ("usual", "left", "right"),
+        ("hinge edge", "left", "right"),
+        ("top edge", "left", "top"),
+        ("top edge", "top", "bottom"),
+        ("usual", None, "top"),
+        ("bottom edge", None, "bottom"),
+        ("middle line", "right", "left"),
+    ],
+)
 def test_no_grip_is_at_a_hinge(place, hinge, side):
     assert gripped_side(Hold(place), hinge) == side

@@ -66,7 +66,7 @@ def test_handles_fit_on_tiny_fronts(style):
         (Hold("top edge"), "left", (0.2, 0.655)),
         (Hold("bottom edge", inset=0.06), "left", (0.2, 0.06)),
         (Hold("free edge", 0.2), "right", (0.045, 0.14)),
-        (Hold("free edge", 0.0, orientation="lying"), "left", (0.318, 0.008)),
+        (Hold("free edge", 0.0, orientation="lying"), "left", (0.302, 0.008)),
     ],
 )
 def test_handles_go_where_the_hold_says(hold, hinge, center):
@@ -101,6 +101,26 @@ def test_bars_stand_upright_on_doors_and_cups_hang_level(style, hold, upright):
 )
 def test_a_handle_is_as_long_as_said_and_as_fits(style, hold, length):
     assert boxes(style, hold, FRONT, None)[0].size[0] == pytest.approx(length)
+
+
+@pytest.mark.parametrize(
+    ("place", "hinge", "axis", "outwards"),
+    [
+        ("free edge", "left", 0, 1),
+        ("free edge", "right", 0, -1),
+        ("top edge", "left", 2, 1),
+        ("bottom edge", None, 2, -1),
+    ],
+)
+def test_an_edge_profile_juts_out_at_its_edge(place, hinge, axis, outwards):
+    shape = LeafShape("slab", DOOR, 0.0, 0.02, "right")
+    (piece,) = handle_pieces("bar-profile", Hold(place), shape, hinge, STEEL)
+    vertices = piece.surfaces[0].mesh.vertices
+    jutting = vertices[vertices[:, 1] < -0.01]
+    middle = (vertices[:, axis].min() + vertices[:, axis].max()) / 2
+    assert (jutting[:, axis].mean() - middle) * outwards > 0
+    border = (0.4, 0.0, 0.7)[axis] if outwards > 0 else 0.0
+    assert abs(vertices[:, axis] - border).min() == pytest.approx(0.002)
 
 
 def test_two_handles_lie_side_by_side():

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from grafu.geometry.appearance import Material, Surface
-from grafu.geometry.arrays import vec3
+from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation
 from grafu.synth.assembly import Piece
@@ -20,10 +20,15 @@ from grafu.vocabulary import PartLabel
 
 HIGH = 0.65  # of a door's height: where its handle is if nothing else is said
 CLEAR = 0.002  # metres that every handle stays inside its leaf's border
+END_OFF = 0.4  # of the inset: what is left between the edge and the end of a handle that lies across it
 FEET = 0.4  # of a bar's length: how far from its middle it stands on the leaf
 _AT_EDGE = ("bar-profile",)  # handles that belong on the very edge, whatever the inset
 _OPPOSITE: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
-_UPRIGHT = from_rotation(np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]))  # x becomes z
+_TURNS: dict[Side, Mat4] = {  # about Y: where a handle's upper side comes to lie
+    "left": from_rotation(np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])),
+    "right": from_rotation(np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])),
+    "bottom": from_rotation(np.diag([-1.0, 1.0, -1.0])),
+}
 
 
 def opposite(side: Side) -> Side:
@@ -63,7 +68,8 @@ def handle_pieces(
         return ()
     template = handle_template(style)
     upright = _is_upright(template, hold, hinge)
-    surfaces = _surfaces(style, _length(template, hold, leaf, upright), hold.protrusion, upright, material)
+    above = _upper_side(style, held_side(hold, hinge), upright)
+    surfaces = _surfaces(style, _length(template, hold, leaf, upright), hold.protrusion, above, material)
     box = _box(surfaces)
     centers = _centers(hold, leaf, hinge, box, style in _AT_EDGE)
     return tuple(_piece(leaf, x, z, surfaces, box) for x, z in centers)
@@ -76,6 +82,13 @@ def _is_upright(template: HandleTemplate, hold: Hold, hinge: Side | None) -> boo
     return template.turns and not along_level
 
 
+def _upper_side(style: HandleStyle, side: Side | None, upright: bool) -> Side:
+    """Returns where a handle's upper side comes to lie: an edge profile juts out at the edge that it is on."""
+    if upright:
+        return "right" if side == "right" else "left"
+    return "bottom" if side == "bottom" and style in _AT_EDGE else "top"
+
+
 def _length(template: HandleTemplate, hold: Hold, leaf: LeafShape, upright: bool) -> float:
     rect = filled_rect(leaf)
     side = rect.height if upright else rect.width
@@ -85,11 +98,12 @@ def _length(template: HandleTemplate, hold: Hold, leaf: LeafShape, upright: bool
 
 @lru_cache(256)
 def _surfaces(
-    style: HandleStyle, length: float, protrusion: float | None, upright: bool, material: Material
+    style: HandleStyle, length: float, protrusion: float | None, above: Side, material: Material
 ) -> tuple[Surface, ...]:
     """Returns a handle at the origin: a piece of furniture repeats a few."""
     meshes = handle_template(style).build(length, protrusion)
-    return tuple(surface_of(mesh.transformed(_UPRIGHT) if upright else mesh, material) for mesh in meshes)
+    turn = _TURNS.get(above)
+    return tuple(surface_of(mesh if turn is None else mesh.transformed(turn), material) for mesh in meshes)
 
 
 def _box(surfaces: Sequence[Surface]) -> Box:
@@ -101,6 +115,8 @@ def _centers(hold: Hold, leaf: LeafShape, hinge: Side | None, box: Box, at_edge:
     """Returns where on the front the handles' middles go, (x, z)."""
     rect, side = filled_rect(leaf), held_side(hold, hinge)
     inset = 0.0 if at_edge else min(hold.inset, rect.width / 5, rect.height / 5)
+    if side in ("left", "right") and box.size[0] > box.size[2]:  # what lies there keeps off the edge with its end
+        inset = float(box.size[0]) / 2 + END_OFF * inset
     level = side in ("top", "bottom") or (side is None and hold.count == 2)  # two go side by side
     shares = (0.25, 0.75) if hold.count == 2 else (held_along(hold, side),)
     height = held_along(hold, None)
