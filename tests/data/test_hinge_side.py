@@ -41,5 +41,5 @@ def test_a_mirror_image_swaps_left_and_right():
 def test_made_doors_teach_about_real_ones():
     train, asked = synthetic_doors(300), real_doors(MODELS)
     chance = max(float(np.mean([d.side == side for d in asked])) for side in SIDES)
-    assert accuracy(train, asked, with_handles=True) > chance + 0.1
-    assert accuracy(train, asked, with_handles=False) > chance + 0.1
+    assert accuracy(train, asked, with_handles=True) > chance + 0.3
+    assert accuracy(train, asked, with_handles=False) > chance + 0.2

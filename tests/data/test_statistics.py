@@ -124,7 +124,9 @@ def test_each_real_model_is_held_against_the_range():
     made = [model(str(k), parts=float(k)) for k in range(101)]
     row = compare_measures(made, [model("a", parts=50.0), model("b", parts=99.0)]).row("parts")
     assert row.synthetic == Spread(5.0, 50.0, 95.0)
-    assert (row.within, row.verdict, row.outliers) == (0.5, "outside", (("b", 99.0),))
+    assert (row.models, row.within, row.outliers) == (2, 0.5, (("b", 99.0),))
+    assert compare_measures(made, [model("b", parts=99.0)] * 3).row("parts").verdict == "outside"
+    assert compare_measures(made, [model("b", parts=95.01)] * 3).row("parts").verdict == "inside"  # but for rounding
 
 
 def test_a_share_is_held_against_groups_of_as_many():
@@ -135,15 +137,16 @@ def test_a_share_is_held_against_groups_of_as_many():
 
 
 @pytest.mark.parametrize(
-    ("within", "verdict"), [(None, "no real"), (1.0, "inside"), (0.92, "mostly"), (0.8, "outside")]
+    ("models", "within", "verdict"),
+    [(0, None, "no real"), (17, 1.0, "inside"), (17, 13 / 17, "plausible"), (17, 12 / 17, "outside"), (1, 0.0, "plausible")],
 )
-def test_verdicts(within, verdict):
-    assert StatisticsRow("parts", False, None, None, within).verdict == verdict
+def test_verdicts_allow_for_chance(models, within, verdict):
+    assert StatisticsRow("parts", False, None, None, models, within).verdict == verdict
 
 
 def test_a_measure_that_only_the_real_have_is_outside():
     row = compare_measures([model("a")], [model("b", legs=4.0)]).row("legs")
-    assert (row.synthetic, row.verdict) == (None, "outside")
+    assert (row.synthetic, row.within) == (None, 0.0)
 
 
 def test_nothing_to_compare_is_refused():

@@ -7,6 +7,7 @@ against the 5 to 95 % range of the shares of as many synthetic models, drawn aga
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import comb
 from pathlib import Path
 from typing import Literal, final
 
@@ -20,10 +21,12 @@ from grafu.graph.edit import with_edges
 from grafu.graph.parse import parse_graph
 from grafu.synth.specimen import Specimen
 
-Verdict = Literal["inside", "mostly", "outside", "no real"]
+Verdict = Literal["inside", "plausible", "outside", "no real"]
 
 _LOW, _HIGH = 5.0, 95.0  # percent
-_MOSTLY = 0.9  # as many of the real models as would lie inside if both were drawn from one distribution
+_INSIDE = (_HIGH - _LOW) / 100  # share of models inside if real and synthetic came from one distribution
+_CHANCE = 0.05  # fewer inside than chance leaves there in one of twenty folders as large: not chance any more
+_ROUNDING = 1e-3  # of a number: real files keep few digits, and what is meant to be one half is seldom quite that
 _GROUPS = 1000  # how often a group of synthetic models is drawn
 _GROUP = 17  # models in it where there is no real folder to take the number from
 
@@ -43,14 +46,15 @@ class Spread:
         return cls(*(float(x) for x in np.percentile(numbers, [_LOW, 50.0, _HIGH])))
 
     def holds(self, number: float) -> bool:
-        """Whether a number lies between the 5 % and the 95 % point."""
-        return self.low - 1e-9 <= number <= self.high + 1e-9
+        """Whether a number lies between the 5 % and the 95 % point, but for rounding."""
+        slack = _ROUNDING * max(abs(self.low), abs(self.high)) + 1e-9
+        return self.low - slack <= number <= self.high + slack
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class StatisticsRow:
-    """One measure. `within` is the share of real models inside the synthetic range (of a share: 0 or 1).
+    """One measure. `within` is the share of `models` real models inside the synthetic range (of a share: 0 or 1).
 
     `synthetic` or `real` is None where no model has the measure. `outliers` are the real models outside, by name, with
     their values; for a share the one real number stands under the name `all`.
@@ -60,15 +64,18 @@ class StatisticsRow:
     is_share: bool
     synthetic: Spread | None
     real: Spread | None
+    models: int = 0
     within: float | None = None
     outliers: tuple[tuple[str, float], ...] = ()
 
     @property
     def verdict(self) -> Verdict:
-        """`inside`: every real model. `mostly`: nine in ten, as many as of the synthetic ones themselves."""
+        """`inside`: every real model. `plausible`: as many as nine in ten, or fewer by chance. `outside`: too few."""
         if self.within is None:
             return "no real"
-        return "inside" if self.within == 1.0 else "mostly" if self.within >= _MOSTLY else "outside"
+        if self.within == 1.0:
+            return "inside"
+        return "outside" if self.is_share or _chance_of(self.models, self.within) < _CHANCE else "plausible"
 
 
 @final
@@ -83,7 +90,7 @@ class Comparison:
 
     @property
     def failing(self) -> tuple[StatisticsRow, ...]:
-        """The rows whose real models do not lie within the synthetic range, nor nine in ten of them."""
+        """The rows of which too few real models lie within the synthetic range."""
         return tuple(row for row in self.rows if row.verdict == "outside")
 
     def row(self, measure: str) -> StatisticsRow:
@@ -155,9 +162,10 @@ def _value_row(name: str, made: Sequence[ModelMeasures], real: Sequence[ModelMea
     spread = Spread.of(ours) if ours else None
     if not theirs:
         return StatisticsRow(name, False, spread, None)
+    count = len(theirs)
     outside = tuple(pair for pair in theirs if spread is None or not spread.holds(pair[1]))
-    within = 1.0 - len(outside) / len(theirs)
-    return StatisticsRow(name, False, spread, Spread.of([value for _, value in theirs]), within, outside)
+    within = 1.0 - len(outside) / count
+    return StatisticsRow(name, False, spread, Spread.of([value for _, value in theirs]), count, within, outside)
 
 
 def _share_row(name: str, made: Sequence[ModelMeasures], real: Sequence[ModelMeasures]) -> StatisticsRow:
@@ -169,7 +177,13 @@ def _share_row(name: str, made: Sequence[ModelMeasures], real: Sequence[ModelMea
     share = float(sum(yes for yes, _ in theirs) / max(sum(of for _, of in theirs), 1))
     held = spread is not None and spread.holds(share)
     outside = () if held else (("all", share),)
-    return StatisticsRow(name, True, spread, Spread(share, share, share), float(held), outside)
+    return StatisticsRow(name, True, spread, Spread(share, share, share), len(theirs), float(held), outside)
+
+
+def _chance_of(models: int, within: float) -> float:
+    """Returns how likely it is that so few or fewer of so many models lie inside, if each does with nine in ten."""
+    inside = round(models * within)
+    return sum(comb(models, k) * _INSIDE**k * (1 - _INSIDE) ** (models - k) for k in range(inside + 1))
 
 
 def _grouped(tallies: np.ndarray, size: int) -> Spread:
