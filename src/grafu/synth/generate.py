@@ -8,6 +8,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.synth.blueprint import draw_made
 from grafu.synth.check import faults_of
 from grafu.synth.habits import draw_untidiness
+from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
 from grafu.synth.truth import carriers, true_graph
 from grafu.synth.untidiness import Untidiness, apply_untidiness, as_given
@@ -30,10 +31,11 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
     rng = np.random.default_rng([seed, index])
     name = f"synth_{seed}_{index:07d}"
     for _ in range(ATTEMPTS):
-        blueprint, tidy = draw_made(rng)
+        blueprint, made = draw_made(rng)
+        tidy, absent = repaired(blueprint, made, rng)
         if len(tidy.parts) > MOST_PARTS or faults_of(tidy):
             continue
-        untidiness = draw_untidiness(rng, tidy)
+        untidiness = draw_untidiness(rng, tidy, blueprint.family, absent)
         try:
             specimen = untidied(name, blueprint.family, tidy, untidiness, points)
         except GraphError:

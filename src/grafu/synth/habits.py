@@ -5,7 +5,7 @@ their own: so a habit is drawn first and makes the rest likely or not. The share
 models (numbers in brackets), which are few, widened towards what other sources of models are known for.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Final, final
 
@@ -55,7 +55,13 @@ LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))  # shares of la
 # Parts that are not there. Tops: 48 % of real storage furniture has none (kitchen bases under one worktop, cases whose
 # top lies below another), tables nearly always have theirs. No handles at all: 3 of 17 (22692, 26608, 46896; 32052 and
 # 49182 have grips of other kinds), some of which are pushed to open; single ones are rarely forgotten.
-NO_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.48, 0.01, 0.10, 0.08, 0.12
+NO_TOP: Final[dict[str, float]] = {
+    "base cabinet": 0.7,
+    "sink cabinet": 0.8,
+    "kitchen units": 0.6,
+    "kitchen island": 0.4,
+}
+NO_CASE_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.36, 0.01, 0.10, 0.08, 0.12
 NO_HANDLES, ONE_HANDLE_LOST, A_SHELF_LOST = 0.12, 0.03, 0.05
 
 # How likely panels are sheets, relative to the habit: those nobody looks at before those everybody sees.
@@ -85,18 +91,27 @@ STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, a
 MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
 
 
-def draw_untidiness(rng: np.random.Generator, tidy: Asset) -> Untidiness:
-    """Returns what will be untidy about a tidy model with true labels, joints and riders."""
+def draw_untidiness(
+    rng: np.random.Generator, tidy: Asset, family: str = "", absent: Collection[str] = ()
+) -> Untidiness:
+    """Returns what will be untidy about a tidy model with true labels, joints and riders.
+
+    Args:
+        rng: where all chance comes from.
+        tidy: the model, complete.
+        family: what it is, where that is known: some are sold without a top.
+        absent: ids of parts that are missing in any case.
+    """
     name = pick(rng, {key: habit.share for key, habit in HABITS.items()})
     habit = HABITS[name]
-    missing = _missing(rng, tidy)
+    missing = tuple(dict.fromkeys((*_missing(rng, tidy, family), *(p.id for p in tidy.parts if p.id in absent))))
     kept = [p for p in tidy.parts if p.id not in missing]
     joined = draw_joined(rng, tidy, kept, habit.joined, habit.handles_joined)
     free = [p for p in kept if not any(p.id in group.ids for group in joined)]
     return Untidiness(
         name,
         int(rng.integers(2**62)),
-        clutter=tuple(k for k in CLUTTER if chance(rng, habit.clutter * CLUTTER_WEIGHT.get(k, 1.0))),
+        clutter=_clutter(rng, habit, tidy, missing),
         joined=joined,
         cuts=draw_cuts(rng, tidy, free, habit.cuts),
         faces=_faces(rng, habit, kept),
@@ -123,10 +138,19 @@ def is_storage(asset: Asset) -> bool:
     return PartLabel.BOTTOM_PANEL in labels or PartLabel.BACK_PANEL in labels
 
 
-def _missing(rng: np.random.Generator, asset: Asset) -> tuple[str, ...]:
+def _clutter(rng: np.random.Generator, habit: Habit, tidy: Asset, missing: Collection[str]) -> tuple[str, ...]:
+    """Returns the kinds of clutter; nothing stands on a top or on shelves that are not there."""
+    drawn = [k for k in CLUTTER if chance(rng, habit.clutter * CLUTTER_WEIGHT.get(k, 1.0))]
+    gone = {tidy.part(i).label for i in missing}
+    needs = {"things on top": PartLabel.TOP_PANEL, "things on shelves": PartLabel.SHELF, "basket": PartLabel.SHELF}
+    return tuple(kind for kind in drawn if needs.get(kind) not in gone)
+
+
+def _missing(rng: np.random.Generator, asset: Asset, family: str) -> tuple[str, ...]:
+    no_top = NO_TOP.get(family, NO_CASE_TOP) if is_storage(asset) else NO_TABLE_TOP
     by = {label: [p for p in asset.parts if p.label is label] for label in PartLabel}
     groups = (
-        (by[PartLabel.TOP_PANEL], NO_TOP if is_storage(asset) else NO_TABLE_TOP),
+        (by[PartLabel.TOP_PANEL], no_top),
         (by[PartLabel.BACK_PANEL], NO_BACK),
         (by[PartLabel.BOTTOM_PANEL], NO_BOTTOM),
         (by[PartLabel.SHELF], NO_SHELVES),
