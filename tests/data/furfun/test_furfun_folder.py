@@ -86,6 +86,12 @@ def test_empty_and_disconnected_graphs_are_skipped_with_a_note(tmp_path):
     assert FurFunFolder(tmp_path, points=0, keep_disconnected=True).pair("fur_072").missing == (KNOB,)
 
 
+def test_made_furniture_may_fall_apart(tmp_path):
+    apart = functional() | {"made_by": "grafu"}
+    apart["edges"] = apart["edges"][:2]
+    assert FurFunFolder(put_model(tmp_path, whole=apart), points=0).models == ("fur_001",)
+
+
 def test_large_graphs_are_not_cut(tmp_path):
     given, whole = unfunctional(), functional()
     for k in range(67):

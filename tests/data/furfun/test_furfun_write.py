@@ -23,7 +23,7 @@ def specimens(count: int = 3, points: int = 64) -> list[Specimen]:
 def test_a_release_round_trips_to_six_decimals(tmp_path):
     made = specimens(6)
     assert write_furfun(iter(made), tmp_path / "deep" / "out") == tuple(s.id for s in made)
-    folder = FurFunFolder(tmp_path / "deep" / "out", points=64, keep_disconnected=True)
+    folder = FurFunFolder(tmp_path / "deep" / "out", points=64)
     assert folder.models == tuple(sorted(s.id for s in made))
     for specimen in made:
         read = folder.model(specimen.id)

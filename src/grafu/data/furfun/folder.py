@@ -35,8 +35,8 @@ class FurFunFolder:
     """The folder of a release; it is asked for models by id and keeps none of them.
 
     Units are the files'. `points` is the number of points on each part (0: none), drawn with `seed` where a file has
-    more. Graphs without nodes are left out, and so are functional graphs that fall apart (the authors' loader does the
-    same; `keep_disconnected` keeps them). No graph is too large.
+    more. Graphs without nodes are left out, and so are annotated functional graphs that fall apart (the authors' loader
+    does the same; `keep_disconnected` keeps them; ours are kept). No graph is too large.
 
     Raises:
         UnreadableAsset: if the folder is not laid out like a release.

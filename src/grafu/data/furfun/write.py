@@ -14,6 +14,7 @@ from uuid import uuid4
 
 import numpy as np
 
+from grafu.data.furfun.graph_files import MADE_BY
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
 from grafu.data.furfun.ply import mesh_to_ply
 from grafu.data.furfun.split_files import SPLIT_NAMES, split_to_json
@@ -37,8 +38,9 @@ def furfun_files(specimen: Specimen) -> ExportFiles:
     """
     name = specimen.id
     target, given = (replace(graph, model_id=name) for graph in (specimen.truth, specimen.given))
+    whole = functional_to_official(target, older_labels=True) | dict([MADE_BY])
     files = {
-        f"{FUNCTIONAL}/{name}/{name}.json": dump_json(functional_to_official(target, older_labels=True)).encode(),
+        f"{FUNCTIONAL}/{name}/{name}.json": dump_json(whole).encode(),
         f"{UNFUNCTIONAL}/{name}/{name}.json": dump_json(input_to_official(given)).encode(),
     }
     for node in target.nodes:
