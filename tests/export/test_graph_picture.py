@@ -112,6 +112,7 @@ def test_writings_stay_in_the_picture():
     for writing in draw_graph(GRAPH, (200, 160), names=True).writings:
         assert writing.center[0] - 0.2 * writing.size * len(writing.text) > 0
         assert writing.center[0] + 0.2 * writing.size * len(writing.text) < 200
+        assert 0.5 * writing.size < writing.center[1] < 160 - 0.5 * writing.size
 
 
 def test_edges_have_the_colours_of_their_kinds():

@@ -127,7 +127,7 @@ def draw_graph(
     writings = _motions(graph, place_of, radius, above=names)
     if names:
         writings += [Writing((x, y + radius + 7), i, 10.0, _INK) for i, (x, y) in place_of.items()]
-    return GraphDrawing(size, strokes, discs, tuple(_within(w, size[0]) for w in writings))
+    return GraphDrawing(size, strokes, discs, tuple(_within(w, size) for w in writings))
 
 
 def drawing_svg(drawing: GraphDrawing) -> str:
@@ -195,11 +195,11 @@ def _motions(graph: FunctionalGraph, place_of: dict[str, Point], radius: float, 
     return found
 
 
-def _within(writing: Writing, width: int) -> Writing:
+def _within(writing: Writing, size: tuple[int, int]) -> Writing:
     """Returns the writing shifted into the picture; letters are about half as wide as high."""
-    half = min(0.27 * writing.size * len(writing.text) + 2, width / 2)
-    x, y = writing.center
-    return replace(writing, center=(min(max(x, half), width - half), y))
+    half = np.array([0.27 * writing.size * len(writing.text) + 2, 0.6 * writing.size])
+    x, y = np.clip(writing.center, np.minimum(half, np.array(size) / 2), np.maximum(size - half, np.array(size) / 2))
+    return replace(writing, center=(float(x), float(y)))
 
 
 def _hex(color: Rgb) -> str:
