@@ -11,6 +11,7 @@ from math import radians
 from typing import Literal, final
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.sweep import values_before
@@ -19,7 +20,7 @@ from grafu.graph.edges import Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.synth.articulated import articulated_of
-from grafu.synth.clashes import clashes_of, joint_motion
+from grafu.synth.clashes import clashes_of
 from grafu.synth.specimen import DefectKind, Specimen
 from grafu.vocabulary import JointType, PartLabel
 
@@ -41,8 +42,11 @@ DOOR_OPENING = (radians(15), radians(185))
 LEAST_SLIDE = 0.03
 RIDER_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.riders`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
+_BESIDE = 0.05  # metres from a drawer within which parts are its case, and the share of its height that they share
+_OUT = 0.3  # share of its way that a drawer must come out of its case: those behind doors begin within it
 _SAME = 1e-4  # metres within which two boxes are one
 
+BoxRows = Float[np.ndarray, "n 2 3"]
 _EXPLAINS: dict[FaultKind, frozenset[DefectKind]] = {
     "collision": frozenset({"interpenetrating", "ajar", "floating"}),
     "rider": frozenset({"floating"}),
@@ -134,28 +138,31 @@ def _gap_to_link(rider: Part, whole: Asset) -> float:
 
 
 def _limit_faults(whole: Asset) -> Iterator[Fault]:
+    movers = {joint.part for joint in whole.joints}
+    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in movers])
+    still = still.reshape(-1, 2, 3)
     for joint in whole.joints:
         if joint.lower != 0.0:
             yield Fault("limit", (joint.part,), f"from {joint.lower:.3f}, not from 0")
         if joint.type is JointType.REVOLUTE and not DOOR_OPENING[0] <= joint.upper <= DOOR_OPENING[1]:
             yield Fault("limit", (joint.part,), f"opens by {joint.upper:.3f} rad")
         if joint.type is JointType.PRISMATIC:
-            yield from _slide_faults(whole, joint)
+            yield from _slide_faults(whole, joint, still)
 
 
-def _slide_faults(whole: Asset, joint: AnnotatedJoint) -> Iterator[Fault]:
+def _slide_faults(whole: Asset, joint: AnnotatedJoint, still: BoxRows) -> Iterator[Fault]:
     room = float(np.abs(joint.axis.direction) @ whole.box.size)
     if not LEAST_SLIDE <= joint.upper <= room:
         yield Fault("limit", (joint.part,), f"slides by {joint.upper:.3f} m of {room:.3f} m")
         return
-    moving = {j.part for j in whole.joints}
-    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in moving])
-    if not len(still):
+    box, shift = whole.part(joint.part).box, joint.axis.direction * joint.upper
+    gaps = np.maximum(still[:, 0] - box.high, box.low - still[:, 1])
+    beside = still[(gaps.max(axis=1) < _BESIDE) & (gaps[:, 2] < -_BESIDE * box.size[2])]  # not what lies above or below
+    if not len(beside):
         return
-    box, T = whole.part(joint.part).box, joint_motion(joint, joint.upper)
-    beyond = np.maximum(still[:, 0].min(axis=0) - box.low - T[:3, 3], box.high + T[:3, 3] - still[:, 1].max(axis=0))
-    if beyond.max() < 0.3 * joint.upper:
-        yield Fault("limit", (joint.part,), f"slides out by {beyond.max():.3f} of {joint.upper:.3f} m")
+    out = np.maximum(beside[:, 0].min(axis=0) - box.low - shift, box.high + shift - beside[:, 1].max(axis=0)).max()
+    if out < _OUT * joint.upper:
+        yield Fault("limit", (joint.part,), f"slides out of its case by {out:.3f} of {joint.upper:.3f} m")
 
 
 def _double_faults(whole: Asset) -> Iterator[Fault]:
