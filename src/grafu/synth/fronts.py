@@ -110,7 +110,8 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     yield Piece(PartLabel.DRAWER, "drawer", tuple(surfaces), motion, handle)
     thick = min(RUNNER[0], 0.8 * setting.slide_gap)
     if drawer.runners and thick > 0.002:
-        yield from runner_pieces(cell, setting, o.z0 + 0.35 * o.height, thick)
+        share = 0.5 if drawer.box == "tray" else 0.35
+        yield from runner_pieces(cell, setting, o.z0 + share * o.height, thick)
 
 
 def _tilt_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:

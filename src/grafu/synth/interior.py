@@ -36,7 +36,7 @@ def interior_pieces(shelves: int, inside: Inside, cell: Cell, setting: Setting) 
         yield solid(PartLabel.MISC, f"{inside.basket}_basket", setting.finish.metal, [mesh(span)])
     for k in range(inside.runners):
         yield from runner_pieces(cell, setting, o.z0 + o.height * (k + 1) / (inside.runners + 1), RUNNER[0])
-    yield from _wall_rails(inside.rails, cell, setting)
+    yield from _wall_rails(min(inside.rails, 1) if inside.dividers else inside.rails, cell, setting)
 
 
 def runner_pieces(cell: Cell, setting: Setting, z: float, thick: float) -> Iterator[Piece]:

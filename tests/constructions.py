@@ -1,0 +1,117 @@
+"""Cabinets, tables, desks and chests of every construction, one of each: what several tests go through."""
+
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.case import Case
+from grafu.synth.chest import Chest
+from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Sides, Top
+from grafu.synth.desk import Desk
+from grafu.synth.inside import Inside
+from grafu.synth.layout import Bay, Blank, Door, Drawer, Pair, Row, Stack, Tilt
+from grafu.synth.legs import Leg
+from grafu.synth.table import Table
+
+MIXED = Stack((Pair(shelves=1), Row((Drawer(), Drawer()))), (3.0, 1.0))
+LEGS = ("square", "tapered", "round", "cone", "turned", "splayed", "hairpin", "cabriole")
+FEET = {"block": 0.05, "bun": 0.06, "caster": 0.07, "pad": 0.004}
+THREE = Stack((Drawer(),) * 3)
+
+
+def _posts(stretcher: str, mount: str) -> Cabinet:
+    base = Base("posts", 0.4, Leg("square", 0.04), stretcher=stretcher)
+    return Cabinet(case=Case(1.0, 0.85, 0.4, base=base), layout=MIXED, mount=mount)
+
+
+def _kitchen(top: str, layout, **parts) -> Cabinet:
+    frame = FaceFrame(0.035, "bars")
+    case = Case(0.96, 0.79, 0.56, panel=0.012, base=Base("toe kick"), top=Top(top), frame=frame, **parts)
+    return Cabinet(case=case, layout=layout, lap=0.02)
+
+
+CASES = {
+    "toe kick of two boards": Case(base=Base("toe kick", boards=2)),
+    "toe kick of four boards": Case(base=Base("toe kick", boards=4)),
+    "sled": Case(base=Base("sled")),
+    **{f"{s} legs": Case(height=0.9, base=Base("legs", 0.22, Leg(s), inset=0.02)) for s in LEGS},
+    **{f"{s} feet": Case(base=Base("legs", high, Leg(s, 0.045))) for s, high in FEET.items()},
+    "apron": Case(height=0.9, base=Base("legs", 0.2, Leg("square"), apron=0.08, arched=True)),
+    "countertop": Case(base=Base("toe kick"), top=Top("over", 0.04, 0.02, front=0.02)),
+    "moulded top": Case(top=Top("over", 0.04, 0.03, edge="moulded")),
+    "rounded top": Case(top=Top("over", 0.06, 0.03, edge="rounded", rim=0.06)),
+    "chamfered top": Case(top=Top("over", 0.03, edge="chamfered")),
+    "glass top": Case(top=Top("over", 0.01, 0.02, glass=True)),
+    "panelled sides": Case(sides=Sides("framed")),
+    "slatted sides": Case(sides=Sides("slats")),
+    "sides before the front": Case(sides=Sides(beyond=0.02)),
+    "bottom under the sides": Case(bottom=Bottom("under", 0.035, 0.01), base=Base("plinth")),
+    "no bottom": Case(bottom=Bottom("none")),
+    "pilasters": Case(1.0, pilaster=0.05, moulding=0.08),
+    "split back, planted on": Case(back=Back("split", planted=True)),
+    "half back": Case(back=Back("half")),
+    "back rails": Case(back=Back("none", rails=3)),
+    "edge strips": Case(frame=FaceFrame(0.04, "strips"), back=Back(thickness=0.004, rails=3)),
+    "arched frame": Case(frame=FaceFrame(0.05, arched=True)),
+}
+CABINETS = {
+    **{name: Cabinet(case=case, layout=MIXED) for name, case in CASES.items()},
+    **{f"overlay posts, {s}": _posts(s, "overlay") for s in ("none", "H", "box")},
+    **{f"inset posts, {s}": _posts(s, "inset") for s in ("sides", "shelf")},
+    "turned posts": Cabinet(case=Case(1.0, 0.85, 0.4, base=Base("posts", 0.4, Leg("turned", 0.05))), layout=THREE),
+    "fronts over posts": Cabinet(
+        case=Case(0.86, 0.6, 0.6, base=Base("posts", 0.05, Leg("square", 0.036))), layout=THREE, slide_gap=0.014
+    ),
+    "kitchen stretchers": _kitchen("stretchers", MIXED, bottom=Bottom("sheet")),
+    "corner blocks": _kitchen("corner blocks", Row((Stack((Door(), Blank()), (3.0, 1.0)), Drawer(runners=True)))),
+    "frameless stretchers": Cabinet(case=Case(top=Top("stretchers")), layout=MIXED),
+    "sink": Cabinet(case=Case(top=Top("over", 0.03, 0.02, sink=True)), layout=Pair()),
+    "metal uprights": Cabinet(
+        case=Case(0.6, 1.8, 0.38, sides=Sides("metal"), back=Back("none", 0.0)),
+        layout=Stack((Drawer(), Drawer(), Bay(3)), (1.0, 1.0, 5.0)),
+    ),
+    "rods and dividers": Cabinet(
+        case=Case(1.0, 2.0, 0.6), layout=Row((Bay(1, Inside(rod=True)), Bay(2, Inside("short", dividers=2, rails=2))))
+    ),
+    "baskets": Cabinet(layout=Row((Door(inside=Inside(basket="wire")), Bay(1, Inside("glass", basket="rack"))))),
+    "runners": Cabinet(layout=Row((Bay(0, Inside(runners=3)), Stack((Drawer(runners=True),) * 3)))),
+    "shoe cabinet": Cabinet(
+        case=Case(0.8, 1.1, 0.3), layout=Stack((Tilt(), Tilt(handle="none"), Tilt(tray=False)), between="rail")
+    ),
+    "inset shoe cabinet": Cabinet(case=Case(0.8, 0.5, 0.3), layout=Tilt(), mount="inset"),
+    "drawer boxes": Cabinet(layout=Stack((Drawer("floating"), Drawer("tray"), Drawer("tray", runners=True)))),
+    "island": Cabinet(
+        case=Case(1.4, 0.9, 0.8, top=Top("over", 0.04, 0.03, back=0.03)), layout=MIXED, rear=Row((Bay(1), Door()))
+    ),
+    "fridge": Cabinet(
+        case=Case(0.6, 1.8, 0.55, panel=0.04), front=0.07, layout=Stack((Door(), Door()), (2.0, 1.0), "nothing")
+    ),
+    "oven": Cabinet(
+        layout=Stack((Drawer(), Door("bottom", "glass"), Blank(name="control_panel")), (1.0, 4.0, 0.8), "nothing")
+    ),
+}
+HUTCH = Cabinet(case=Case(1.1, 0.45, 0.25), layout=Row((Bay(1), Drawer(), Bay(1))))
+TABLES = {
+    **{f"{s} table legs": Table(leg_shape=s, overhang=0.03) for s in ("square", "tapered", "turned", "cabriole")},
+    "splayed table legs": Table(leg_shape="splayed", overhang=0.05),
+    **{f"table stretchers, {s}": Table(stretcher=s) for s in ("sides", "H", "box", "shelf")},
+    "guides": Table(
+        width=0.66, depth=0.53, leg=0.043, overhang=0.08, apron=0.2, guides=True, arch=0.04, layout=Drawer()
+    ),
+    "round table": Table(width=0.7, depth=0.7, outline="round", leg=0.04, layout=Drawer()),
+    "oval table on hairpins": Table(height=0.45, outline="round", leg=0.05, leg_shape="hairpin", layout=Drawer()),
+    "glass table": Table(glass=True, top=0.01, overhang=0.05),
+    "connectors": Table(width=2.3, depth=0.9, two_sided=True, layout=Row((Drawer(),) * 4)),
+    "keyboard tray": Table(layout=Row((Drawer(), Drawer("tray"), Blank()))),
+    "vanity": Table(mirror=0.6, edge="rounded"),
+    "table with a hutch": Table(hutch=HUTCH),
+}
+DESKS = {
+    "drawers between pedestals": Desk(width=1.6, left=THREE, middle=Drawer(), modesty=0.5, edge="rounded", top=0.05),
+    "lifted top": Desk(left=THREE, middle=Row((Drawer("tray"), Drawer())), lift=0.07, base=Base("plinth", 0.06)),
+    "desk on legs": Desk(legs=Leg("tapered", 0.05), middle=Drawer(), mount="inset"),
+    "desk with a return": Desk(wing=0.9, hutch=HUTCH),
+}
+CHESTS = {
+    "lid within": Chest(within=True, edge="rounded"),
+    "chest with drawers": Chest(box=Case(1.0, 0.6, 0.5), drawers=Row((Drawer(), Drawer()))),
+    "chest on posts": Chest(box=Case(1.0, 0.6, 0.5, base=Base("posts", 0.1, Leg("square", 0.05))), within=True),
+}
+SPECS = {**CABINETS, **TABLES, **DESKS, **CHESTS}

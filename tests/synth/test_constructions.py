@@ -1,0 +1,159 @@
+import pytest
+
+from constructions import CHESTS, SPECS
+from grafu.synth.bases import base_pieces
+from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.case import Case
+from grafu.synth.chest import make_chest
+from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Top
+from grafu.synth.desk import Desk
+from grafu.synth.finish import PLAIN
+from grafu.synth.inside import Inside
+from grafu.synth.layout import Bay, Blank, Drawer, Tilt
+from grafu.synth.legs import Leg
+from grafu.synth.table import Table
+from grafu.vocabulary import PartLabel
+from strategies import made
+from sweeping import collisions
+
+TOUCHING = 0.0035  # metres: fronts keep a gap of 3 mm
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_nothing_collides_in_any_construction(name):
+    asset = made(SPECS[name])
+    for joint in asset.joints:
+        assert collisions(asset, joint.part, [share * joint.upper for share in (0.03, 0.1, 0.4, 0.7, 1.0)]) == {}
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_still_boards_meet_and_do_not_overlap(name):
+    parts = made(SPECS[name]).parts
+    boards = [(p.id, s.mesh.box) for p in parts for s in p.surfaces if len(s.mesh.faces) == 12]
+    for k, (one, box) in enumerate(boards):
+        for other, its in boards[k + 1 :]:
+            assert one == other or box.axis_gaps(its).max() > -1e-6, (one, other)
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_every_part_is_held_by_the_others(name):
+    boxes = {p.id: p.box for p in made(SPECS[name]).parts}
+    held, todo = set(), [next(iter(boxes))]
+    while todo:
+        part = todo.pop()
+        held.add(part)
+        todo += [i for i in boxes if i not in held and boxes[part].gap(boxes[i]) < TOUCHING]
+    assert held == set(boxes)
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_solids_are_closed_and_sheets_are_flat(name):
+    for part in made(SPECS[name]).parts:
+        for surface in part.surfaces:
+            flat = surface.mesh.box.size.min() < 1e-9
+            assert flat or part.label is PartLabel.MISC or surface.mesh.is_closed, part.id
+            assert not surface.mesh.is_closed or surface.mesh.to_trimesh().volume > 0, part.id
+
+
+def labels(case):
+    asset = make_cabinet(Cabinet(case=case, layout=Bay()))
+    return {p.id: p.label for p in asset.parts}
+
+
+def test_a_kitchen_toe_kick_is_labelled_as_side_panels():
+    found = labels(Case(base=Base("toe kick", boards=3)))
+    assert found["toe_kick"] is PartLabel.SIDE_PANEL
+    assert sum(name.startswith("base_side_panel") for name in found) == 2
+
+
+def test_stretchers_take_the_place_of_a_top():
+    found = labels(Case(top=Top("stretchers")))
+    assert PartLabel.TOP_PANEL not in found.values()
+    assert sum(name.startswith("top_stretcher") for name in found) == 4
+
+
+def test_a_framed_kitchen_cabinet_has_bars_for_its_frame():
+    found = labels(Case(frame=FaceFrame(0.035, "bars")))
+    assert {found["stile_1"], found["rail_2"]} == {PartLabel.BAR}
+    assert PartLabel.FACE_FRAME not in found.values()
+
+
+def test_edge_strips_have_no_thickness_and_a_sheet_bottom_neither():
+    asset = make_cabinet(Cabinet(case=Case(frame=FaceFrame(kind="strips"), bottom=Bottom("sheet")), layout=Bay()))
+    assert asset.part("edge_strip_1").box.size.min() == pytest.approx(0.0)
+    assert asset.part("bottom_panel").box.size[2] == pytest.approx(0.0)
+
+
+def test_posts_run_from_the_floor_to_the_top():
+    asset = make_cabinet(Cabinet(case=Case(base=Base("posts", 0.3, Leg("square", 0.04))), layout=Bay()))
+    assert asset.part("leg_1").box.size[2] == pytest.approx(0.72)
+    assert asset.part("side_panel_left").box.low[2] == pytest.approx(0.3)
+
+
+def test_a_case_without_a_bottom_or_a_back_lacks_them():
+    found = labels(Case(bottom=Bottom("none"), back=Back("none", rails=2)))
+    assert not {PartLabel.BOTTOM_PANEL, PartLabel.BACK_PANEL} & set(found.values())
+    assert found["back_rail_1"] is PartLabel.BAR
+
+
+def test_a_blank_is_still_and_counts_as_face_frame():
+    asset = make_cabinet(Cabinet(layout=Blank()))
+    assert asset.part("false_front").label is PartLabel.FACE_FRAME
+    assert asset.joints == ()
+
+
+def test_a_tilting_front_turns_about_its_lower_front_edge_with_its_tray():
+    asset = make_cabinet(Cabinet(case=Case(0.8, 0.5, 0.3), layout=Tilt()))
+    joint, door = asset.joints[0], asset.part("door")
+    assert joint.axis.point[1:] == pytest.approx(door.box.low[1:])
+    assert door.box.size[1] > 0.1
+
+
+def test_a_tray_has_no_front():
+    asset = make_cabinet(Cabinet(layout=Drawer("tray")))
+    assert asset.part("drawer").box.size[2] < 0.06
+    assert all(p.label is not PartLabel.HANDLE for p in asset.parts)
+
+
+def test_baskets_are_misc_of_few_faces():
+    for basket in ("wire", "rack"):
+        asset = make_cabinet(Cabinet(layout=Bay(0, Inside(basket=basket))))
+        part = asset.part(f"{basket}_basket")
+        assert part.label is PartLabel.MISC
+        assert len(part.mesh.faces) <= 300
+
+
+def test_the_fronts_of_an_island_leave_it_on_both_sides():
+    directions = {round(float(j.axis.direction[1])) for j in made(SPECS["island"]).joints if j.part.startswith("dra")}
+    rear = [j for j in made(SPECS["island"]).joints if j.axis.point[1] > 0]
+    assert directions == {-1}
+    assert len(rear) == 1
+
+
+def test_a_lid_within_the_walls_turns_about_its_upper_back_edge():
+    asset = make_chest(CHESTS["lid within"])
+    assert asset.joints[0].axis.point[2] == pytest.approx(asset.part("lid").box.high[2])
+
+
+def test_no_base_has_no_pieces():
+    assert list(base_pieces(Case(), PLAIN)) == []
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        lambda: Base(height=-0.1),
+        lambda: Base(height=0.1, apron=0.2),
+        lambda: Back(thickness=-0.001),
+        lambda: FaceFrame(0.0),
+        lambda: Leg(thick=0.0),
+        lambda: Inside(dividers=-1),
+        lambda: Cabinet(share=0.9),
+        lambda: Table(leg=0.4),
+        lambda: Desk(left=Drawer(), wing=0.8),
+        lambda: Desk(width=0.7, left=Drawer()),
+    ],
+)
+def test_a_construction_that_cannot_be_is_refused(spec):
+    with pytest.raises(ValueError, match=r"must|needs"):
+        spec()
