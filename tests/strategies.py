@@ -14,22 +14,38 @@ from grafu.synth.chest import Chest, make_chest
 from grafu.synth.construction import Base, FaceFrame, Top
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, make_desk
+from grafu.synth.hold import Hold
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
 from grafu.synth.table import Table, make_table
 
-handles = st.sampled_from(["bar-round", "knob-round", "none"])
-flat_styles = st.sampled_from(["slab", "chamfered", "rounded", "shaker", "glass"])
-leaf_styles = st.one_of(flat_styles, st.just("bowed"))
+handles = st.sampled_from(["bar-round", "bar-profile", "bail", "knob-round", "ring", "cup-shell", "none"])
+boards = st.sampled_from(["slab", "chamfered", "rounded", "arched", "planks", "raised panel", "two panels"])
+frames = st.sampled_from(["shaker", "glass", "mirror", "muntins", "louvred", "arched rail"])
+flat_styles = st.one_of(boards, frames)
+drawer_styles = st.one_of(flat_styles, st.just("bowed"))
+pair_styles = st.one_of(drawer_styles, st.sampled_from(["swept", "swept frame", "half arched"]))
+grips = st.sampled_from(["scoop", "slot", "edge channel", "finger hole", "lip"])
+holds = st.builds(
+    Hold,
+    place=st.sampled_from(["usual", "middle line", "top edge", "bottom edge"]),
+    along=st.one_of(st.none(), st.floats(0.0, 1.0)),
+    length=st.one_of(st.none(), st.floats(0.02, 2.0)),
+    share=st.floats(0.1, 1.0),
+    count=st.sampled_from([1, 1, 2]),
+)
 drawer_boxes = st.sampled_from(["whole", "no bottom", "shell", "front only"])
 yaws = st.floats(-pi, pi).map(lambda angle: round(angle, 3))
 small_counts = st.integers(0, 2)
 
 doors = st.one_of(
-    st.builds(Door, st.sampled_from(["left", "right"]), leaf_styles, handles, shelves=small_counts),
-    st.builds(Door, st.sampled_from(["top", "bottom"]), flat_styles, handles, shelves=small_counts),
+    st.builds(Door, st.sampled_from(["left", "right"]), drawer_styles, handles, shelves=small_counts, hold=holds),
+    st.builds(Door, st.sampled_from(["top", "bottom"]), flat_styles, handles, shelves=small_counts, hold=holds),
+    st.builds(
+        Door, st.sampled_from(["left", "right", "top", "bottom"]), handle=st.just("none"), hold=holds, grip=grips
+    ),
 )
-drawers = st.builds(Drawer, drawer_boxes, leaf_styles, handles)
-pairs = st.builds(Pair, leaf_styles, handles, shelves=small_counts, muntin=st.sampled_from([0.0, 0.03]))
+drawers = st.builds(Drawer, drawer_boxes, drawer_styles, handles, hold=holds)
+pairs = st.builds(Pair, pair_styles, handles, shelves=small_counts, muntin=st.sampled_from([0.0, 0.03]))
 leaves = st.one_of(doors, drawers, pairs, st.builds(Bay, small_counts))
 betweens = st.sampled_from(["panel", "rail", "nothing"])
 

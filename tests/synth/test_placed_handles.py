@@ -96,7 +96,8 @@ def test_bars_stand_upright_on_doors_and_cups_hang_level(style, hold, upright):
         ("bar-round", Hold(length=0.4, share=0.7), 0.4),
         ("bar-round", Hold(length=2.0, share=1.0), 0.796),
         ("bar-round", Hold(length=2.0, share=0.8, count=2), 0.32),
-        ("knob-round", Hold(length=2.0, share=1.0), 0.05),
+        ("knob-round", Hold(length=2.0, share=1.0), 0.03),
+        ("knob-round", Hold(length=0.015), 0.015),
     ],
 )
 def test_a_handle_is_as_long_as_said_and_as_fits(style, hold, length):
@@ -129,7 +130,8 @@ def test_two_handles_lie_side_by_side():
     assert one.center[2] == other.center[2]
 
 
-def test_protrusion_is_as_said():
+def test_protrusion_is_as_said_and_in_proportion_on_small_knobs():
+    assert boxes("knob-round", Hold(length=0.015))[0].low[1] == pytest.approx(-0.013)
     assert boxes(hold=Hold(protrusion=0.05))[0].low[1] == pytest.approx(-0.05)
 
 

@@ -21,7 +21,6 @@ VOLUME = SLAB.volume
     ("mesh", "volume"),
     [
         (shapes.board((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)), 6.0),
-        (shapes.bowed_board(SLAB, 0.03), VOLUME),
         (shapes.prism(((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), 0.0, 2.0), 1.0),
         (shapes.rod(np.zeros(3), np.array([0.0, 0.0, 2.0]), 1.0, 400), 2 * np.pi),
     ],
@@ -37,10 +36,6 @@ def test_softened_edges_take_little_away_and_keep_the_box(make):
     assert mesh.is_closed
     assert 0.97 * VOLUME < mesh.to_trimesh().volume < VOLUME
     assert np.allclose(mesh.box.size, SLAB.size)
-
-
-def test_a_bowed_board_bulges_to_the_front():
-    assert shapes.bowed_board(SLAB, 0.03).box.low[1] == pytest.approx(SLAB.low[1] - 0.03)
 
 
 def test_a_frame_surrounds_its_opening():

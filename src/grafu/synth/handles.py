@@ -69,7 +69,7 @@ def handle_pieces(
     template = handle_template(style)
     upright = _is_upright(template, hold, hinge)
     above = _upper_side(style, held_side(hold, hinge), upright)
-    surfaces = _surfaces(style, _length(template, hold, leaf, upright), hold.protrusion, above, material)
+    surfaces = _surfaces(style, _size(template, hold, leaf, upright), above, material)
     box = _box(surfaces)
     centers = _centers(hold, leaf, hinge, box, style in _AT_EDGE)
     return tuple(_piece(leaf, x, z, surfaces, box) for x, z in centers)
@@ -89,19 +89,22 @@ def _upper_side(style: HandleStyle, side: Side | None, upright: bool) -> Side:
     return "bottom" if side == "bottom" and style in _AT_EDGE else "top"
 
 
-def _length(template: HandleTemplate, hold: Hold, leaf: LeafShape, upright: bool) -> float:
-    rect = filled_rect(leaf)
+def _size(template: HandleTemplate, hold: Hold, leaf: LeafShape, upright: bool) -> tuple[float, float]:
+    """Returns a handle's length and protrusion; a smaller knob also stands out less."""
+    rect, natural, wanted = filled_rect(leaf), template.natural, hold.length
     side = rect.height if upright else rect.width
-    wanted = min(template.natural.length if hold.length is None else hold.length, template.longest)
-    return min(wanted, hold.share * side / (1 if upright else hold.count), side - 2 * CLEAR)
+    if wanted is None or (template.family == "knob" and wanted > template.longest):
+        wanted = natural.length
+    most = hold.share * side / (1 if upright else hold.count)
+    length = min(wanted, template.longest, most, side - 2 * CLEAR)
+    scale = length / natural.length if template.family == "knob" else 1.0
+    return length, natural.protrusion * scale if hold.protrusion is None else hold.protrusion
 
 
 @lru_cache(256)
-def _surfaces(
-    style: HandleStyle, length: float, protrusion: float | None, above: Side, material: Material
-) -> tuple[Surface, ...]:
+def _surfaces(style: HandleStyle, size: tuple[float, float], above: Side, material: Material) -> tuple[Surface, ...]:
     """Returns a handle at the origin: a piece of furniture repeats a few."""
-    meshes = handle_template(style).build(length, protrusion)
+    meshes = handle_template(style).build(*size)
     turn = _TURNS.get(above)
     return tuple(surface_of(mesh if turn is None else mesh.transformed(turn), material) for mesh in meshes)
 

@@ -48,9 +48,10 @@ class Hold:
             the handle stays clear of the leaf's border, so that 0 and 1 mean the corners. None: 0.65 on a door's
             upright free edge, else 0.5.
         orientation: "usual" is along the free edge of a door, and lying at a top or bottom edge and on drawers.
-        length: metres along the handle; None: the handle's own. The handle's limits hold: knobs stay knobs.
+        length: metres along the handle, at most its template's longest; None: its own. A knob that cannot be so long
+            has its own size, so one length can serve bars and knobs; real knobs are 13 to 40 mm wide.
         share: the most that the handle takes of the front's side along which it lies, in (0, 1].
-        protrusion: metres before the front; None: the handle's own.
+        protrusion: metres before the front; None: the handle's own (of a knob: in proportion to its width).
         inset: metres from the edge to the handle's middle; at most a fifth of the front's sides.
         count: 1, or 2 side by side, as on wide drawers.
 

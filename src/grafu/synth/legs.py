@@ -8,7 +8,8 @@ import numpy as np
 
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.mesh import TriangleMesh
-from grafu.synth.shapes import board, loft, rod, turned
+from grafu.geometry.sweep import loft
+from grafu.synth.shapes import board, rod, turned
 
 LegShape = Literal[
     "square", "tapered", "round", "cone", "turned", "splayed", "hairpin", "cabriole", "block", "bun", "caster", "pad"

@@ -1,4 +1,4 @@
-"""The solids that made furniture consists of: boards, chamfered and bowed boards, turned rods. No materials here.
+"""The solids that made furniture consists of: boards, chamfered and rounded boards, turned rods. No materials here.
 
 Every mesh is closed with its faces outward. Boards that stand in a front face -Y. Lengths are metres.
 """
@@ -11,8 +11,7 @@ from jaxtyping import Float
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-
-Rings = Float[np.ndarray, "k n 3"]
+from grafu.geometry.sweep import loft
 
 
 def board(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:
@@ -50,26 +49,6 @@ def table_board(box: Box, edge: float, rounded: bool, steps: int = 4) -> Triangl
     return loft(np.stack(rings))
 
 
-def loft(rings: Rings) -> TriangleMesh:
-    """Returns the solid through convex rings of equally many points, both ends capped.
-
-    Each ring runs counter-clockwise about the direction in which the rings follow each other.
-    """
-    count, n = rings.shape[:2]
-    i, j = (index.ravel() for index in np.meshgrid(np.arange(count - 1), np.arange(n), indexing="ij"))
-    a, b = i * n + j, i * n + (j + 1) % n
-    fan = np.arange(1, n - 1)
-    hub = np.zeros_like(fan)
-    last = (count - 1) * n
-    faces = [
-        np.column_stack([a, b, b + n]),
-        np.column_stack([a, b + n, a + n]),
-        np.column_stack([hub, fan + 1, fan]),
-        np.column_stack([hub, fan, fan + 1]) + last,
-    ]
-    return TriangleMesh(rings.reshape(-1, 3), np.vstack(faces))
-
-
 def turned(start: Vec3, end: Vec3, profile: Sequence[tuple[float, float]], sides: int = 12) -> TriangleMesh:
     """Returns a turned solid from `start` to `end`; `profile` lists (share of the way, radius), radii above 0."""
     direction = (end - start) / np.linalg.norm(end - start)
@@ -99,17 +78,6 @@ def rounded_board(box: Box, radius: float, steps: int = 4) -> TriangleMesh:
         y, inset = box.low[1] + radius * (1 - np.sin(angle)), radius * (1 - np.cos(angle))
         rings.append(_front_ring(box, float(y), float(inset)))
     return loft(np.stack(rings))
-
-
-def bowed_board(box: Box, bow: float, steps: int = 12) -> TriangleMesh:
-    """Returns a board whose middle bulges towards -Y by `bow`; its left and right edges lie in the box."""
-    shares = np.linspace(0.0, 1.0, steps + 1)
-    (_, y0, z0), (_, y1, z1) = box.low, box.high
-    rings = []
-    for share in shares:
-        x, shift = box.low[0] + share * box.size[0], -bow * (1 - (2 * share - 1) ** 2)
-        rings.append([(x, y0 + shift, z0), (x, y1 + shift, z0), (x, y1 + shift, z1), (x, y0 + shift, z1)])
-    return loft(np.array(rings))
 
 
 def prism(outline: Sequence[tuple[float, float]], low: float, high: float) -> TriangleMesh:

@@ -9,8 +9,8 @@ from math import sqrt
 import numpy as np
 
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.sweep import loft
 from grafu.synth.layout import Rect
-from grafu.synth.shapes import loft
 
 WALL = 0.006  # metres
 REACH = 0.28  # metres: as deep as a shoe needs
