@@ -89,7 +89,8 @@ def faults_of(
 def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) -> tuple[Fault, ...]:
     """Returns all that is wrong with a specimen beyond the defects that it declares.
 
-    Loose parts are no fault of a specimen: boards that became sheets stand apart by their thickness.
+    Loose parts are no fault of a specimen: boards that became sheets stand apart by their thickness. Nor are limits:
+    what lies beside a drawer cannot be told any more where all of a case is one part.
     """
     concerned: dict[DefectKind, set[str]] = defaultdict(set)
     for defect in specimen.defects:
@@ -102,7 +103,7 @@ def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) 
         return culprit in explained or (bool(others) and set(others) <= explained)
 
     found = (*faults_of(specimen.whole, articulated, specimen.truth), *_given_faults(specimen))
-    return tuple(fault for fault in found if fault.kind != "loose" and not is_meant(fault))
+    return tuple(fault for fault in found if fault.kind not in ("loose", "limit") and not is_meant(fault))
 
 
 def _label_faults(whole: Asset) -> Iterator[Fault]:
