@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.synth.case import Case
-from grafu.synth.chance import Span, between, chance, only, pick
+from grafu.synth.chance import Span, between, chance, count, only, pick
 from grafu.synth.construction import (
     Back,
     BackKind,
@@ -150,7 +150,7 @@ def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
 
 def _back(rng: np.random.Generator, style: Style, build: Build) -> Back:
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
-    rails = 3 if chance(rng, 0.08) else 0
+    rails = count(rng, 2, 3) if chance(rng, 0.14) else 0
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
 
 

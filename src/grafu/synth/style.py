@@ -24,7 +24,7 @@ Carry = Literal["reach", "middle", "corner", "top line", "middle line"]
 # Where a piece carries the handles of its side-hung doors. "reach": as near to the hand as the free edge allows (high
 # on base units, low on wall units); "top line" is the lying bar in the middle of the upper or lower edge, which says
 # nothing about the hinge (3 of the 17 development models); "middle line" is an ornamental ring or knob in the middle.
-CARRIES: Mapping[Carry, float] = {"reach": 0.44, "middle": 0.29, "corner": 0.1, "top line": 0.145, "middle line": 0.025}
+CARRIES: Mapping[Carry, float] = {"reach": 0.4, "middle": 0.26, "corner": 0.1, "top line": 0.21, "middle line": 0.03}
 KNOB_CARRIES: Mapping[Carry, float] = {
     "reach": 0.42,
     "middle": 0.34,
@@ -106,8 +106,8 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         gap=between(rng, rules.gap),
         # real doors of models touch the case more often than not; bumpers and play make up to 3 mm
         seat=0.0002 if chance(rng, 0.5) else between(rng, (0.0005, 0.003)),
-        # fronts cover all of a panel, or leave a visible reveal as face frames mostly do
-        lap=between(rng, (0.01, 0.02)) if chance(rng, 0.7 if frame else 0.08) else 1.0,
+        # fronts cover all of a panel, or leave a visible reveal as face frames do in every second piece
+        lap=between(rng, (0.01, 0.02)) if chance(rng, 0.45 if frame else 0.08) else 1.0,
         frame=frame,
         muntin=between(rng, (0.02, 0.07)) if chance(rng, rules.muntin) else 0.0,
         moulding=between(rng, (0.03, 0.08)) if chance(rng, rules.moulded) else 0.0,
@@ -117,7 +117,8 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         drawer_handle=_drawer_handle(rng, handle, rules),
         grip=grip,
         carry=pick(rng, KNOB_CARRIES if handle.startswith(("knob", "ring")) else CARRIES),
-        length=None if chance(rng, 0.35) else float(0.07 * (0.5 / 0.07) ** rng.random()),
+        # 60 mm to the width of a front: long bars are the rule on modern pieces (real median: 0.38 of the front)
+        length=None if chance(rng, 0.2) else float(0.09 * (0.55 / 0.09) ** rng.random()),
         full=full,
         inset=between(rng, (0.025, 0.07)),
         drawer_high=chance(rng, 0.3),

@@ -22,6 +22,8 @@ from grafu.vocabulary import PartLabel
 
 UNIT_WIDTHS = {0.3: 1.0, 0.4: 1.5, 0.45: 1.0, 0.5: 1.5, 0.6: 3.0, 0.8: 1.5, 0.9: 1.0}  # metres: the trade's modules
 
+FILLER = 0.05  # metres between base units and a tall one: a door beside it opens square, its handle has room
+
 
 def hutch(rng: np.random.Generator) -> Ensemble:
     """Returns a buffet: a shallower cabinet, open, glazed or closed, on a deeper one."""
@@ -78,6 +80,7 @@ def kitchen_units(rng: np.random.Generator) -> Ensemble:
     reach = -depth / 2 - style.front - style.seat - style.panel - 0.015
     thick = between(rng, (0.02, 0.04))
     top = Slab(PartLabel.TOP_PANEL, "worktop", (-whole / 2, reach, height), (whole / 2, depth / 2, height + thick))
+    boards = [top]
     tall_side = pick(rng, {0: 0.7, -1: 0.15, 1: 0.15})
     if chance(rng, 0.65):
         members += _wall_units(rng, style, widths, depth, height + thick + between(rng, (0.45, 0.6)), tall_side)
@@ -87,12 +90,20 @@ def kitchen_units(rng: np.random.Generator) -> Ensemble:
         tall = build_cabinet(
             rng, "kitchen", style, size, tall_layout(rng, style, size), replace(build, tops=("between",))
         )
-        members.append(Placed(_flush(tall, base), (tall_side * (whole + width) / 2, 0.0, 0.0)))
-    return Ensemble("kitchen", tuple(members), (top,))
+        members.append(Placed(_flush(tall, base), (tall_side * (whole / 2 + FILLER + width / 2), 0.0, 0.0)))
+        boards.append(_filler(tall_side * whole / 2, tall_side, depth, (base.height, height)))
+    return Ensemble("kitchen", tuple(members), tuple(boards))
 
 
 def _unit(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build) -> Cabinet:
     return build_cabinet(rng, "kitchen", style, size, base_layout(rng, style, size), build)
+
+
+def _filler(x: float, side: int, depth: float, heights: tuple[float, float]) -> Slab:
+    """Returns the board between the base units, that end at x, and a tall unit: handles need the room it closes."""
+    low, high = sorted((x, x + side * FILLER))
+    y = -depth / 2
+    return Slab(PartLabel.BAR, "filler", (low, y, heights[0]), (high, y + 0.018, heights[1]))
 
 
 def _flush(unit: Cabinet, base: Base) -> Cabinet:

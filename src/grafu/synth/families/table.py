@@ -14,7 +14,7 @@ from grafu.synth.chest import Chest
 from grafu.synth.corner import CornerCabinet
 from grafu.synth.desk import Desk
 from grafu.synth.ensemble import Ensemble
-from grafu.synth.families import bedroom, composed, kitchen, living, office
+from grafu.synth.families import bedroom, composed, kitchen, living, office, tables
 from grafu.synth.table import Table
 
 Spec = Cabinet | Table | Desk | Chest | CornerCabinet | Ensemble
@@ -44,10 +44,10 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "rack": (1.0, living.rack),
     "free form": (3.5, living.free_form),
     "filing cabinet": (1.5, office.filing_cabinet),
-    "desk": (4.0, office.desk),
-    "writing desk": (3.0, office.writing_desk),
-    "table with drawers": (4.0, office.drawer_table),
-    "vanity": (1.2, office.vanity),
+    "desk": (4.0, tables.desk),
+    "writing desk": (3.0, tables.writing_desk),
+    "table with drawers": (4.0, tables.drawer_table),
+    "vanity": (1.2, tables.vanity),
     "fridge": (0.6, office.fridge),
     "oven": (0.8, office.oven),
 }

@@ -1,0 +1,189 @@
+"""Desks on pedestals, writing desks, tables with drawers under their tops, dressing tables."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.carpentry import Site, fitted, needed_gap
+from grafu.synth.casework import EDGES, ORNATE_EDGES, Build, draw_base, draw_leg
+from grafu.synth.chance import Span, between, chance, count, only, pick, weights
+from grafu.synth.construction import Stretcher
+from grafu.synth.desk import Desk
+from grafu.synth.families.built import Size, build_cabinet, draw_size
+from grafu.synth.families.layouts import drawer_stack
+from grafu.synth.layout import Bay, Between, Door, Drawer, Layout, Rect, Row, Stack
+from grafu.synth.legs import Leg, LegShape
+from grafu.synth.style import Style, draw_style
+from grafu.synth.table import Table
+from grafu.synth.traditions import TraditionName
+
+HOME: Mapping[TraditionName, float] = {
+    "shaker": 0.3, "mid-century": 0.22, "ornate": 0.2, "minimal": 0.18, "flat-pack": 0.1
+}  # fmt: skip
+DESK: Mapping[TraditionName, float] = {
+    "office": 0.3, "minimal": 0.2, "mid-century": 0.17, "shaker": 0.13, "ornate": 0.1, "flat-pack": 0.1
+}  # fmt: skip
+STAND = Site(hand=0.9)
+ON_TABLE = Build(bases=("none",), tops=("between",), moulded=False, framed=False, open_back=True)
+STRETCHERS: Mapping[Stretcher, float] = {"none": 0.6, "sides": 0.1, "H": 0.1, "box": 0.08, "shelf": 0.12}
+TABLE_LEGS: tuple[LegShape, ...] = ("square", "tapered", "round", "cone", "turned", "splayed", "cabriole")
+# width, depth, height in metres, and how many drawers beside each other
+TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
+    "side": ((0.35, 0.7), (0.35, 0.55), (0.45, 0.8), (1, 1)),
+    "console": ((0.8, 1.5), (0.28, 0.45), (0.7, 0.9), (1, 4)),
+    "coffee": ((0.8, 1.3), (0.5, 0.8), (0.35, 0.5), (1, 2)),
+    "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
+}
+KINDS: Mapping[str, float] = {"side": 0.38, "console": 0.25, "coffee": 0.17, "dining": 0.2}
+
+
+def desk(rng: np.random.Generator) -> Desk:
+    """Returns a desk with one or two pedestals of drawers, a door now and then."""
+    style = draw_style(rng, DESK)
+    size = draw_size(rng, (1.0, 1.9), (0.5, 0.85), (0.68, 0.78))
+    pedestal = between(rng, (0.3, 0.48))
+    both = size[0] > 1.2 and chance(rng, 0.5)
+    room = Rect(0.0, pedestal, 0.05, size[2] - 0.05)
+    bare = _pedestal(rng, style)
+    twin = bare if chance(rng, 0.7) else _pedestal(rng, style)
+    first = fitted(rng, bare, room, style, STAND)
+    second = fitted(rng, twin, room, style, STAND) if both else None
+    left, right = (first, second) if chance(rng, 0.5) else (second, first)
+    base = draw_base(rng, style, (pedestal, *size[1:]), Build(("none", "plinth", "legs"), legs=(0.03, 0.12)))
+    legs = _table_leg(rng, style, 0.5) if not both and chance(rng, 0.45) else None
+    return Desk(
+        width=size[0],
+        depth=size[1],
+        height=size[2],
+        top=between(rng, (0.018, 0.06)),
+        pedestal_width=pedestal,
+        left=left,
+        right=right,
+        finish=style.finish,
+        mount=style.mount,
+        front=style.front,
+        panel=style.panel,
+        gap=max(style.gap, needed_gap(first, room, style.front)),
+        edge=pick(rng, EDGES),
+        legs=legs,
+        middle=_middle(rng, style) if chance(rng, 0.3) else None,
+        modesty=between(rng, (0.3, 0.9)) if chance(rng, 0.45) else 0.0,
+        base=base,
+        lift=between(rng, (0.03, 0.09)) if chance(rng, 0.12) else 0.0,
+        wing=between(rng, (0.4, 0.8)) if right is None and legs is None and chance(rng, 0.15) else 0.0,
+        hutch=_hutch(rng, style, size[0], size[1]) if chance(rng, 0.1) else None,
+    )
+
+
+def _pedestal(rng: np.random.Generator, style: Style) -> Layout:
+    kind = pick(rng, {"drawers": 0.72, "door": 0.1, "mixed": 0.18})
+    if kind == "drawers":
+        return drawer_stack(rng, style, count(rng, 2, 4))
+    if kind == "door":
+        return Door()
+    return Stack((Door(), Drawer()), (between(rng, (2.0, 3.0)), 1.0), style.between)
+
+
+def _middle(rng: np.random.Generator, style: Style) -> Layout:
+    """Returns what hangs between the pedestals: a drawer, two, or a keyboard tray without a front."""
+    drawer = Drawer("tray", handle="none") if chance(rng, 0.3) else Drawer()
+    bare: Layout = drawer if chance(rng, 0.8) else Row((Drawer(), Drawer()), between="nothing")
+    return fitted(rng, bare, Rect(0.0, 0.5, 0.6, 0.7), style, STAND)
+
+
+def writing_desk(rng: np.random.Generator) -> Table:
+    """Returns a desk on legs with one to three drawers in its apron, a hutch on it now and then."""
+    style = draw_style(rng, HOME)
+    size = draw_size(rng, (0.8, 1.5), (0.45, 0.75), (0.7, 0.8))
+    hutch = _hutch(rng, style, size[0], size[1]) if chance(rng, 0.2) else None
+    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.09, 0.16), hutch=hutch)
+
+
+def drawer_table(rng: np.random.Generator) -> Table:
+    """Returns a table with drawers: side tables, consoles, dining and coffee tables, on one side or two."""
+    style = draw_style(rng, HOME)
+    kind = pick(rng, KINDS)
+    *spans, numbers = TABLES[kind]
+    two_sided = kind in ("dining", "coffee") and chance(rng, 0.4)
+    size = draw_size(rng, *spans)
+    return _table(rng, "drawer_table", style, size, count(rng, *numbers), (0.08, 0.22), two_sided=two_sided)
+
+
+def vanity(rng: np.random.Generator) -> Table:
+    """Returns a dressing table with small drawers, mostly with a mirror."""
+    style = draw_style(rng, HOME)
+    size = draw_size(rng, (0.75, 1.3), (0.38, 0.55), (0.7, 0.8))
+    mirror = between(rng, (0.4, 0.9)) if chance(rng, 0.75) else 0.0
+    return _table(rng, "vanity", style, size, count(rng, 2, 3), (0.1, 0.2), mirror=mirror)
+
+
+def _table(
+    rng: np.random.Generator,
+    name: str,
+    style: Style,
+    size: Size,
+    number: int,
+    apron: Span,
+    two_sided: bool = False,
+    hutch: Cabinet | None = None,
+    mirror: float = 0.0,
+) -> Table:
+    """Returns a table with this many drawers in its apron."""
+    width, depth, height = size
+    leg = _table_leg(rng, style, min(width, depth))
+    zone = min(between(rng, apron), 0.35 * height)
+    gaps: Between = "panel" if chance(rng, 0.3) else "nothing"
+    drawers: Layout = Row((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
+    if number == 1:
+        drawers = Drawer()
+    room = Rect(leg.thick - width / 2, width / 2 - leg.thick, height - zone, height)
+    low = chance(rng, 0.25)
+    return Table(
+        name=name,
+        width=width,
+        depth=depth,
+        height=height,
+        top=between(rng, (0.015, 0.045)),
+        leg=leg.thick,
+        apron=zone,
+        has_aprons=chance(rng, 0.85),
+        two_sided=two_sided,
+        layout=fitted(rng, drawers, room, style, STAND),
+        finish=style.finish,
+        leg_shape=leg.shape,
+        leg_foot=leg.foot,
+        overhang=between(rng, (0.01, 0.12 * depth)) if chance(rng, 0.6) else 0.0,
+        outline="round" if chance(rng, 0.08) and depth > 0.6 else "straight",
+        edge=pick(rng, ORNATE_EDGES if style.tradition in ("ornate", "shaker") else EDGES),
+        glass=chance(rng, 0.03),
+        stretcher=pick(rng, STRETCHERS) if height > 0.4 else "none",
+        stretcher_at=between(rng, (0.08, 0.35)),
+        arch=between(rng, (0.02, 0.05)) if chance(rng, 0.1) else 0.0,
+        guides=low and chance(rng, 0.5),
+        hutch=hutch,
+        mirror=mirror,
+        front=style.front,
+        gap=style.gap,
+    )
+
+
+def _table_leg(rng: np.random.Generator, style: Style, side: float) -> Leg:
+    """Returns a leg of a shape that carries tables; no feet and casters."""
+    return replace(draw_leg(rng, style, side), shape=pick(rng, only(style.rules.leg, TABLE_LEGS)))
+
+
+def _hutch(rng: np.random.Generator, style: Style, width: float, depth: float) -> Cabinet:
+    """Returns the low cabinet that stands at the back of a desk: pigeonholes and small drawers."""
+    size = (width * between(rng, (0.85, 1.0)), depth * between(rng, (0.3, 0.5)), between(rng, (0.18, 0.4)))
+    middle: Layout = Bay() if chance(rng, 0.6) else Stack((Drawer(), Bay()), (1.0, between(rng, (0.8, 1.5))))
+    side: Layout = _end(rng)
+    layout = Row((side, middle, side), (1.0, between(rng, (1.0, 2.0)), 1.0))
+    return build_cabinet(rng, "hutch", style, size, layout, ON_TABLE, STAND)
+
+
+def _end(rng: np.random.Generator) -> Layout:
+    """Returns what closes the ends of a hutch: drawers, a small door, or nothing."""
+    sides: Mapping[Layout, float] = {Stack((Drawer(), Drawer())): 0.45, Door(): 0.2, Bay(): 0.2, Drawer(): 0.15}
+    return pick(rng, sides)
