@@ -12,6 +12,7 @@ import pytest
 
 from grafu.cli import synth_run
 from grafu.cli.main import main
+from grafu.data import write_shards
 from grafu.data.write import models_written
 
 FEW = ["synth", "--points", "8", "--models-per-shard", "10"]
@@ -92,6 +93,17 @@ def test_another_seed_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Capt
     assert said.count("\n") == 1
     assert "was made with 0 as its seed, not 1" in said
     assert main([*command, "--seed", "1", "--overwrite"]) == 0
+
+
+def test_faults_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    command = [*FEW, "--count", "2", "--jobs", "1", "--out", str(tmp_path)]
+    monkeypatch.setattr(write_shards, "faults_said", lambda specimen: ("collision of door, shelf",))
+    assert main(command) == 0
+    assert "faults beyond" not in capsys.readouterr().out
+    assert main([*command, "--check", "--overwrite"]) == 1
+    said = capsys.readouterr().out
+    assert "faulty: synth_0_0000001: collision of door, shelf" in said
+    assert "2 models have faults beyond their defects" in said
 
 
 def test_furfun_folders_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

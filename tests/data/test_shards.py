@@ -14,7 +14,7 @@ from record_strategies import records
 from grafu.data.shards import SCHEMA, ShardReader, write_shard
 from grafu.data.shards_arrays import arrays_to_record, record_to_arrays
 from grafu.data.shards_points import LARGEST_ERROR, codes_to_points, points_to_codes
-from grafu.data.shards_record import Record, record_of
+from grafu.data.shards_record import Record, record_of, record_pair
 from grafu.errors import ExportError, GraphError, UnreadableAsset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
@@ -85,6 +85,12 @@ def test_a_model_is_read_from_any_place(shard: Path, specimens: list[Record]) ->
         assert_same(reader[place], specimens[place])
     with pytest.raises(IndexError, match=r"must be 0\.\.99: got 100"):
         reader[100]
+
+
+def test_a_record_is_a_pair_to_learn_from(specimens: list[Record]) -> None:
+    pair = record_pair(specimens[0])
+    assert (pair.input, pair.target) == (specimens[0].given, specimens[0].truth)
+    assert pair.missing == specimens[0].missing
 
 
 def test_points_can_be_left_out(shard: Path, specimens: list[Record]) -> None:

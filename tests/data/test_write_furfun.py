@@ -29,7 +29,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
 
 def test_what_is_written_reads_back(tmp_path: Path) -> None:
     list(write_dataset(PLAN, tmp_path))
-    release = FurFunFolder(tmp_path, points=16)
+    release = FurFunFolder(tmp_path, points=16, keep_disconnected=True)
     for record in stream_synth(2, points=16, stop=12):
         graph = release.pair(record.model_id).target
         assert [(n.id, n.label) for n in graph.nodes] == [(n.id, n.label) for n in record.truth.nodes]

@@ -50,6 +50,11 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--models-per-shard", type=positive_count, default=1000, metavar="N", help="models in a file (default: 1000)"
     )
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="judge each new model: joints, collisions, labels, graph; exit 1 on faults",
+    )
     parser.add_argument("--overwrite", action="store_true", help="start again where a data set or gallery is there")
     instead = parser.add_mutually_exclusive_group()
     instead.add_argument("--gallery", action="store_true", help="write pictures of the models instead of a data set")

@@ -15,7 +15,7 @@ EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 
 
 def run_dataset(options: argparse.Namespace) -> int:
-    """Makes the data set, or the rest of it, and prints a summary; returns the exit code.
+    """Makes the data set, or the rest of it, and prints a summary; returns the exit code, 1 where --check found faults.
 
     Raises:
         FunctionalizationError: if the folder cannot be gone on with, or not be written.
@@ -33,11 +33,11 @@ def run_dataset(options: argparse.Namespace) -> int:
         return EXIT_FAILED
     seconds = perf_counter() - started
     print_tally(tally, seconds, options.out, before=models_written(options.out) - tally.fresh)
-    return EXIT_DONE
+    return EXIT_FAILED if tally.faulty else EXIT_DONE
 
 
 def _summaries(plan: DatasetPlan, options: argparse.Namespace) -> Iterator[ModelSummary]:
-    return write_dataset(plan, options.out, options.jobs, options.overwrite)
+    return write_dataset(plan, options.out, options.jobs, options.overwrite, options.check)
 
 
 def _kept(options: argparse.Namespace) -> str:

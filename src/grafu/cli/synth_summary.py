@@ -11,6 +11,8 @@ from rich.table import Table
 from grafu.cli.tables import plain_table, wide_console
 from grafu.data.write_plan import ModelSummary
 
+_NAMED_FAULTS = 10  # faulty models that are named; the rest is counted
+
 
 @final
 class Tally:
@@ -22,6 +24,7 @@ class Tally:
         self.defects: defaultdict[str, Counter[str]] = defaultdict(Counter)  # how many models have such a defect
         self.fresh = 0
         self.doubles = 0
+        self.faulty: dict[str, tuple[str, ...]] = {}
         self._seen: set[bytes] = set()
 
     def add(self, summary: ModelSummary) -> None:
@@ -32,6 +35,8 @@ class Tally:
         self.fresh += summary.fresh
         self.doubles += summary.shape in self._seen
         self._seen.add(summary.shape)
+        if summary.faults:
+            self.faulty[summary.model_id] = summary.faults
 
     @property
     def models(self) -> int:
@@ -45,7 +50,7 @@ def print_tally(tally: Tally, seconds: float, out: Path, before: int) -> None:
     if tally.models:
         console.print(_families(tally))
         console.print(_sum(tally), soft_wrap=True, markup=False, highlight=False)
-    for line in (_made(tally, seconds, before), f"written to {out}"):
+    for line in (*_faults(tally), _made(tally, seconds, before), f"written to {out}"):
         console.print(line, soft_wrap=True, markup=False, highlight=False)
 
 
@@ -68,6 +73,12 @@ def _sum(tally: Tally) -> str:
         f"{tally.models} models{doubles}: {parts} parts ({_range(every)} in each), {tally.movable.total()} doors and "
         f"drawers; with defects: {_defects(defects, tally.models) or 'none'}"
     )
+
+
+def _faults(tally: Tally) -> list[str]:
+    named = list(tally.faulty.items())[:_NAMED_FAULTS]
+    lines = [f"faulty: {model_id}: {'; '.join(faults)}" for model_id, faults in named]
+    return [*lines, f"{len(tally.faulty)} models have faults beyond their defects"] if lines else []
 
 
 def _made(tally: Tally, seconds: float, before: int) -> str:

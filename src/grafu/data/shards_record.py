@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.data.pair import NATURAL, GraphPair
 from grafu.errors import GraphError
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.synth.specimen import Defect, Specimen
@@ -51,6 +52,11 @@ def record_of(specimen: Specimen) -> Record:
         specimen.removable,
         specimen.defects,
     )
+
+
+def record_pair(record: Record) -> GraphPair:
+    """Returns the natural pair of a record, from which `fold` makes corrupted ones."""
+    return GraphPair(record.given, record.truth, NATURAL, record.model_id)
 
 
 def _named(graph: FunctionalGraph, name: str) -> FunctionalGraph:

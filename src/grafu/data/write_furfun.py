@@ -19,15 +19,17 @@ from grafu.data.furfun.write import furfun_files, split_files
 from grafu.data.shards_arrays import record_to_arrays
 from grafu.data.shards_record import record_of
 from grafu.data.stream import ordered_map
-from grafu.data.write_plan import DatasetPlan, ModelSummary, summary_of
+from grafu.data.write_plan import DatasetPlan, ModelSummary, faults_said, summary_of
 from grafu.errors import ExportError
 from grafu.synth.generate import make_specimen
 
 _STAGING = ".model.{mark}.new"
 
 
-def write_furfun_models(plan: DatasetPlan, folder: Path, jobs: int = 1) -> Iterator[ModelSummary]:
+def write_furfun_models(plan: DatasetPlan, folder: Path, jobs: int = 1, check: bool = False) -> Iterator[ModelSummary]:
     """Makes the models that a begun folder lacks, and yields a summary of each of these.
+
+    With `check` the summaries say what is wrong with them.
 
     Raises:
         ExportError: if a file cannot be written.
@@ -35,7 +37,7 @@ def write_furfun_models(plan: DatasetPlan, folder: Path, jobs: int = 1) -> Itera
     for left in folder.glob(_STAGING.format(mark="*")):  # of a run that was killed while it wrote
         shutil.rmtree(left, ignore_errors=True)
     start = len(furfun_models(folder))  # models are written in order
-    made = partial(_make_files, plan.seed, plan.points)
+    made = partial(_make_files, plan.seed, plan.points, check)
     try:
         if start < plan.count:
             shutil.rmtree(folder / SPLITS, ignore_errors=True)
@@ -54,9 +56,10 @@ def furfun_models(folder: Path) -> tuple[str, ...]:
     return tuple(sorted(path.name for path in (folder / UNFUNCTIONAL).glob("*")))
 
 
-def _make_files(seed: int, points: int, index: int) -> tuple[ModelSummary, dict[str, bytes]]:
+def _make_files(seed: int, points: int, check: bool, index: int) -> tuple[ModelSummary, dict[str, bytes]]:
     specimen = make_specimen(seed, index, points)
-    summary = summary_of(record_to_arrays(record_of(specimen)), fresh=True)
+    faults = faults_said(specimen) if check else ()
+    summary = summary_of(record_to_arrays(record_of(specimen)), True, faults)
     return summary, dict(furfun_files(specimen).contents)
 
 

@@ -22,7 +22,9 @@ from grafu.data.shards_arrays import ABSENT, LABELS, ModelArrays, record_to_arra
 from grafu.data.shards_record import record_of
 from grafu.data.stream import shard_paths
 from grafu.errors import ExportError
+from grafu.synth.check import faults_in
 from grafu.synth.generate import make_specimen
+from grafu.synth.specimen import Specimen
 from grafu.version import __version__
 
 DatasetFormat = Literal["shards", "furfun"]
@@ -73,7 +75,8 @@ class DatasetPlan:
 class ModelSummary:
     """One model in numbers: parts as given and of the repaired version, doors and drawers among these, defects.
 
-    Two models with one `shape` are doubles. `fresh`: it was made now, and not in an earlier run.
+    Two models with one `shape` are doubles. `fresh`: it was made now, and not in an earlier run. `faults`: what
+    is wrong beyond the declared defects, in words, where that was asked for.
     """
 
     model_id: str
@@ -84,6 +87,7 @@ class ModelSummary:
     defects: tuple[str, ...]
     shape: bytes
     fresh: bool
+    faults: tuple[str, ...] = ()
 
 
 def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> None:
@@ -108,7 +112,7 @@ def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> N
         _write_manifest(folder, manifest)
 
 
-def summary_of(arrays: ModelArrays, fresh: bool) -> ModelSummary:
+def summary_of(arrays: ModelArrays, fresh: bool, faults: tuple[str, ...] = ()) -> ModelSummary:
     """Returns a model in numbers."""
     return ModelSummary(
         arrays.model_id,
@@ -119,6 +123,7 @@ def summary_of(arrays: ModelArrays, fresh: bool) -> ModelSummary:
         tuple(defect.kind for defect in arrays.defects),
         _shape(arrays),
         fresh,
+        faults,
     )
 
 
@@ -128,15 +133,15 @@ def _shape(arrays: ModelArrays) -> bytes:
     return blake2b(places.tobytes() + arrays.labels.tobytes() + arrays.given_labels.tobytes(), digest_size=12).digest()
 
 
-def make_arrays(seed: int, points: int, index: int) -> ModelArrays:
-    """Returns a made model as arrays; a function of a module, so that another process can be asked for it."""
-    return record_to_arrays(record_of(make_specimen(seed, index, points)))
+def faults_said(specimen: Specimen) -> tuple[str, ...]:
+    """Returns in words what is wrong with a specimen beyond the defects that it declares."""
+    return tuple(f"{fault.kind} of {', '.join(fault.parts)}" for fault in faults_in(specimen))
 
 
 def _manifest(plan: DatasetPlan) -> dict[str, Any]:
     asked = asdict(plan)
     del asked["count"]  # a data set may grow
-    first = make_arrays(plan.seed, plan.points, 0)
+    first = record_to_arrays(record_of(make_specimen(plan.seed, 0, plan.points)))
     return {"schema": SCHEMA, "grafu": __version__} | asked | {"first_model": _digest(first)}
 
 

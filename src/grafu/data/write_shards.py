@@ -13,13 +13,17 @@ from itertools import islice
 from pathlib import Path
 
 from grafu.data.shards import ShardReader, write_model_arrays
-from grafu.data.shards_arrays import ModelArrays
+from grafu.data.shards_arrays import ModelArrays, record_to_arrays
+from grafu.data.shards_record import record_of
 from grafu.data.stream import ordered_map
-from grafu.data.write_plan import DatasetPlan, ModelSummary, make_arrays, summary_of
+from grafu.data.write_plan import DatasetPlan, ModelSummary, faults_said, summary_of
+from grafu.synth.generate import make_specimen
 
 
-def write_shards(plan: DatasetPlan, folder: Path, jobs: int = 1) -> Iterator[ModelSummary]:
+def write_shards(plan: DatasetPlan, folder: Path, jobs: int = 1, check: bool = False) -> Iterator[ModelSummary]:
     """Makes the models that a begun folder lacks, and yields a summary of each model, those of earlier runs first.
+
+    With `check` the summaries of new models say what is wrong with them.
 
     Raises:
         ExportError: if a shard cannot be written.
@@ -31,24 +35,29 @@ def write_shards(plan: DatasetPlan, folder: Path, jobs: int = 1) -> Iterator[Mod
     shard = 0
     for shard in range(plan.shards):
         done = _made_before(shard_path(folder, shard), len(plan.indices(shard)))
-        yield from (summary_of(arrays, fresh=False) for arrays in done)
+        yield from (summary_of(arrays, False) for arrays in done)
         if len(done) < len(plan.indices(shard)):
             break
     else:
         return
     start = plan.indices(shard).start + len(done)
-    with closing(ordered_map(partial(make_arrays, plan.seed, plan.points), start, plan.count, jobs)) as models:
+    with closing(ordered_map(partial(_make, plan.seed, plan.points, check), start, plan.count, jobs)) as models:
         for number in range(shard, plan.shards):
             held = done if number == shard else []
-            for arrays in islice(models, len(plan.indices(number)) - len(held)):
+            for arrays, faults in islice(models, len(plan.indices(number)) - len(held)):
                 held.append(arrays)
-                yield summary_of(arrays, fresh=True)
+                yield summary_of(arrays, True, faults)
             write_model_arrays(held, shard_path(folder, number))
 
 
 def shard_path(folder: Path, number: int) -> Path:
     """Returns where a shard of a data set stands."""
     return folder / f"shard_{number:06d}.npz"
+
+
+def _make(seed: int, points: int, check: bool, index: int) -> tuple[ModelArrays, tuple[str, ...]]:
+    specimen = make_specimen(seed, index, points)
+    return record_to_arrays(record_of(specimen)), faults_said(specimen) if check else ()
 
 
 def _made_before(path: Path, wanted: int) -> list[ModelArrays]:
