@@ -132,10 +132,8 @@ class Asset:
     @cached_property
     def box(self) -> Box:
         """The box around all parts."""
-        box = self.parts[0].box
-        for part in self.parts[1:]:
-            box = box.union(part.box)
-        return box
+        boxes = [part.box for part in self.parts]
+        return Box(np.min([box.low for box in boxes], axis=0), np.max([box.high for box in boxes], axis=0))
 
     @property
     def unit(self) -> float:

@@ -1,6 +1,7 @@
 """Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis. It knows no meshes and no labels."""
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import final
 
 import numpy as np
@@ -24,7 +25,8 @@ class Box(ArrayValue):
 
     def __post_init__(self) -> None:
         low, high = frozen_array(self.low), frozen_array(self.high)
-        if not (np.all(np.isfinite(low)) and np.all(np.isfinite(high)) and np.all(high >= low)):
+        # Six plain numbers are quicker than three calls of numpy: boxes are made by the hundred thousand.
+        if not all(isfinite(a) and isfinite(b) and b >= a for a, b in zip(low.tolist(), high.tolist(), strict=True)):
             raise ValueError(f"`Box.high` must be at least `Box.low` on every axis: got low={low}, high={high}")
         object.__setattr__(self, "low", low)
         object.__setattr__(self, "high", high)

@@ -29,7 +29,7 @@ class TriangleMesh(ArrayValue):
 
     def __post_init__(self) -> None:
         vertices, faces = frozen_array(self.vertices), frozen_array(self.faces, np.int64)
-        if not np.all(np.isfinite(vertices)):
+        if not np.isfinite(vertices).all():
             raise ValueError("`TriangleMesh.vertices` must be finite numbers: got NaN or infinity")
         if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
             found = f"{faces.min()}..{faces.max()}"
