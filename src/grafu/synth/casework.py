@@ -37,6 +37,8 @@ SIDES: Mapping[SideKind, float] = {"panel": 0.95, "framed": 0.05}
 CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.7, "framed": 0.3}
 # A face frame is one part in tidy models, its bars one by one in kitchen models (44781, 45001, 45463, 45940).
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
+STRIPS = 0.07  # frameless cases whose panels have edge strips of their own (41003, 41085)
+BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces
 EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.06}
 ORNATE_EDGES: Mapping[TopEdge, float] = {"square": 0.3, "chamfered": 0.15, "rounded": 0.2, "moulded": 0.35}
 STRETCHERS: Mapping[Stretcher, float] = {"none": 0.75, "sides": 0.05, "H": 0.07, "box": 0.06, "shelf": 0.07}
@@ -92,8 +94,8 @@ def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, 
         back=_back(rng, style, build),
         base=base,
         top=top,
-        frame=_frame(rng, style) if framed else None,
-        sides=Sides("panel" if plain_side else pick(rng, CLASSIC_SIDES if classic else SIDES)),
+        frame=_frame(rng, style) if framed else _strips(rng, style, build, base),
+        sides=_sides(rng, style, CLASSIC_SIDES if classic else SIDES, plain_side),
         bottom=_bottom(rng, base),
         moulding=moulding if height > 0.7 else 0.0,
         moulding_at="top" if chance(rng, 0.8) else "bottom",
@@ -158,6 +160,20 @@ def _bottom(rng: np.random.Generator, base: Base) -> Bottom:
     kind = pick(rng, only(BOTTOMS, ("between", "sheet", "none") if base.kind in ("toe kick", "posts") else BOTTOMS))
     overhang = between(rng, (0.005, 0.025)) if kind == "under" and chance(rng, 0.5) else 0.0
     return Bottom(kind, overhang=overhang)
+
+
+def _strips(rng: np.random.Generator, style: Style, build: Build, base: Base) -> FaceFrame | None:
+    """Returns edge strips on the panels of a frameless case, as some kitchen models have them; mostly none."""
+    if not build.framed or base.kind == "posts" or style.mount == "inset" or not chance(rng, STRIPS):
+        return None
+    return FaceFrame(style.panel, "strips", 0.001 if chance(rng, 0.5) else 0.0)
+
+
+def _sides(rng: np.random.Generator, style: Style, table: Mapping[SideKind, float], plain: bool) -> Sides:
+    kind = "panel" if plain else pick(rng, table)
+    if kind != "panel" or style.frame or style.mount == "inset" or not chance(rng, BEYOND):
+        return Sides(kind)
+    return Sides(kind, beyond=style.front + style.seat + pick(rng, {0.0: 0.5, 0.005: 0.25, 0.015: 0.25}))
 
 
 def _frame(rng: np.random.Generator, style: Style) -> FaceFrame:

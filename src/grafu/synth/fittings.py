@@ -19,11 +19,13 @@ SMALL_FRONT = 0.15  # metres: a framed leaf of this height would be all frame, s
 SHELF_PITCH = 0.33  # metres between shelves, usually
 NO_SHELVES = 0.22  # openings left empty: modellers often stop at what is seen
 INSIDES = {
-    Inside(): 0.86,
-    Inside(shelf="short"): 0.08,
-    Inside(basket="wire"): 0.02,
-    Inside(basket="rack"): 0.01,
+    Inside(): 0.83,
+    Inside(shelf="short"): 0.07,
+    Inside(dividers=1): 0.03,
     Inside(rails=2): 0.03,
+    Inside(basket="wire"): 0.015,
+    Inside(basket="rack"): 0.01,
+    Inside(runners=2): 0.015,
 }
 
 

@@ -132,7 +132,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
         between={"rail": 0.75, "panel": 0.1, "nothing": 0.15},
         base={"toe kick": 0.65, "plinth": 0.15, "legs": 0.08, "none": 0.12},
         leg={"square": 2.0, "tapered": 1.0, "bun": 1.0},
-        top={"between": 0.25, "over": 0.25, "none": 0.15, "stretchers": 0.35},
+        top={"between": 0.25, "over": 0.25, "none": 0.08, "stretchers": 0.32, "corner blocks": 0.1},
         framed=1.0,
         muntin=0.3,
     ),

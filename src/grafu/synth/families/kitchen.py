@@ -29,7 +29,7 @@ KITCHEN: Mapping[TraditionName, float] = {
 }
 BASE = Build(
     bases=("toe kick", "plinth", "legs", "none"),
-    tops=("between", "over", "none", "stretchers"),
+    tops=("between", "over", "none", "stretchers", "corner blocks"),
     legs=(0.08, 0.15),
     moulded=False,
 )
