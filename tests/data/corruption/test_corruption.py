@@ -86,6 +86,13 @@ def test_two_or_three_categories_go_at_once(seed):
         assert (PartLabel.DOOR not in lost and PartLabel.DRAWER not in lost) or name == "drop_multi_cat"
 
 
+@given(seeds)
+def test_a_cap_spares_no_category(seed):
+    lost = lost_labels(by("drop_multi_cat", seed, PAPER))
+    assert len(lost) in (2, 3)
+    assert sum(lost.values()) == 4
+
+
 def test_both_two_and_three_categories_occur():
     assert {len(lost_labels(by("drop_multi_cat", seed))) for seed in range(40)} == {2, 3}
 

@@ -73,12 +73,16 @@ _HANDFUL = 4  # the paper says a handful; it has four free slots to restore them
 def _without_labels(
     target: FunctionalGraph, rng: np.random.Generator, config: CorruptionConfig, labels: Collection[PartLabel]
 ) -> FunctionalGraph:
+    """Where fewer may go than there are, one of each label goes first: a lone top is not spared by a row of handles."""
     found = [n.id for n in target.labelled(*labels)]
     if not found:
         return dropped_share(target, rng, config)
-    return _without(target, found, capped(len(found), config.max_dropped), rng)
+    count = min(capped(len(found), config.max_dropped), len(target.nodes) - 1)
+    each = [min(some([n.id for n in target.labelled(label)], 1, rng)) for label in labels]
+    dropped = frozenset(each[:count])
+    others = [i for i in found if i not in dropped]
+    return as_contacts(without_nodes(target, dropped | some(others, count - len(dropped), rng)))
 
 
 def _without(target: FunctionalGraph, among: list[str], count: int, rng: np.random.Generator) -> FunctionalGraph:
-    dropped = some(among, min(count, len(target.nodes) - 1), rng) if len(target.nodes) > 1 else frozenset[str]()
-    return as_contacts(without_nodes(target, dropped))
+    return as_contacts(without_nodes(target, some(among, min(count, len(target.nodes) - 1), rng)))
