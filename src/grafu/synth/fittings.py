@@ -88,7 +88,10 @@ def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: Styl
 def fit_tilt(tilt: Tilt, style: Style) -> Tilt:
     """Returns the tilting front with its leaf and handle."""
     leaf = style.leaf if style.leaf in ("slab", "chamfered", "shaker", "louvred", "planks") else "slab"
-    return replace(tilt, leaf=leaf, handle=style.drawer_handle)
+    grip = style.grip if leaf == "slab" else "none"
+    handle = _handle(tilt.handle, style.drawer_handle, grip)
+    length = None if style.length is None else min(style.length, 0.2)
+    return replace(tilt, leaf=leaf, handle=handle, grip=grip, hold=Hold(length=length, inset=style.inset))
 
 
 def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:

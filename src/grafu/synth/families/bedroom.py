@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site
+from grafu.synth.carpentry import Site, fitted
 from grafu.synth.case import Case
-from grafu.synth.casework import Build, draw_base
+from grafu.synth.casework import EDGES, ORNATE_EDGES, Build, draw_base
 from grafu.synth.chance import between, chance, count, pick
 from grafu.synth.chest import Chest
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
 from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack, Tilt
+from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
 from grafu.synth.style import draw_style
 from grafu.synth.traditions import TraditionName
 
@@ -111,12 +111,21 @@ def chest(rng: np.random.Generator) -> Chest:
     size = draw_size(rng, (0.5, 1.3), (0.35, 0.55), (0.35, 0.6))
     base = draw_base(rng, style, size, Build(bases=("none", "plinth", "legs"), legs=(0.03, 0.1)))
     box = Case(width=size[0], depth=size[1], height=size[2], panel=max(style.panel, 0.012), base=base)
+    within = chance(rng, 0.25)
+    drawers: Layout | None = None
+    if not within and size[2] > 0.42 and chance(rng, 0.2):
+        number = 1 if size[0] < 0.7 else 2
+        drawers = fitted(rng, drawer_row(rng, number), Rect(0.0, size[0], 0.0, 0.2), style, STAND)
     return Chest(
         box=box,
         lid=between(rng, (0.015, 0.04)),
-        overhang=between(rng, (0.0, 0.03)),
+        overhang=0.0 if within else between(rng, (0.0, 0.03)),
         opening=between(rng, (1.4, 1.75)),
         finish=style.finish,
+        within=within,
+        edge="square" if within else pick(rng, ORNATE_EDGES if style.tradition == "ornate" else EDGES),
+        drawers=drawers,
+        drawers_share=between(rng, (0.35, 0.5)),
     )
 
 
