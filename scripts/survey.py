@@ -101,13 +101,15 @@ def survey_one(seed: int, index: int, points: int) -> Finding:
     from grafu.synth.blueprint import draw_made
     from grafu.synth.check import faults_in, faults_of
     from grafu.synth.generate import make_specimen
+    from grafu.synth.repair import repaired
 
     try:
         started = time.process_time()
         specimen = make_specimen(seed, index, points)
         seconds = time.process_time() - started
         faults = [f"{f.kind}: {', '.join(f.parts)} ({f.detail})" for f in faults_in(specimen)]
-        _, first = draw_made(np.random.default_rng([seed, index]))
+        rng = np.random.default_rng([seed, index])
+        first, _ = repaired(*draw_made(rng), rng)
         labels = Counter(part.label for part in specimen.whole.parts)
         return Finding(
             index,
