@@ -17,6 +17,7 @@ from grafu.synth.chest import Chest, make_chest
 from grafu.synth.construction import Back, Base, FaceFrame, Top
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, make_desk
+from grafu.synth.hold import Hold
 from grafu.synth.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
 from grafu.synth.setting import Mount
 from grafu.synth.table import Table, make_table
@@ -85,6 +86,14 @@ TIDY: dict[str, Maker] = {
     "bowed door": _leaf("bowed"),
     "framed door": _leaf("shaker"),
     "glass door": _leaf("glass"),
+    "pair bowed as one": _cabinet(Pair("swept frame"), case=Case()),
+    "inset louvred pair": _cabinet(Pair("louvred"), "inset", Case(), gap=0.002),
+    "pair under one arch": _cabinet(Pair("half arched"), case=Case()),
+    "fronts with lips": _cabinet(
+        Stack((Pair(handle="none", grip="lip"), Drawer(handle="none", grip="lip"))), case=Case()
+    ),
+    "fronts with finger holes": _cabinet(Pair(handle="none", grip="finger hole"), case=Case()),
+    "lying handles at the top": _cabinet(Pair(handle="bar-slim", hold=Hold("top edge", share=0.8)), case=Case()),
     "moulding above": _cabinet(Pair(), case=Case(moulding=0.06)),
     "moulding below": _cabinet(Pair(), case=Case(moulding=0.06, moulding_at="bottom")),
     "muntin between a pair": _cabinet(Pair(muntin=0.04), case=Case()),
