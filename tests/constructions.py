@@ -5,9 +5,11 @@ from grafu.synth.case import Case
 from grafu.synth.chest import Chest
 from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Sides, Top
 from grafu.synth.desk import Desk
+from grafu.synth.inner_corner import InnerCorner
 from grafu.synth.inside import Inside
 from grafu.synth.layout import Bay, Blank, Door, Drawer, Pair, Row, Stack, Tilt
 from grafu.synth.legs import Leg
+from grafu.synth.rack import Rack
 from grafu.synth.table import Table
 
 MIXED = Stack((Pair(shelves=1), Row((Drawer(), Drawer()))), (3.0, 1.0))
@@ -50,6 +52,7 @@ CASES = {
     "back rails": Case(back=Back("none", rails=3)),
     "edge strips": Case(frame=FaceFrame(0.04, "strips"), back=Back(thickness=0.004, rails=3)),
     "arched frame": Case(frame=FaceFrame(0.05, arched=True)),
+    "arched bars": Case(frame=FaceFrame(0.05, "bars", arched=True)),
 }
 CABINETS = {
     **{name: Cabinet(case=case, layout=MIXED) for name, case in CASES.items()},
@@ -76,7 +79,9 @@ CABINETS = {
         case=Case(0.8, 1.1, 0.3), layout=Stack((Tilt(), Tilt(handle="none"), Tilt(tray=False)), between="rail")
     ),
     "inset shoe cabinet": Cabinet(case=Case(0.8, 0.5, 0.3), layout=Tilt(), mount="inset"),
-    "drawer boxes": Cabinet(layout=Stack((Drawer("floating"), Drawer("tray"), Drawer("tray", runners=True)))),
+    "drawer boxes": Cabinet(
+        layout=Stack((Drawer("floating"), Drawer("four walls"), Drawer("tray"), Drawer("tray", runners=True)))
+    ),
     "island": Cabinet(
         case=Case(1.4, 0.9, 0.8, top=Top("over", 0.04, 0.03, back=0.03)), layout=MIXED, rear=Row((Bay(1), Door()))
     ),
@@ -114,4 +119,13 @@ CHESTS = {
     "chest with drawers": Chest(box=Case(1.0, 0.6, 0.5), drawers=Row((Drawer(), Drawer()))),
     "chest on posts": Chest(box=Case(1.0, 0.6, 0.5, base=Base("posts", 0.1, Leg("square", 0.05))), within=True),
 }
-SPECS = {**CABINETS, **TABLES, **DESKS, **CHESTS}
+RACKS = {
+    "ladder rack": Rack(cabinet=Cabinet(case=Case(0.6, 0.5, 0.35), layout=THREE)),
+    "rack on poles": Rack(kind="pole", lift=0.3, shelf_depth=1.0),
+    "rack of panels": Rack(kind="panel", lift=0.0, metal=False, brackets=False),
+}
+CORNERS = {
+    "inner corner": InnerCorner(),
+    "inner corner with two doors": InnerCorner(second=Door(), topped=False, shelves=2),
+}
+SPECS = {**RACKS, **CORNERS, **CABINETS, **TABLES, **DESKS, **CHESTS}

@@ -8,15 +8,22 @@ from grafu.synth.chest import make_chest
 from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Top
 from grafu.synth.desk import Desk
 from grafu.synth.finish import PLAIN
+from grafu.synth.inner_corner import InnerCorner, make_inner_corner
 from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Blank, Drawer, Tilt
+from grafu.synth.layout import Bay, Blank, Door, Drawer, Tilt
 from grafu.synth.legs import Leg
+from grafu.synth.rack import Rack, make_rack
 from grafu.synth.table import Table
 from grafu.vocabulary import PartLabel
-from strategies import made
+from strategies import made as made_of_strategies
 from sweeping import collisions
 
+MAKERS = {Rack: make_rack, InnerCorner: make_inner_corner}
 TOUCHING = 0.0035  # metres: fronts keep a gap of 3 mm
+
+
+def made(spec):
+    return MAKERS.get(type(spec), made_of_strategies)(spec)
 
 
 @pytest.mark.parametrize("name", SPECS)
@@ -135,6 +142,23 @@ def test_a_lid_within_the_walls_turns_about_its_upper_back_edge():
     assert asset.joints[0].axis.point[2] == pytest.approx(asset.part("lid").box.high[2])
 
 
+def test_the_fronts_of_an_inner_corner_meet_in_a_post():
+    asset = make_inner_corner(InnerCorner(second=Door()))
+    first, second, post = (asset.part(i).box for i in ("door_1", "door_2", "corner_post"))
+    assert first.size[0] > first.size[1]
+    assert second.size[1] > second.size[0]
+    assert first.gap(post) < TOUCHING
+    assert second.gap(post) < TOUCHING
+    assert [j.axis.direction[2] for j in asset.joints] == [1.0, -1.0]
+
+
+def test_a_rack_s_shelves_lie_between_its_uprights():
+    asset = make_rack(Rack(shelves=3))
+    shelf, upright = asset.part("shelf_3").box, asset.part("upright_1").box
+    assert shelf.low[0] == pytest.approx(upright.high[0])
+    assert shelf.high[2] <= upright.high[2]
+
+
 def test_no_base_has_no_pieces():
     assert list(base_pieces(Case(), PLAIN)) == []
 
@@ -152,6 +176,8 @@ def test_no_base_has_no_pieces():
         lambda: Table(leg=0.4),
         lambda: Desk(left=Drawer(), wing=0.8),
         lambda: Desk(width=0.7, left=Drawer()),
+        lambda: Rack(height=0.7),
+        lambda: InnerCorner(along_x=0.6),
     ],
 )
 def test_a_construction_that_cannot_be_is_refused(spec):

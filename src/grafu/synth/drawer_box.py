@@ -1,4 +1,4 @@
-"""The boxes behind drawer fronts: whole, without a bottom, a shell, floating, a tray, or none. It knows no cabinet."""
+"""The boxes behind drawer fronts: whole, of four walls, bottomless, shells, floating, trays, none. No cabinets here."""
 
 from dataclasses import replace
 
@@ -26,8 +26,16 @@ def drawer_box(kind: DrawerBox, inner: Rect, depth: tuple[float, float]) -> tupl
     if kind == "floating":
         inner = _shrunk(inner, min(FLOATING, inner.width / 5, inner.height / 5))
     wall = min(0.012, inner.width / 8, inner.height / 4)
+    if kind == "four walls":
+        inner_front = board((inner.x0 + wall, depth[0], inner.z0), (inner.x1 - wall, depth[0] + wall, inner.z1))
+        return (inner_front, *_walls(inner, depth, wall), _bottom(inner, (depth[0] + wall, depth[1]), wall))
     boards = _walls(inner, depth, wall)
     return boards if kind == "no bottom" else (*boards, _bottom(inner, depth, wall))
+
+
+def tray_level(inner: Rect) -> float:
+    """Returns the height of a tray's underside: half-way up, in low openings at the bottom."""
+    return inner.z0 if inner.height < 0.15 else (inner.z0 + inner.z1) / 2
 
 
 def _walls(r: Rect, depth: tuple[float, float], wall: float) -> tuple[TriangleMesh, ...]:
@@ -46,7 +54,7 @@ def _bottom(r: Rect, depth: tuple[float, float], wall: float) -> TriangleMesh:
 def _tray(r: Rect, depth: tuple[float, float]) -> tuple[TriangleMesh, ...]:
     """Returns a board with a low rim at its sides and back, half-way up where there is room: of keyboard trays."""
     thick = min(0.016, r.height / 3)
-    low = r.z0 if r.height < 0.15 else (r.z0 + r.z1) / 2
+    low = tray_level(r)
     rim = replace(r, z0=low, z1=min(low + thick + TRAY_RIM, r.z1))
     floor = board((r.x0 + 0.006, depth[0], low), (r.x1 - 0.006, depth[1] - 0.006, low + thick))
     return (floor, *_walls(rim, depth, 0.006))

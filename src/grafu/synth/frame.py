@@ -4,10 +4,11 @@ from collections.abc import Iterator
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.assembly import Piece
 from grafu.synth.case import Case
 from grafu.synth.finish import Finish
-from grafu.synth.planks import Span, both_sides, plank, solid, straight
+from grafu.synth.planks import Corner, Span, both_sides, plank, solid, straight
 from grafu.synth.shapes import arched_rail
 from grafu.vocabulary import PartLabel
 
@@ -39,13 +40,17 @@ def _frame(case: Case, finish: Finish) -> Iterator[Piece]:
     if face.kind != "one":
         for stem, (low, high) in spans:
             stem = "edge_strip" if face.kind == "strips" else stem
-            yield plank(PartLabel.BAR, stem, finish.case, (low, high))
+            yield solid(PartLabel.BAR, stem, finish.case, [_member(case, stem, low, high)])
         return
-    meshes = [straight(low, high) for _, (low, high) in spans]
-    if face.arched:
-        low, high = spans[2][1]
-        meshes[2] = arched_rail(Box(vec3(*low), vec3(*high)), 0.6 * (high[2] - low[2]))
+    meshes = [_member(case, stem, low, high) for stem, (low, high) in spans]
     yield solid(PartLabel.FACE_FRAME, "face_frame", finish.case, meshes)
+
+
+def _member(case: Case, stem: str, low: Corner, high: Corner) -> TriangleMesh:
+    """Returns a stile or rail; the lower rail may be arched."""
+    if case.face is not None and case.face.arched and stem == "rail" and high[2] <= case.opening.z0 + 1e-9:
+        return arched_rail(Box(vec3(*low), vec3(*high)), 0.6 * (high[2] - low[2]))
+    return straight(low, high)
 
 
 def _stiles(case: Case) -> Iterator[tuple[str, Span]]:

@@ -11,7 +11,7 @@ from math import pi
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.synth.assembly import Motion, Piece
-from grafu.synth.drawer_box import drawer_box
+from grafu.synth.drawer_box import drawer_box, tray_level
 from grafu.synth.finish import surface_of
 from grafu.synth.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.interior import RUNNER, interior_pieces, runner_pieces
@@ -110,8 +110,8 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     yield Piece(PartLabel.DRAWER, "drawer", tuple(surfaces), motion, handle)
     thick = min(RUNNER[0], 0.8 * setting.slide_gap)
     if drawer.runners and thick > 0.002:
-        share = 0.5 if drawer.box == "tray" else 0.35
-        yield from runner_pieces(cell, setting, o.z0 + share * o.height, thick)
+        z = tray_level(inner) + 0.01 if drawer.box == "tray" else o.z0 + 0.35 * o.height
+        yield from runner_pieces(cell, setting, z, thick)
 
 
 def _tilt_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:

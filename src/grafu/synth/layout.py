@@ -18,7 +18,7 @@ LeafStyle = Literal[
     "slab", "chamfered", "rounded", "bowed", "swept", "swept frame", "arched", "half arched", "planks", "shaker",
     "glass", "mirror", "raised panel", "two panels", "muntins", "louvred", "arched rail",
 ]  # fmt: skip
-DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray"]
+DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray", "four walls"]
 Between = Literal["panel", "rail", "nothing"]
 CURVED: frozenset[LeafStyle] = frozenset({"bowed", "swept", "swept frame"})  # they bulge before the front's plane
 
@@ -78,9 +78,9 @@ class Pair:
 class Drawer:
     """A drawer; `travel` is the share of its depth that it slides.
 
-    Its box keeps to the opening, hangs in it with centimetres to spare ("floating"), or is a shallow tray without a
-    front. With `runners`, slides hang on both walls as parts of their own. `depth` is the share of the room behind it
-    that the box fills.
+    Its box keeps to the opening ("four walls": one of them behind the front), hangs in it with centimetres to spare
+    ("floating"), or is a shallow tray without a front. With `runners`, slides hang on both walls as parts of their
+    own. `depth` is the share of the room behind it that the box fills.
     """
 
     box: DrawerBox = "whole"
