@@ -26,7 +26,7 @@ from grafu.synth.segmentation import fresh_ids
 from grafu.synth.shapes import turned
 from grafu.vocabulary import JointType, PartLabel
 
-Boxes = Float[np.ndarray, "n 2 3"]  # lows and highs
+Boxes = Float[np.ndarray, "_ 2 3"]  # lows and highs
 CLEAR = 0.0005  # metres that must stay free between what is added and what moves
 
 

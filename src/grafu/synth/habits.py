@@ -62,7 +62,7 @@ NO_TOP: Final[dict[str, float]] = {
     "kitchen island": 0.4,
 }
 NO_CASE_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.36, 0.01, 0.10, 0.08, 0.12
-NO_HANDLES, ONE_HANDLE_LOST, A_SHELF_LOST = 0.12, 0.03, 0.05
+NO_HANDLES, ONE_HANDLE_LOST, A_SHELF_LOST = 0.08, 0.03, 0.05
 
 # How likely panels are sheets, relative to the habit: those nobody looks at before those everybody sees.
 SHEETS: Final[dict[PartLabel, float]] = {

@@ -8,9 +8,10 @@ part that touches nothing has its mount all the same. It knows no grammar: a shi
 from collections.abc import Sequence
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part
-from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.point_distance import point_triangle_distances
 from grafu.graph.edges import Attached, Edge, Hinge, Rail
 from grafu.graph.edit import with_edges
@@ -24,6 +25,7 @@ RAIL_SAMPLES = np.linspace(0.25, 0.9, 4)  # shares of a drawer's depth: the fron
 LEAST_DEPTH = 0.15  # metres behind a front without a box in which its carriers are sought
 REACH = 0.12  # metres from a flank within which a part can carry a rail: a wider gap needs a part above instead
 NEAREST = 6  # parts whose meshes are asked, chosen by their boxes: a frame's box can hold a pin that the frame does not
+HINGE_REACH = 0.04  # metres between a door's box and what carries it, where anything is that near: hinges are short
 ALIKE = 0.003  # metres: of parts as near as this to the nearest one, the largest carries (a panel, not its edge sheet)
 APART = 0.015  # metres added where a part does not touch what it might carry
 ODD = 0.03  # metres added for odds and ends (runners, brackets): what they are screwed to carries
@@ -72,8 +74,9 @@ def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, stil
 def _door_mount(joint: AnnotatedJoint, door: Part, still: list[Part], touching: set[str]) -> str:
     axis = joint.axis
     along = (door.box.corners() - axis.point) @ axis.direction
+    near = [p for p in still if p.box.gap(door.box) <= HINGE_REACH] or still
     shares = along.min() + PIN_SAMPLES * np.ptp(along)
-    return _best(axis.point + shares[:, None] * axis.direction, still, touching)[0]
+    return _best(axis.point + shares[:, None] * axis.direction, near, touching)[0]
 
 
 def _drawer_mounts(joint: AnnotatedJoint, drawer: Part, still: list[Part], touching: set[str]) -> list[str]:
@@ -122,7 +125,7 @@ def _nearest_boxes(samples: Points, parts: Sequence[Part]) -> list[Part]:
     return [parts[k] for k in order[:NEAREST]]
 
 
-def _mesh_distances(samples: Points, parts: Sequence[Part]) -> Scalars:
+def _mesh_distances(samples: Points, parts: Sequence[Part]) -> Float[np.ndarray, " parts"]:
     """Returns each part's mean distance from the samples."""
     counts = [len(p.mesh.faces) for p in parts]
     all_distances = point_triangle_distances(samples, np.concatenate([p.mesh.triangles for p in parts]))

@@ -16,7 +16,7 @@ from grafu.geometry.arrays import vec3
 from grafu.synth import untidy
 from grafu.synth.clutter import with_clutter
 from grafu.synth.distortion import ajar, bent, stretched
-from grafu.synth.naming import mistaken, with_labels_masked, worded
+from grafu.synth.naming import MISTAKES, mistaken, with_labels_masked, worded
 from grafu.synth.segmentation import (
     in_pieces,
     in_planks,
@@ -148,12 +148,11 @@ def as_given(whole: Asset, untidiness: Untidiness, removable: Collection[str]) -
         gone, kept = [], given.parts
     given = replace(given, parts=kept)
     defects = [Defect("missing", tuple(gone))] if gone else []
-    if untidiness.mislabelled:
-        part = kept[int(rng.integers(len(kept)))]
-        wrong = mistaken(part, rng)
-        if wrong is not part.label:
-            given = given.with_labels({part.id: wrong})
-            defects.append(Defect("mislabelled", (part.id,)))
+    mistakable = [part for part in kept if part.label in MISTAKES]
+    if untidiness.mislabelled and mistakable:
+        part = mistakable[int(rng.integers(len(mistakable)))]
+        given = given.with_labels({part.id: mistaken(part, rng)})
+        defects.append(Defect("mislabelled", (part.id,)))
     return with_labels_masked(given, _masked(given, untidiness.masked, rng)), tuple(defects)
 
 

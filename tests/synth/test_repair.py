@@ -1,0 +1,65 @@
+"""What a repaired version holds beyond what was drawn."""
+
+import numpy as np
+import pytest
+
+from grafu.synth.blueprint import Blueprint, make_furniture
+from grafu.synth.cabinet import Cabinet
+from grafu.synth.case import Case
+from grafu.synth.check import faults_of
+from grafu.synth.chest import Chest
+from grafu.synth.construction import Top
+from grafu.synth.layout import Door, Drawer, Row, Stack
+from grafu.synth.repair import repaired, with_bare_fronts_held
+from grafu.vocabulary import PartLabel
+
+BARE = Row((Door(handle="none", behind=Stack((Drawer(handle="none"),) * 2)), Drawer(handle="none"), Drawer()))
+
+
+def repair(spec: Cabinet | Chest, seed: int = 0) -> tuple[list[str], object]:
+    blueprint = Blueprint("made", spec)
+    whole, added = repaired(blueprint, make_furniture(blueprint), np.random.default_rng(seed))
+    assert not faults_of(whole)
+    return sorted(added), whole
+
+
+def test_what_lacks_nothing_is_left_alone() -> None:
+    added, whole = repair(Cabinet())
+
+    assert added == []
+    assert whole == make_furniture(Blueprint("made", Cabinet()))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_bare_fronts_get_handles_that_fit(seed: int) -> None:
+    added, whole = repair(Cabinet(case=Case(1.2), layout=BARE), seed)
+
+    held = [p.rides_on for p in whole.parts if p.label is PartLabel.HANDLE]  # type: ignore[attr-defined]
+    assert len(added) == 4
+    assert sorted(map(str, held)) == ["door", "drawer_1", "drawer_2", "drawer_3", "drawer_4"]
+
+
+def test_a_grip_is_handle_enough() -> None:
+    added, _ = repair(Cabinet(layout=Door(handle="none", grip="scoop")))
+
+    assert added == []
+
+
+@pytest.mark.parametrize("kind", ["none", "stretchers"])
+def test_a_case_without_a_top_gets_one_that_covers_it(kind: str) -> None:
+    added, whole = repair(Cabinet(case=Case(top=Top(kind))))  # type: ignore[arg-type]
+
+    assert added == ["worktop_1"]
+    top = whole.part("worktop_1").box  # type: ignore[attr-defined]
+    assert top.high[2] == whole.box.high[2]  # type: ignore[attr-defined]
+    assert top.size[0] >= 0.8
+
+
+def test_a_lid_is_top_enough() -> None:
+    assert repair(Chest())[0] == []
+
+
+def test_only_bare_fronts_are_changed() -> None:
+    spec = with_bare_fronts_held(Row((Door(), Door(handle="none"), Door(handle="none", grip="lip"))), "knob-flat")
+
+    assert [cell.handle for cell in spec.cells] == [Door().handle, "knob-flat", "none"]

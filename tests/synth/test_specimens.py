@@ -1,0 +1,113 @@
+"""Specimens drawn at random: reproducible, sound, and untidy at the stated rates."""
+
+from functools import cache
+
+import pytest
+
+from grafu.graph.edges import Contact
+from grafu.synth.check import faults_in
+from grafu.synth.clutter import CLUTTER
+from grafu.synth.generate import MOST_PARTS, make_specimen
+from grafu.synth.habits import is_storage
+from grafu.synth.specimen import Specimen
+from grafu.vocabulary import PartLabel
+
+NUMBER = 120
+
+
+@cache
+def specimens() -> tuple[Specimen, ...]:
+    return tuple(make_specimen(8, index, 4) for index in range(NUMBER))
+
+
+def share(of: list[bool]) -> float:
+    return sum(of) / len(of)
+
+
+def test_the_same_seed_and_index_give_the_same_bytes() -> None:
+    first, again = make_specimen(1, 2, 16), make_specimen(1, 2, 16)
+
+    assert [p.mesh for p in first.whole.parts] == [p.mesh for p in again.whole.parts]
+    assert first.asset.parts == again.asset.parts
+    assert first.truth == again.truth
+    assert first.defects == again.defects
+
+
+def test_another_index_or_seed_gives_another_model() -> None:
+    meshes = {tuple(p.mesh for p in make_specimen(s, i, 1).whole.parts) for s, i in ((1, 2), (1, 3), (2, 2))}
+
+    assert len(meshes) == 3
+
+
+@pytest.mark.parametrize(("seed", "index"), [(-1, 0), (0, -1)])
+def test_numbers_are_not_negative(seed: int, index: int) -> None:
+    with pytest.raises(ValueError, match="must not be negative"):
+        make_specimen(seed, index)
+
+
+def test_specimens_are_sound() -> None:
+    found = {s.id: faults for s in specimens() if (faults := faults_in(s))}
+
+    assert len(found) <= 0.01 * NUMBER, found
+
+
+def test_specimens_keep_their_promises() -> None:
+    for s in specimens():
+        label = {p.id: p.label for p in s.whole.parts}
+        assert PartLabel.UNKNOWN not in label.values()
+        assert 3 <= len(s.asset.parts) <= len(s.whole.parts) <= MOST_PARTS
+        assert set(s.missing) <= s.removable
+        assert not s.asset.joints
+        assert all(isinstance(edge, Contact) for edge in s.given.edges)
+        moved = {e.child for e in (*s.truth.hinges, *s.truth.rails)}
+        assert moved == {j.part for j in s.whole.joints} == {i for i, x in label.items() if x.is_movable}
+        assert all(j.lower == 0.0 < j.upper for j in s.whole.joints)
+
+
+def test_defects_name_parts_of_the_whole_and_what_is_missing() -> None:
+    for s in specimens():
+        ids = {p.id for p in s.whole.parts}
+        assert all(set(d.parts) <= ids for d in s.defects)
+        assert {i for d in s.defects if d.kind == "missing" for i in d.parts} == set(s.missing)
+
+
+def without(label: PartLabel) -> list[bool]:
+    return [not any(p.label is label and p.id not in s.missing for p in s.whole.parts) for s in specimens()]
+
+
+def test_tops_are_missing_from_storage_as_in_real_life_and_never_from_tables() -> None:
+    storage = [s for s in specimens() if is_storage(s.whole)]
+    gone = [not any(p.label is PartLabel.TOP_PANEL and p.id not in s.missing for p in s.whole.parts) for s in storage]
+
+    assert 0.38 <= share(gone) <= 0.62
+    tables = [s for s in specimens() if s.family in ("table with drawers", "writing desk")]
+    assert share([any(s.whole.part(i).label is PartLabel.TOP_PANEL for i in s.missing) for s in tables]) < 0.1
+
+
+def test_patterns_come_at_their_rates() -> None:
+    parts = [s.asset.parts for s in specimens()]
+    unknown = [share([p.label is PartLabel.UNKNOWN for p in given]) for given in parts]
+    rates = {
+        "labels all there": (share([u == 0 for u in unknown]), 0.35, 0.58),
+        "labels all lost": (share([u == 1 for u in unknown]), 0.07, 0.24),
+        "sheets": (share([any(p.box.size.min() < 1e-6 for p in given) for given in parts]), 0.25, 0.6),
+        "joined": (share([any(p.id.startswith("joined") for p in given) for given in parts]), 0.15, 0.42),
+        "pieces": (share([any("_piece_" in p.id for p in given) for given in parts]), 0.12, 0.4),
+        "no handle": (share(without(PartLabel.HANDLE)), 0.15, 0.45),
+        "out of place": (
+            share([any(d.kind in ("interpenetrating", "floating") for d in s.defects) for s in specimens()]),
+            0.12,
+            0.45,
+        ),
+        "missing": (share([bool(s.missing) for s in specimens()]), 0.5, 0.85),
+    }
+    assert {name: rate for name, (rate, low, high) in rates.items() if not low <= rate <= high} == {}
+
+
+def test_every_kind_of_clutter_and_defect_occurs() -> None:
+    stems = {"object", "basket", "drawer_runner", "corner_plate", "nailer", "edge", "pad", "plate", "post"}
+    found = {stem for s in specimens() for p in s.whole.parts for stem in stems if p.id.startswith(f"{stem}_")}
+
+    assert len(CLUTTER) == len(stems) + 1  # things stand on tops and on shelves
+    assert found >= stems - {"basket"}
+    assert {d.kind for s in specimens() for d in s.defects} >= {"missing", "interpenetrating", "floating"}
