@@ -10,6 +10,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from itertools import count, islice
 from pathlib import Path
@@ -105,7 +106,8 @@ def ordered_map(
         for first in count(start, chunk):
             last = first + chunk if stop is None else min(first + chunk, stop)
             if first < last:
-                waiting.append(pool.submit(_make_chunk, make, first, last))
+                with _interrupts_later():  # this may start a process
+                    waiting.append(pool.submit(_make_chunk, make, first, last))
             elif not waiting:
                 return
             if len(waiting) > jobs * _AHEAD or first >= last:
@@ -124,6 +126,19 @@ def _make_specimen(seed: int, points: int, index: int) -> Specimen:
 
 def _make_record(seed: int, points: int, index: int) -> Record:
     return record_of(make_specimen(seed, index, points))
+
+
+@contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """Puts Ctrl-C off; a process that is started meanwhile never hears of it, not even while it imports modules."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _begin_worker() -> None:
