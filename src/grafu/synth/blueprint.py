@@ -16,10 +16,11 @@ from grafu.synth.chest import Chest, make_chest
 from grafu.synth.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.desk import Desk, make_desk
 from grafu.synth.ensemble import Ensemble, make_ensemble
-from grafu.synth.families.table import FAMILIES
+from grafu.synth.families.table import FAMILIES, Spec
+from grafu.synth.inner_corner import InnerCorner, make_inner_corner
+from grafu.synth.rack import Rack, make_rack
 from grafu.synth.table import Table, make_table
 
-Spec = Cabinet | Table | Desk | Chest | CornerCabinet | Ensemble
 ATTEMPTS = 50  # draws of one family before giving up: at a rejection rate of 20 % this never happens
 
 MAKERS: dict[type, Callable[[Any], Asset]] = {
@@ -28,6 +29,8 @@ MAKERS: dict[type, Callable[[Any], Asset]] = {
     Desk: make_desk,
     Chest: make_chest,
     CornerCabinet: make_corner_cabinet,
+    InnerCorner: make_inner_corner,
+    Rack: make_rack,
     Ensemble: make_ensemble,
 }
 

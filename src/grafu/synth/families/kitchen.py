@@ -9,14 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import FREE, Site, fitted
+from grafu.synth.carpentry import FREE, Site
 from grafu.synth.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.chance import between, chance, count, pick
 from grafu.synth.construction import Top
-from grafu.synth.corner import CornerCabinet
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.layout import Bay, Blank, Door, Layout, Pair, Rect, Row, Stack
+from grafu.synth.layout import Bay, Blank, Door, Layout, Pair, Row, Stack
 from grafu.synth.style import Style, draw_style
 from grafu.synth.traditions import TraditionName
 
@@ -120,31 +119,6 @@ def sink_cabinet(rng: np.random.Generator) -> Cabinet:
         thick, over = between(rng, (0.02, 0.05)), between(rng, (0.0, 0.03))
         case = replace(case, moulding=0.0, top=Top("over", thick, over, sink=True))
     return cabinet_of(rng, "sink_cabinet", style, case, doors)
-
-
-def corner_cabinet(rng: np.random.Generator) -> CornerCabinet:
-    """Returns a corner unit with an angled front, high or low."""
-    style = draw_style(rng, KITCHEN)
-    tall = chance(rng, 0.5)
-    depth = between(rng, (0.3, 0.38)) if tall else between(rng, (0.45, 0.6))
-    along = depth + between(rng, (0.28, 0.45))
-    return CornerCabinet(
-        along_x=along,
-        along_y=along if chance(rng, 0.8) else depth + between(rng, (0.28, 0.45)),
-        depth=depth,
-        height=between(rng, (0.55, 0.95)),
-        panel=style.panel,
-        frame=max(style.frame, between(rng, (0.025, 0.05))),
-        door=_corner_door(rng, style),
-        mount=style.mount,
-        finish=style.finish,
-    )
-
-
-def _corner_door(rng: np.random.Generator, style: Style) -> Door:
-    door = fitted(rng, Door(), Rect(0.0, 0.45, 0.0, 0.7), style)
-    assert isinstance(door, Door)
-    return door
 
 
 def _beside(rng: np.random.Generator, site: Site) -> Site:

@@ -7,10 +7,9 @@ import numpy as np
 
 from grafu.synth.cabinet import Cabinet
 from grafu.synth.carpentry import Site
-from grafu.synth.casework import Build, draw_case
+from grafu.synth.casework import Build
 from grafu.synth.chance import between, chance, count, pick, weights
-from grafu.synth.construction import Sides
-from grafu.synth.families.built import build_cabinet, cabinet_of, draw_size
+from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
 from grafu.synth.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
 from grafu.synth.style import draw_style
@@ -143,15 +142,3 @@ def free_form(rng: np.random.Generator) -> Cabinet:
     if isinstance(layout, Bay):
         layout = doors_across(rng, size[0])
     return build_cabinet(rng, "cabinet", style, size, layout)
-
-
-def rack(rng: np.random.Generator) -> Cabinet:
-    """Returns shelves between slats, metal uprights or panels, over a few drawers or a door."""
-    style = replace(draw_style(rng, {"minimal": 0.6, "flat-pack": 0.4}), frame=0.0, moulding=0.0)
-    size = draw_size(rng, (0.45, 1.0), (0.28, 0.42), (1.1, 2.1))
-    number = count(rng, 1, 3)
-    low: Layout = drawer_stack(rng, style, number) if chance(rng, 0.75) else Door()
-    case = draw_case(rng, style, size, replace(SLENDER, framed=False, moulded=False))
-    case = replace(case, sides=Sides(pick(rng, {"slats": 0.4, "metal": 0.6})))
-    bay = Bay(shelves=count(rng, 2, 4))
-    return cabinet_of(rng, "rack", style, case, Stack((low, bay), (0.22 * number, between(rng, (0.9, 1.4)))), STAND)

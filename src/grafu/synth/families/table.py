@@ -14,17 +14,19 @@ from grafu.synth.chest import Chest
 from grafu.synth.corner import CornerCabinet
 from grafu.synth.desk import Desk
 from grafu.synth.ensemble import Ensemble
-from grafu.synth.families import bedroom, composed, kitchen, living, office, tables
+from grafu.synth.families import bedroom, composed, corners, kitchen, living, office, racks, tables
+from grafu.synth.inner_corner import InnerCorner
+from grafu.synth.rack import Rack
 from grafu.synth.table import Table
 
-Spec = Cabinet | Table | Desk | Chest | CornerCabinet | Ensemble
+Spec = Cabinet | Table | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble
 Draw = Callable[[np.random.Generator], Spec]
 
 FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "base cabinet": (15.0, kitchen.base_cabinet),
     "wall cabinet": (9.0, kitchen.wall_cabinet),
     "sink cabinet": (3.0, kitchen.sink_cabinet),
-    "corner cabinet": (1.5, kitchen.corner_cabinet),
+    "corner cabinet": (1.5, corners.corner_cabinet),
     "kitchen island": (1.0, composed.island),
     "kitchen units": (1.5, composed.kitchen_units),
     "tall cabinet": (5.0, kitchen.tall_cabinet),
@@ -41,7 +43,7 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "display cabinet": (2.5, living.display_cabinet),
     "hutch": (1.5, composed.hutch),
     "open shelf": (1.5, living.open_shelf),
-    "rack": (1.0, living.rack),
+    "rack": (1.0, racks.rack),
     "free form": (3.5, living.free_form),
     "filing cabinet": (1.5, office.filing_cabinet),
     "desk": (4.0, tables.desk),
