@@ -27,6 +27,7 @@ from grafu.synth.shapes import turned
 from grafu.vocabulary import JointType, PartLabel
 
 Boxes = Float[np.ndarray, "_ 2 3"]  # lows and highs
+SAME = 0.0002  # metres within which two boxes are one: what is there already is not put there again
 CLEAR = 0.0005  # metres that must stay free between what is added and what moves
 
 
@@ -73,7 +74,8 @@ def _swept_boxes(asset: Asset) -> Boxes:
 
 def _is_free(addition: Addition, swept: Boxes, still: Boxes) -> bool:
     box = addition.mesh.box
-    if _overlap(box, swept, CLEAR):
+    twins = np.abs(still - np.stack([box.low, box.high])).max(axis=(1, 2)) < SAME
+    if _overlap(box, swept, CLEAR) or bool(twins.any()):
         return False
     return not addition.fits or not _overlap(box, still, -0.001)
 

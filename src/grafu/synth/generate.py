@@ -6,7 +6,7 @@ from grafu.asset.part import Asset
 from grafu.errors import GraphError
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.synth.blueprint import draw_made
-from grafu.synth.check import faults_of
+from grafu.synth.check import faults_in, faults_of
 from grafu.synth.habits import draw_untidiness
 from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
@@ -40,7 +40,8 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
             specimen = untidied(name, blueprint.family, tidy, untidiness, points)
         except GraphError:
             continue  # a door stretched or opened until no border lies along its pin
-        if len(specimen.asset.parts) >= LEAST_PARTS and len(specimen.whole.parts) <= MOST_PARTS:
+        fits = LEAST_PARTS <= len(specimen.asset.parts) and len(specimen.whole.parts) <= MOST_PARTS
+        if fits and not faults_in(specimen):  # a stretched front may strike what it just passed
             return specimen
     raise ValueError(f"no sound model was found for {name} in {ATTEMPTS} draws")
 
