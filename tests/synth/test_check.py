@@ -8,8 +8,10 @@ import pytest
 from hypothesis import given, settings
 
 from grafu.asset.part import Asset
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.geometry.transform import from_rotation
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.edges import Contact, Hinge, Rail, ends_of
 from grafu.graph.edit import with_edges
@@ -20,6 +22,7 @@ from grafu.synth.articulated import articulated_of
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.check import Fault, faults_in, faults_of
 from grafu.synth.clashes import clashes_of
+from grafu.synth.generate import make_specimen
 from grafu.synth.kinds import TIDY
 from grafu.synth.layout import Bay, Door, Drawer, Pair, Stack
 from grafu.synth.specimen import Defect, Specimen
@@ -129,6 +132,16 @@ def test_a_joint_that_does_not_start_at_0_is_found():
     assert kinds(faults_of(with_joint(MIXED, "door_1", lower=0.1))) == {("limit", "door_1")}
 
 
+@pytest.mark.parametrize(("part", "factors"), [("door_1", (0.1, 1.0, 1.0)), ("drawer", (1.0, 1.0, 0.1))])
+def test_a_front_too_small_to_be_one_is_found(part, factors):
+    bare = untidy.without_parts(MIXED, ("handle",))
+    box = bare.part(part).box
+    T = from_rotation(np.diag(factors), box.center * (1.0 - np.array(factors)))
+    surfaces = (Surface(bare.part(part).mesh.transformed(T)),)
+    parts = tuple(replace(p, surfaces=surfaces) if p.id == part else p for p in bare.parts)
+    assert ("size", part) in kinds(faults_of(replace(bare, parts=parts)))
+
+
 def test_two_parts_in_one_place_are_found():
     twin = replace(MIXED.part("back_panel"), id="twin")
     assert kinds(faults_of(replace(MIXED, parts=(*MIXED.parts, twin)))) == {("double", "twin")}
@@ -169,6 +182,11 @@ def test_an_articulated_object_that_forgets_the_doors_collides():
     forgetful = replace(made_, joints=tuple(replace(j, after=()) for j in made_.joints))
     assert faults_of(asset, made_) == ()
     assert kinds(faults_of(asset, forgetful)) == {("collision", "drawer")}
+
+
+def test_drawn_specimens_have_no_fault_beyond_their_defects():
+    """A few; `scripts/survey.py` makes and judges thousands."""
+    assert [faults_in(make_specimen(2, index, points=8)) for index in range(12)] == [()] * 12
 
 
 def specimen(whole: Asset, *defects: Defect, asset: Asset | None = None) -> Specimen:

@@ -29,6 +29,7 @@ FaultKind = Literal[
     "label",  # a door or drawer without a joint, a joint on something else, or of the wrong type; a label not declared
     "rider",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
     "limit",  # an opening that no such furniture has, or that does not lead out
+    "size",  # a door or drawer too small to be one
     "double",  # two parts with one box
     "mount",  # a door without exactly one hinge edge, a drawer without one or two rails, a handle with another parent
     "motion",  # an edge whose codes do not say what the joint does
@@ -40,6 +41,7 @@ FaultKind = Literal[
 # flat on their neighbours. Drawers: from an apothecary's to as far as the piece is long.
 DOOR_OPENING = (radians(15), radians(185))
 LEAST_SLIDE = 0.03
+LEAST_DOOR, LEAST_DRAWER = 0.08, 0.03  # metres across a door, and in height: a keyboard's tray is hardly higher
 RIDER_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.riders`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
 _BESIDE = 0.05  # metres from a drawer within which parts are its case, and the share of its height that they share
@@ -80,7 +82,12 @@ def faults_of(
     if wrong:  # nothing below has a meaning
         return wrong
     articulated = articulated or articulated_of(whole)
-    found = [*_limit_faults(whole), *_double_faults(whole), *_collision_faults(whole, articulated)]
+    found = [
+        *_limit_faults(whole),
+        *_size_faults(whole),
+        *_double_faults(whole),
+        *_collision_faults(whole, articulated),
+    ]
     if truth is not None:
         found += _graph_faults(whole, truth)
     return tuple(found)
@@ -164,6 +171,16 @@ def _slide_faults(whole: Asset, joint: AnnotatedJoint, still: BoxRows) -> Iterat
     out = np.maximum(beside[:, 0].min(axis=0) - box.low - shift, box.high + shift - beside[:, 1].max(axis=0)).max()
     if out < _OUT * joint.upper:
         yield Fault("limit", (joint.part,), f"slides out of its case by {out:.3f} of {joint.upper:.3f} m")
+
+
+def _size_faults(whole: Asset) -> Iterator[Fault]:
+    for joint in whole.joints:
+        size = whole.part(joint.part).box.size
+        across = float(np.median(size))  # of a board, the shorter of the two sides that are seen
+        if joint.type is JointType.REVOLUTE and across < LEAST_DOOR:
+            yield Fault("size", (joint.part,), f"a door {across:.3f} m across")
+        if joint.type is JointType.PRISMATIC and size[2] < LEAST_DRAWER:
+            yield Fault("size", (joint.part,), f"a drawer {size[2]:.3f} m high")
 
 
 def _double_faults(whole: Asset) -> Iterator[Fault]:
