@@ -40,7 +40,7 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
             specimen = untidied(name, blueprint.family, tidy, untidiness, points)
         except GraphError:
             continue  # a door stretched or opened until no border lies along its pin
-        fits = LEAST_PARTS <= len(specimen.asset.parts) and len(specimen.whole.parts) <= MOST_PARTS
+        fits = len(specimen.asset.parts) >= LEAST_PARTS and len(specimen.whole.parts) <= MOST_PARTS
         if fits and not faults_in(specimen):  # a stretched front may strike what it just passed
             return specimen
     raise ValueError(f"no sound model was found for {name} in {ATTEMPTS} draws")
