@@ -38,7 +38,7 @@ def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style
     return replace(
         door,
         hinge=side,
-        leaf="slab" if leaf in ("swept", "half arched") and flap else leaf,
+        leaf=leaf,
         handle=_handle(door.handle, style.handle, grip),
         hold=hold,
         grip=grip,

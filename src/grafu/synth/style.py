@@ -39,8 +39,11 @@ GRIPS: Mapping[Grip, float] = {
 }  # fmt: skip
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
-    {"glass", "mirror", "muntins", "louvred", "arched rail", "two panels", "swept", "half arched", "arched", "planks"}
-)
+    {
+        "glass", "mirror", "muntins", "louvred", "arched rail", "two panels", "swept", "swept frame", "half arched",
+        "arched", "planks",
+    }
+)  # fmt: skip
 
 
 @final

@@ -61,7 +61,14 @@ THIN_BACK = {0.003: 3.0, 0.004: 3.0, 0.006: 2.0, 0.009: 1.5, 0.018: 0.5}
 ANY_BACK = {0.003: 2.0, 0.006: 2.0, 0.01: 1.5, 0.018: 2.0, 0.025: 0.7}
 
 # Modelled drawers: two in three are whole boxes, the others were simplified in one way or another.
-BOXES: dict[DrawerBox, float] = {"whole": 6.0, "no bottom": 0.8, "shell": 1.0, "front only": 1.2, "floating": 1.0}
+BOXES: dict[DrawerBox, float] = {
+    "whole": 6.0,
+    "no bottom": 0.8,
+    "shell": 1.0,
+    "front only": 1.2,
+    "floating": 1.0,
+    "four walls": 1.0,
+}
 CRUDE_BOXES: dict[DrawerBox, float] = {"whole": 4.0, "no bottom": 0.5, "shell": 2.0, "front only": 3.5}
 
 # Real handles: thin bars on modern kitchens, arched bars and cups on framed ones, knobs and bails on old furniture.
@@ -152,6 +159,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
             "planks": 0.06,
             "louvred": 0.05,
             "raised panel": 0.04,
+            "swept frame": 0.015,
         },
         handle=mixed((0.55, KNOBS), (0.15, CLASSIC_BARS), (0.15, CUPS), (0.05, DROPS), (0.1, NONE)),
         box=BOXES,
@@ -230,6 +238,8 @@ TRADITIONS: dict[TraditionName, Tradition] = {
             "muntins": 0.08,
             "arched rail": 0.06,
             "half arched": 0.02,
+            "arched": 0.02,
+            "swept frame": 0.03,
         },
         handle=mixed((0.45, OLD_KNOBS), (0.38, DROPS), (0.12, CLASSIC_BARS), (0.05, NONE)),
         box=BOXES,

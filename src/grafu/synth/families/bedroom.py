@@ -24,6 +24,7 @@ BEDROOM: Mapping[TraditionName, float] = {
 OVER = Build(tops=("over", "between"), legs=(0.06, 0.25))
 LOW_LEGS = Build(tops=("between", "over"), legs=(0.05, 0.16), bases=("none", "plinth", "legs"))
 HANGING = Inside(rod=True)
+MIRRORS = 0.06  # wardrobe doors with a mirror
 # nightstands and dressers are a little below the hand of someone who stands before them
 STAND = Site(hand=0.9)
 
@@ -135,4 +136,4 @@ def _hung(rng: np.random.Generator, layout: Layout) -> Layout:
         return replace(layout, cells=tuple(_hung(rng, cell) for cell in layout.cells))
     if not isinstance(layout, Door | Pair) or layout.behind is not None or chance(rng, 0.4):
         return layout
-    return replace(layout, inside=HANGING, shelves=1)
+    return replace(layout, inside=HANGING, shelves=1, leaf="mirror" if chance(rng, MIRRORS) else "slab")
