@@ -4,6 +4,7 @@ from grafu.synth.cabinet import Cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import Chest
 from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Sides, Top
+from grafu.synth.corner import CornerCabinet
 from grafu.synth.desk import Desk
 from grafu.synth.inner_corner import InnerCorner
 from grafu.synth.inside import Inside
@@ -125,6 +126,7 @@ RACKS = {
     "rack of panels": Rack(kind="panel", lift=0.0, metal=False, brackets=False),
 }
 CORNERS = {
+    "angled corner on a toe kick": CornerCabinet(base=0.1, shelves=2, topped=False, height=0.9),
     "inner corner": InnerCorner(),
     "inner corner with two doors": InnerCorner(second=Door(), topped=False, shelves=2),
 }

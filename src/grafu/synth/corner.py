@@ -13,6 +13,7 @@ from grafu.synth.assembly import Piece, assemble
 from grafu.synth.finish import PLAIN, Finish, surface_of
 from grafu.synth.fronts import front_pieces
 from grafu.synth.layout import Cell, Door, Edges, Rect
+from grafu.synth.planks import plank
 from grafu.synth.setting import Mount, Setting
 from grafu.synth.shapes import board, framed_opening, prism
 from grafu.vocabulary import PartLabel
@@ -26,7 +27,8 @@ class CornerCabinet:
     """A corner cabinet, metres: it stands `along_x` and `along_y` against two walls, its ends `depth` deep.
 
     The front runs between the ends, yawed by atan2(along_y - depth, along_x - depth): 45 degrees where both walls are
-    alike. The door hangs in a face frame of width `frame`.
+    alike. The door hangs in a face frame of width `frame`. The case stands on boards `base` high (0: none), the one
+    below the door `recess` behind the frame; its top may be missing. `height` is that of the whole.
 
     Raises:
         ValueError: if the ends leave no room for a front.
@@ -42,8 +44,14 @@ class CornerCabinet:
     door: Door = ONE_DOOR
     mount: Mount = "overlay"
     finish: Finish = PLAIN
+    shelves: int = 1
+    topped: bool = True
+    base: float = 0.0
+    recess: float = 0.05
 
     def __post_init__(self) -> None:
+        if self.base < 0 or self.base > self.height / 2:
+            raise ValueError(f"`CornerCabinet.base` must be at most half the height: got {self.base} m")
         if min(self.along_x, self.along_y) <= self.depth or self.front_width <= 4 * self.frame:
             size = f"{self.along_x} x {self.along_y} m, ends {self.depth} m, frame {self.frame} m"
             raise ValueError(f"`CornerCabinet` needs walls longer than its ends, with room for a door: got {size}")
@@ -63,33 +71,46 @@ def make_corner_cabinet(spec: CornerCabinet) -> Asset:
     """Returns the corner cabinet with its door's true joint."""
     middle = vec3((spec.depth + spec.along_x) / 2, (spec.along_y - spec.depth) / 2, 0.0)
     T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), spec.yaw), middle)
-    return assemble(spec.name, [*_case(spec), *(piece.transformed(T) for piece in _front(spec))])
+    return assemble(spec.name, [*_case(spec), *_base(spec), *(piece.transformed(T) for piece in _front(spec))])
 
 
 def _front(spec: CornerCabinet) -> Iterator[Piece]:
     """Yields the frame and the door before they are turned: the plane y = 0, facing -Y, centred in x."""
-    half, thick, b = spec.front_width / 2, spec.panel, spec.frame
+    half, thick, b, low = spec.front_width / 2, spec.panel, spec.frame, spec.base
     setting = Setting(0.0, spec.depth, spec.mount, lap=0.6 * b, panel=b, finish=spec.finish)
-    frame = framed_opening(Box(vec3(-half, 0.0, 0.0), vec3(half, thick, spec.height)), b)
+    frame = framed_opening(Box(vec3(-half, 0.0, low), vec3(half, thick, spec.height)), b)
     yield Piece(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, spec.finish.case) for mesh in frame))
-    yield from front_pieces(Cell(spec.door, Rect(b - half, half - b, b, spec.height - b), Edges()), setting)
+    yield from front_pieces(Cell(spec.door, Rect(b - half, half - b, low + b, spec.height - b), Edges()), setting)
+    if low:
+        span = ((b - half, spec.recess, 0.0), (half - b, spec.recess + thick, low))
+        yield plank(PartLabel.SIDE_PANEL, "toe_kick", spec.finish.case, span)
+
+
+def _base(spec: CornerCabinet) -> Iterator[Piece]:
+    """Yields the boards below the ends."""
+    if spec.base:
+        x, y, d, t, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.finish.case
+        for span in (((0.0, 0.0, 0.0), (d - 0.02, t, spec.base)), ((x - t, y - d + 0.02, 0.0), (x, y, spec.base))):
+            yield plank(PartLabel.SIDE_PANEL, "base_side_panel", wood, span)
 
 
 def _case(spec: CornerCabinet) -> Iterator[Piece]:
     x, y, d, t, h, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.height, spec.finish.case
+    floor = spec.base
     nook = t / max(abs(vec3(x - d, y - d, 0.0)) / spec.front_width)  # how far ends stand back behind the frame
     boards = {
-        "side_panel_left": ((t, 0.0, 0.0), (d - nook, t, h)),
-        "side_panel_right": ((x - t, y - d + nook, 0.0), (x, y - t, h)),
+        "side_panel_left": ((t, 0.0, floor), (d - nook, t, h)),
+        "side_panel_right": ((x - t, y - d + nook, floor), (x, y - t, h)),
     }
     for stem, (low, high) in boards.items():
         yield Piece(PartLabel.SIDE_PANEL, stem, (surface_of(board(low, high), wood),))
-    yield Piece(PartLabel.BACK_PANEL, "back_panel_left", (surface_of(board((0.0, 0.0, 0.0), (t, y - t, h)), wood),))
-    yield Piece(PartLabel.BACK_PANEL, "back_panel_right", (surface_of(board((0.0, y - t, 0.0), (x, y, h)), wood),))
+    yield Piece(PartLabel.BACK_PANEL, "back_panel_left", (surface_of(board((0.0, 0.0, floor), (t, y - t, h)), wood),))
+    yield Piece(PartLabel.BACK_PANEL, "back_panel_right", (surface_of(board((0.0, y - t, floor), (x, y, h)), wood),))
     outline = ((t, t), (d - nook, t), (x - t, y - d + nook), (x - t, y - t), (t, y - t))
-    for label, stem, z in (
-        (PartLabel.BOTTOM_PANEL, "bottom_panel", 0.0),
-        (PartLabel.SHELF, "shelf", h / 2 - t / 2),
-        (PartLabel.TOP_PANEL, "top_panel", h - t),
-    ):
+    pitch = (h - floor) / (spec.shelves + 1)
+    levels = [(PartLabel.BOTTOM_PANEL, "bottom_panel", floor)]
+    levels += [(PartLabel.SHELF, "shelf", floor + pitch * (k + 1) - t / 2) for k in range(spec.shelves)]
+    if spec.topped:
+        levels.append((PartLabel.TOP_PANEL, "top_panel", h - t))
+    for label, stem, z in levels:
         yield Piece(label, stem, (surface_of(prism(outline, z, z + t), wood),))
