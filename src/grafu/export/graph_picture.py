@@ -118,7 +118,7 @@ def draw_graph(
     room = float(np.sqrt(size[0] * size[1] / max(len(graph.nodes), 1)))  # the side of one node's own square
     radius = float(np.clip(0.2 * room, 4.0, 15.0))
     names = room > 105 if names is None else names
-    places = node_places(graph, size, radius + (12 if names else 3), (5.0 if names else 3.3) * radius)
+    places = node_places(graph, size, 2.2 * radius + (4 if names else 0), (5.0 if names else 3.3) * radius)
     place_of = {node.id: (float(x), float(y)) for node, (x, y) in zip(graph.nodes, places, strict=True)}
     kinds = list(EDGE_COLORS)  # contacts first, so that they lie at the back
     edges = sorted(graph.edges, key=lambda edge: kinds.index(kind_of(edge)))
