@@ -33,6 +33,7 @@ BASE = Build(
     moulded=False,
 )
 TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "over"), legs=(0.05, 0.15))
+BRIDGES = 0.2  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 BASE_FRONTS = {"doors": 0.3, "under drawers": 0.36, "drawers": 0.22, "beside": 0.06, "open": 0.06}
 
