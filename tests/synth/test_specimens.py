@@ -12,7 +12,7 @@ from grafu.synth.habits import is_storage
 from grafu.synth.specimen import Specimen
 from grafu.vocabulary import PartLabel
 
-NUMBER = 120
+NUMBER = 100
 
 
 @cache

@@ -44,7 +44,7 @@ class Habit:
 # Labels lost: over all about 45 % of models keep all, 25 % lose a few, 15 % many, 15 % all (files without names).
 HABITS: Final[dict[str, Habit]] = {
     "clean cad": Habit(0.38, 0.10, 0.20, 0.12, 0.03, 0.09, 0.15, 0.04, 0.0, (0.56, 0.26, 0.11, 0.07)),
-    "sheets": Habit(0.22, 0.50, 0.20, 0.20, 0.05, 0.07, 0.25, 0.50, 0.0, (0.42, 0.25, 0.17, 0.16)),
+    "sheets": Habit(0.22, 0.50, 0.20, 0.20, 0.05, 0.07, 0.25, 0.70, 0.0, (0.42, 0.25, 0.17, 0.16)),
     "exploded export": Habit(0.13, 0.10, 0.75, 0.02, 0.0, 0.25, 0.20, 0.10, 0.0, (0.52, 0.28, 0.12, 0.08)),
     "merged export": Habit(0.12, 0.15, 0.0, 1.0, 0.25, 0.05, 0.20, 0.20, 0.0, (0.34, 0.22, 0.16, 0.28)),
     "game asset": Habit(0.12, 0.50, 0.05, 0.50, 0.25, 0.05, 0.25, 0.25, 0.0, (0.30, 0.22, 0.20, 0.28)),
@@ -77,7 +77,8 @@ SHEETS: Final[dict[PartLabel, float]] = {
     PartLabel.DOOR: 0.12,
 }
 THICKEST_SHEET = 0.023  # metres: a thicker panel's outer face alone would stand too far off for any hinge
-FACES: Final[dict[Faces, float]] = {"doubled": 0.3, "inverted": 0.2, "loose": 0.2, "open back": 0.2, "shells": 0.1}
+# All development models draw every face from both sides, as PartNet's exports do; the surface stays the same.
+FACES: Final[dict[Faces, float]] = {"doubled": 0.6, "inverted": 0.1, "loose": 0.1, "open back": 0.12, "shells": 0.08}
 # Nailers behind or under backs stand in 8 of 17 models, corner plates in 6, edges as sheets in 2, runners in 2.
 CLUTTER_WEIGHT: Final[dict[str, float]] = {
     "nailers": 3.0,
@@ -85,7 +86,9 @@ CLUTTER_WEIGHT: Final[dict[str, float]] = {
     "edge sheets": 2.0,
     "runners": 1.5,
     "posts": 0.8,
-    "things on top": 0.5,
+    "pads": 0.6,
+    "plates": 0.6,
+    "things on top": 0.4,
     "things on shelves": 0.5,
     "basket": 0.4,
 }
