@@ -63,7 +63,8 @@ def base_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a wall unit: doors, or a lift-up flap where it is wide and low (six in ten of those)."""
     style = draw_style(rng, KITCHEN)
-    size = draw_size(rng, (0.3, 1.0), (0.28, 0.38), (0.3, 0.95))
+    bridge = chance(rng, BRIDGES)
+    size = draw_size(rng, (0.6, 1.1) if bridge else (0.3, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
     return build_cabinet(
         rng, "wall_cabinet", style, size, wall_layout(rng, style, size), WALL_HUNG, _beside(rng, ON_WALL)
     )
