@@ -5,13 +5,13 @@ there. Lids stay doors in every wording.
 """
 
 from collections.abc import Callable, Collection
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.synth.chance import chance
+from grafu.synth.untidy import with_labels_lost
 from grafu.vocabulary import PartLabel
 
 LOW = 0.18  # share of the height below which a board is part of the base
@@ -110,13 +110,7 @@ def worded(asset: Asset, wording: Collection[str]) -> Asset:
 
 def with_labels_masked(asset: Asset, ids: Collection[str]) -> Asset:
     """Returns the asset with these parts unlabelled, and named as modelling programs name things."""
-    parts = tuple(
-        replace(p, label=PartLabel.UNKNOWN, labelled_by="none", source=replace(p.source, name=f"Cube.{k:03d}"))
-        if p.id in ids
-        else p
-        for k, p in enumerate(asset.parts)
-    )
-    return replace(asset, parts=parts)
+    return with_labels_lost(asset, ids) if ids else asset
 
 
 def mistaken(part: Part, rng: np.random.Generator) -> PartLabel:
