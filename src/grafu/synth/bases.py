@@ -13,6 +13,7 @@ from grafu.synth.planks import Span, both_sides, plank, solid
 from grafu.synth.shapes import arched_rail, board
 from grafu.vocabulary import PartLabel
 
+FEET = ("bun", "block", "pad", "caster")
 METAL = ("hairpin", "caster")
 CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 
@@ -34,7 +35,7 @@ def base_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
 def leg_piece(leg: Leg, at: tuple[float, float], outward: tuple[float, float], high: float, finish: Finish) -> Piece:
     """Returns one leg up to the height `high`."""
     material = finish.metal if leg.shape in METAL else finish.case
-    stem = {"caster": "caster", "bun": "foot", "block": "foot", "pad": "foot"}.get(leg.shape, "leg")
+    stem = "caster" if leg.shape == "caster" else "foot" if leg.shape in FEET else "leg"
     return solid(PartLabel.LEG, stem, material, leg_meshes(leg, at, outward, high))
 
 
@@ -62,7 +63,7 @@ def stretcher_pieces(
 
 
 def _plinth(case: Case, finish: Finish) -> Iterator[Piece]:
-    if case.bottom.kind == "under":  # the sides end above: the plinth goes all around
+    if case.lies_under:  # the sides end above: the plinth goes all around
         yield from _toe_kick(case, finish, 4)
         return
     x, y, t = case.width / 2 - case.panel, -case.depth / 2 + case.base.recess, case.panel
@@ -108,7 +109,7 @@ def _below(case: Case, finish: Finish) -> Iterator[Piece]:
     base, feet = case.base, leg_feet(case)
     bar = min(0.025, 0.7 * base.leg.thick)
     z = max(base.stretcher_at * (case.floor - base.apron), bar)
-    if z + bar < case.floor - base.apron:
+    if z + bar < case.floor - base.apron and base.leg.shape not in FEET:
         yield from stretcher_pieces(base.stretcher, feet, bar, z, finish, waist(base.leg))
     if base.apron:
         x, y = feet[0] - base.leg.thick / 2, -feet[1] - base.leg.thick / 2

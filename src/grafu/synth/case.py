@@ -64,15 +64,25 @@ class Case:
 
     @property
     def top_thickness(self) -> float:
-        """The top's thickness (stretchers have the panels'), 0 where there is none."""
-        if self.top.kind in ("none", "corner blocks"):
+        """The top's thickness (stretchers and blocks have the panels'), 0 where there is none."""
+        if self.top.kind == "none":
             return 0.0
-        return (self.top.thickness if self.top.kind != "stretchers" else 0.0) or self.panel
+        return (self.top.thickness if self.top.kind in ("between", "over") else 0.0) or self.panel
 
     @property
     def bottom_thickness(self) -> float:
         """The bottom's thickness; nothing for a sheet or none."""
         return (self.bottom.thickness or self.panel) if self.bottom.kind in ("between", "under") else 0.0
+
+    @property
+    def foot(self) -> float:
+        """The height of what stands on the base: the floor, or the top of a bottom that lies under the sides."""
+        return self.floor + (self.bottom_thickness if self.lies_under else 0.0)
+
+    @property
+    def lies_under(self) -> bool:
+        """Whether the bottom lies under the sides; between corner posts it cannot."""
+        return self.bottom.kind == "under" and not self.posts
 
     @property
     def posts(self) -> float:
@@ -157,7 +167,7 @@ class Case:
             top = Edge.STOP
         if self.bottom_thickness == 0 and self.rail_border == 0:
             bottom = Edge.STOP
-        if self.bottom.kind == "under" and self.bottom.overhang > 0:
+        if self.lies_under and self.bottom.overhang > 0:
             bottom = Edge.STOP
         if self.moulding:
             top, bottom = (Edge.STOP, bottom) if self.moulding_at == "top" else (top, Edge.STOP)
@@ -174,5 +184,5 @@ class Case:
         if self.moulding and self.moulding_at == "top":
             high = min(high, self.crown - self.moulding)
         if self.moulding and self.moulding_at == "bottom":
-            low = max(low, self.floor + self.moulding)
+            low = max(low, self.foot + self.moulding)
         return low, high

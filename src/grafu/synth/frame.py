@@ -18,18 +18,18 @@ PILASTER_DEPTH = 0.012  # metres that a pilaster does
 
 def frame_pieces(case: Case, finish: Finish, out: float) -> Iterator[Piece]:
     """Yields frame, moulding and pilasters; `out` is the y of the fronts' outer faces."""
+    x = case.width / 2 - (case.panel if case.sides.beyond else 0.0)
     if case.face is not None:
         yield from _frame(case, finish)
     if case.moulding:
-        low = case.crown - case.moulding if case.moulding_at == "top" else case.floor
-        x = case.width / 2
+        low = case.crown - case.moulding if case.moulding_at == "top" else case.foot
         span = ((-x, out - MOULDING_DEPTH, low), (x, case.front, low + case.moulding))
         yield plank(PartLabel.BAR, "moulding", finish.case, span)
-    if case.pilaster:
-        x, low, high = case.width / 2, case.floor, case.crown
+    if case.width / 2 - case.pilaster < x - 1e-4:
+        low, high = case.foot, case.crown
         if case.moulding:
             low, high = (low, high - case.moulding) if case.moulding_at == "top" else (low + case.moulding, high)
-        span = ((x - case.pilaster, out - PILASTER_DEPTH, low), (x, case.front, high))
+        span = ((case.width / 2 - case.pilaster, out - PILASTER_DEPTH, low), (x, case.front, high))
         for _, at in both_sides(span):
             yield plank(PartLabel.BAR, "pilaster", finish.case, at)
 
@@ -55,7 +55,7 @@ def _member(case: Case, stem: str, low: Corner, high: Corner) -> TriangleMesh:
 
 def _stiles(case: Case) -> Iterator[tuple[str, Span]]:
     """Yields the stiles, left and right; corner posts are stiles already."""
-    face, low, high = case.face, _frame_foot(case), case.crown
+    face, low, high = case.face, case.foot, case.crown
     if case.posts or face is None:
         return
     x = case.width / 2 - (case.panel if case.sides.beyond else 0.0)
@@ -70,10 +70,6 @@ def _rails(case: Case) -> Iterator[tuple[str, Span]]:
     face, o = case.face, case.opening
     assert face is not None
     x = case.width / 2 - (case.panel if face.kind == "strips" else face.width)
-    for low, high in ((_frame_foot(case), o.z0), (o.z1, case.crown)):
+    for low, high in ((case.foot, o.z0), (o.z1, case.crown)):
         if high - low > 1e-4:
             yield "rail", ((-x, case.front, low), (x, case.carcass, high))
-
-
-def _frame_foot(case: Case) -> float:
-    return case.floor + (case.bottom_thickness if case.bottom.kind == "under" else 0.0)

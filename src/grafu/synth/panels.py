@@ -28,10 +28,8 @@ def side_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
 
 def back_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
     """Yields the back's panels and rails."""
-    back, low, high = case.back, case.floor, case.crown
-    if case.bottom.kind == "under":
-        low += case.bottom_thickness
-    if case.top.kind == "stretchers":
+    back, low, high = case.back, case.foot, case.crown
+    if case.top.kind == "stretchers" and not back.rails:
         high -= case.top.width
     x = case.width / 2 - (case.posts or case.panel)
     y = case.inner_back
@@ -51,7 +49,7 @@ def bottom_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
     bottom, low = case.bottom, case.floor
     if bottom.kind == "none":
         return
-    if bottom.kind == "under":
+    if case.lies_under:
         x, o = case.width / 2 + bottom.overhang, bottom.overhang
         high = (x, case.depth / 2, low + case.bottom_thickness)
         yield plank(PartLabel.BOTTOM_PANEL, "bottom_panel", finish.case, ((-x, case.front - o, low), high))
@@ -72,9 +70,7 @@ def level_spans(case: Case, low: float, high: float) -> tuple[Span, ...]:
 
 
 def _foot(case: Case) -> float:
-    if case.bottom.kind == "under":
-        return case.floor + case.bottom_thickness
-    return 0.0 if case.base.kind == "plinth" else case.floor
+    return 0.0 if case.base.kind == "plinth" and not case.lies_under else case.foot
 
 
 def _framed(sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:

@@ -103,11 +103,17 @@ def _stretchers(case: Case, finish: Finish) -> Iterator[Piece]:
         y0, y1 = case.posts - case.depth / 2, min(y1, case.depth / 2 - case.posts)
     for _, at in both_sides(((inner - w, y0, h - t), (inner, y1, h))):
         yield plank(PartLabel.BAR, "top_stretcher", finish.case, at)
-    behind = case.inner_back, max(case.depth / 2, case.inner_back + 0.006)  # in line with the back, which ends below it
-    span = ((-inner, behind[0], h - case.top.width), (inner, behind[1], h))
-    yield plank(PartLabel.BAR, "top_stretcher", finish.case, span)
+    if not case.back.rails:
+        yield _back_stretcher(case, finish, inner)
     if case.face is None:
         yield plank(PartLabel.BAR, "top_stretcher", finish.case, ((w - inner, y0, h - t), (inner - w, y0 + w, h)))
+
+
+def _back_stretcher(case: Case, finish: Finish, inner: float) -> Piece:
+    """Returns the upright bar in line with the back, which ends below it."""
+    y1 = max(case.depth / 2, case.inner_back + 0.006)
+    span = ((-inner, case.inner_back, case.height - case.top.width), (inner, y1, case.height))
+    return plank(PartLabel.BAR, "top_stretcher", finish.case, span)
 
 
 def _corner_blocks(case: Case, finish: Finish) -> Iterator[Piece]:
