@@ -2,7 +2,7 @@
 
 import multiprocessing
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from itertools import islice
@@ -14,7 +14,14 @@ from grafu.data.shards import write_shard
 from grafu.data.shards_record import Record, record_of
 from grafu.data.stream import ordered_map, stream_shards, stream_specimens, stream_synth
 from grafu.errors import UnreadableAsset
-from grafu.synth.generate import make_specimen
+from remembered import remember, specimen
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _remembered() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        remember(patch)
+        yield
 
 
 def square(number: int) -> int:
@@ -39,7 +46,7 @@ def ids(records: list[Record]) -> list[str]:
 
 @pytest.fixture(scope="module")
 def made() -> list[Record]:
-    return [record_of(make_specimen(5, i, points=8)) for i in range(25)]
+    return [record_of(specimen(5, i, 8)) for i in range(25)]
 
 
 @pytest.fixture(scope="module")
