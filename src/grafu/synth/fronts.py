@@ -32,7 +32,6 @@ from grafu.synth.layout import (
     divide,
 )
 from grafu.synth.leaves import LeafShape, leaf_surfaces
-from grafu.synth.setting import Mount as Mount
 from grafu.synth.setting import Setting, front_rect, inner_span
 from grafu.synth.shapes import board
 from grafu.synth.tilt import tray_meshes
