@@ -138,7 +138,13 @@ def test_a_share_is_held_against_groups_of_as_many():
 
 @pytest.mark.parametrize(
     ("models", "within", "verdict"),
-    [(0, None, "no real"), (17, 1.0, "inside"), (17, 13 / 17, "plausible"), (17, 12 / 17, "outside"), (1, 0.0, "plausible")],
+    [
+        (0, None, "no real"),
+        (17, 1.0, "inside"),
+        (17, 13 / 17, "plausible"),
+        (17, 12 / 17, "outside"),
+        (1, 0.0, "plausible"),
+    ],
 )
 def test_verdicts_allow_for_chance(models, within, verdict):
     assert StatisticsRow("parts", False, None, None, models, within).verdict == verdict
