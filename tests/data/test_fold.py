@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 
 from grafu.data.corruption.config import PAPER, CorruptionConfig
 from grafu.data.fold import FOLDS, fold, folded
-from grafu.data.pair import natural_pair
+from grafu.data.pair import GraphPair, natural_pair
 from grafu.data.split import Split, split_models, split_of
+from grafu.graph.edges import ends_of
+from grafu.graph.edit import as_contacts, without_contacts
 from small_graphs import cabinet
 
 OTHER = replace(cabinet(), model_id="other")
@@ -28,14 +30,27 @@ def test_folds_do_not_depend_on_order_or_on_what_else_is_there():
     assert a[:6] == b[6:]
     assert a[6:] == b[:6]
     assert list(folded([OTHER], 2, seed=3)) == b[:3]
-    assert fold(OTHER, "other", 1, seed=3) == b[2]
+    assert fold(natural_pair(OTHER), 1, seed=3) == b[2]
 
 
 def test_folds_differ_by_seed_model_and_number():
     masked = CorruptionConfig(weights=(("mask_materials_keep_edges", 1e9),))  # one strategy, a great many outcomes
-    numbers = [(name, number, seed) for name in "ab" for number in (0, 1) for seed in (0, 1)]
-    inputs = [fold(cabinet(), *which, masked).input for which in numbers]
+    pairs = [natural_pair(replace(cabinet(), model_id=name)) for name in "ab"]
+    numbers = [(pair, number, seed) for pair in pairs for number in (0, 1) for seed in (0, 1)]
+    inputs = [replace(fold(*which, masked).input, model_id="any") for which in numbers]
     assert all(a != b for k, a in enumerate(inputs) for b in inputs[:k])
+
+
+def test_parts_that_do_not_touch_touch_in_no_fold():
+    apart = frozenset([frozenset(["right", "drawer_2"])])
+    target = cabinet()
+    natural = GraphPair(without_contacts(as_contacts(target), apart), target, "natural", "cabinet")
+    folds = [fold(natural, number) for number in range(60)]
+    contacts = [frozenset(ends_of(c)) for pair in folds for c in pair.input.contacts]
+    assert natural.apart == apart
+    assert frozenset(["left", "drawer_1"]) in contacts
+    assert not apart & set(contacts)
+    assert any(r.child == "drawer_2" for pair in folds for r in pair.input.rails)  # where kinds are kept, it is a rail
 
 
 def test_without_folds_the_natural_pair_is_left_and_fewer_are_refused():

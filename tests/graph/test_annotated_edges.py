@@ -27,6 +27,14 @@ def test_a_door_has_one_edge_a_drawer_two_and_each_handle_one(cabinet: Asset) ->
     assert stated.refused == ()
 
 
+@pytest.mark.parametrize("limits", [(-1.5, 0.0), (0.0, -1.5), (-1.5, 0.2)])
+def test_limits_below_zero_open_the_other_way(cabinet: Asset, limits: tuple[float, float]) -> None:
+    graph = parse_graph(cabinet)
+    below = tuple(replace(j, axis=j.axis.reversed(), lower=limits[0], upper=limits[1]) for j in cabinet.joints)
+
+    assert annotated_edges(replace(cabinet, joints=below), graph) == annotated_edges(cabinet, graph)
+
+
 def test_moving_parts_without_a_joint_are_refused(cabinet: Asset) -> None:
     stated = annotated_edges(replace(cabinet, joints=()), parse_graph(cabinet))
 

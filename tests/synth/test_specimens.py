@@ -4,7 +4,8 @@ from functools import cache
 
 import pytest
 
-from grafu.graph.edges import Contact
+from grafu.graph.edges import Contact, ends_of
+from grafu.graph.parse import parse_graph
 from grafu.synth.check import faults_in
 from grafu.synth.clutter import CLUTTER
 from grafu.synth.generate import MOST_PARTS, make_specimen
@@ -62,6 +63,15 @@ def test_specimens_keep_their_promises() -> None:
         moved = {e.child for e in (*s.truth.hinges, *s.truth.rails)}
         assert moved == {j.part for j in s.whole.joints} == {i for i, x in label.items() if x.is_movable}
         assert all(j.lower == 0.0 < j.upper for j in s.whole.joints)
+
+
+def test_what_is_given_touches_as_its_meshes_do_whatever_the_truth_joins() -> None:
+    specimens = [make_specimen(2, index, 0) for index in range(12)]
+    assert any(s.apart for s in specimens)  # drawers beside their walls
+    for s in specimens:
+        parsed = {frozenset(ends_of(e)) for e in parse_graph(s.whole).edges}
+        given = {frozenset(ends_of(e)) for e in s.given.edges}
+        assert given == {pair for pair in parsed if pair <= {p.id for p in s.asset.parts}}
 
 
 def test_defects_name_parts_of_the_whole_and_what_is_missing() -> None:

@@ -32,13 +32,15 @@ def folded(
         pair = model if isinstance(model, GraphPair) else natural_pair(model)
         yield pair
         for number in range(folds):
-            yield fold(pair.target, pair.model_id, number, seed, config)
+            yield fold(pair, number, seed, config)
 
 
-def fold(
-    target: FunctionalGraph, model_id: str, number: int, seed: int = 0, config: CorruptionConfig = PAPER
-) -> GraphPair:
-    """Returns the corrupted pair `number` (from 0) of a model, the same for the same seed."""
-    digest = int.from_bytes(blake2b(model_id.encode(), digest_size=8).digest(), "little")
-    pair = corrupt(target, np.random.default_rng([seed, digest, number]), config)
-    return GraphPair(pair.input, pair.target, pair.strategy, model_id)
+def fold(natural: GraphPair, number: int, seed: int = 0, config: CorruptionConfig = PAPER) -> GraphPair:
+    """Returns the corrupted pair `number` (from 0) of a model's natural pair, the same for the same seed.
+
+    Parts that do not touch in the natural input do not touch in the corrupted one either.
+    """
+    digest = int.from_bytes(blake2b(natural.model_id.encode(), digest_size=8).digest(), "little")
+    rng = np.random.default_rng([seed, digest, number])
+    pair = corrupt(natural.target, rng, config, natural.apart)
+    return GraphPair(pair.input, pair.target, pair.strategy, natural.model_id)

@@ -1,9 +1,11 @@
 """One learning example: a graph that lacks something and the whole functional graph. It draws nothing at random."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 from grafu.errors import GraphError
+from grafu.graph.edges import ends_of
 from grafu.graph.edit import as_contacts, mirrored
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.synth.specimen import Specimen
@@ -39,6 +41,16 @@ class GraphPair:
     def missing(self) -> tuple[str, ...]:
         """The ids of the nodes that the input lacks, in the target's order."""
         return tuple(node.id for node in self.target.nodes if node.id not in self.input)
+
+    @cached_property
+    def apart(self) -> frozenset[frozenset[str]]:
+        """The pairs of input nodes that an edge of the target joins and none of the input.
+
+        In a natural pair they are parts that do not touch, such as a drawer and the walls beside it.
+        """
+        joined = {frozenset(ends_of(e)) for e in self.input.edges}
+        wanted = (ends_of(e) for e in self.target.edges)
+        return frozenset(frozenset(e) for e in wanted if e[0] in self.input and e[1] in self.input) - joined
 
 
 def specimen_pair(specimen: Specimen) -> GraphPair:

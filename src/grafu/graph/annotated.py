@@ -13,6 +13,7 @@ import numpy as np
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.errors import GraphError
 from grafu.geometry.arrays import Vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.graph.completion import RefusedMotion
 from grafu.graph.edges import Attached, Hinge, Rail
@@ -73,16 +74,23 @@ def _joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[Part
     if not supports:
         raise GraphError("there is no static part that could carry it")
     if joint.type is JointType.REVOLUTE and node.label in (PartLabel.DOOR, PartLabel.UNKNOWN):
-        border, sign = axis_to_hinge(node.box, joint.axis)
+        border, sign = axis_to_hinge(node.box, _opening_axis(joint))
         mount = _nearest(supports, joint.axis.closest_point(node.box.center))
         return [Hinge(mount, node.id, border, sign)]
     if joint.type is JointType.PRISMATIC and node.label in (PartLabel.DRAWER, PartLabel.UNKNOWN):
-        slide = axis_to_rail(joint.axis)
+        slide = axis_to_rail(_opening_axis(joint))
         across = 0 if slide // 2 == 1 else 1  # the other horizontal axis
         flanks = (node.box.face_center(signed_axis(across, positive)) for positive in (False, True))
         mounts = dict.fromkeys(_nearest(supports, flank) for flank in flanks)
         return [Rail(mount, node.id, slide) for mount in mounts]
     raise GraphError(f"a functional graph has no edge for a {node.label} part with a {joint.type} joint")
+
+
+def _opening_axis(joint: AnnotatedJoint) -> Axis:
+    """Returns the axis along which positive opens: limits that lie mostly below 0 open the other way."""
+    low, high = sorted((joint.lower, joint.upper))
+    lies_below = joint.limited and -low > high
+    return joint.axis.reversed() if lies_below else joint.axis
 
 
 def _nearest(nodes: list[PartNode], point: Vec3) -> str:

@@ -56,6 +56,14 @@ def as_contacts(graph: FunctionalGraph) -> FunctionalGraph:
     return replace(graph, edges=tuple(Contact(*ends_of(e)) for e in graph.edges))
 
 
+def without_contacts(graph: FunctionalGraph, pairs: Collection[frozenset[str]]) -> FunctionalGraph:
+    """Returns the graph without the contacts that join one of these pairs of ids; other edges between them stay."""
+    if not pairs:
+        return graph
+    kept = tuple(e for e in graph.edges if not isinstance(e, Contact) or frozenset(ends_of(e)) not in pairs)
+    return graph if len(kept) == len(graph.edges) else replace(graph, edges=kept)
+
+
 def with_edges(graph: FunctionalGraph, edges: Iterable[Edge]) -> FunctionalGraph:
     """Returns the graph with these edges added; each takes the place of the edge that joined the same two parts.
 

@@ -5,12 +5,13 @@ import numpy as np
 from grafu.asset.part import Asset
 from grafu.errors import GraphError
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.synth.blueprint import draw_made
 from grafu.synth.check import faults_in, faults_of
 from grafu.synth.habits import draw_untidiness
 from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
-from grafu.synth.truth import carriers, true_graph
+from grafu.synth.truth import carriers, pairs_apart, with_true_edges
 from grafu.synth.untidiness import Untidiness, apply_untidiness, as_given
 from grafu.vocabulary import PartLabel
 
@@ -53,10 +54,12 @@ def untidied(name: str, family: str, tidy: Asset, untidiness: Untidiness, points
         GraphError: if a door cannot be said in the graph's codes any more.
     """
     whole, misfits = apply_untidiness(tidy, untidiness)
-    truth = true_graph(whole, points, untidiness.seed % 2**32)
+    contacts = parse_graph(whole, ParsingConfig(points=points, seed=untidiness.seed % 2**32))
+    truth = with_true_edges(contacts, whole)
     removable = removable_parts(whole, truth)
     given, flaws = as_given(whole, untidiness, removable)
-    return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws))
+    apart = pairs_apart(contacts, truth)
+    return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws), apart)
 
 
 def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:

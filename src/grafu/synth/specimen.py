@@ -6,7 +6,7 @@ from typing import Literal, final
 
 from grafu.asset.part import Asset
 from grafu.errors import GraphError
-from grafu.graph.edit import as_contacts, relabelled, without_nodes
+from grafu.graph.edit import as_contacts, relabelled, without_contacts, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
 
 DefectKind = Literal[
@@ -37,6 +37,8 @@ class Specimen:
     labels, with the true joints (`AnnotatedJoint`, lower 0) and riders. `truth` is the functional graph of `whole`: one
     node per part in the same order, with boxes, points, contacts, hinges, rails and attachments. `removable` are the
     parts that a completion may be asked to restore when they are missing: no moving part, none that carries one.
+    `apart` are the pairs that a functional edge of `truth` joins though they do not touch: a drawer and the walls that
+    carry its rails, a centimetre beside it.
 
     Raises:
         GraphError: if the three disagree about their parts.
@@ -49,6 +51,7 @@ class Specimen:
     truth: FunctionalGraph
     removable: frozenset[str]
     defects: tuple[Defect, ...] = ()
+    apart: frozenset[frozenset[str]] = frozenset()
 
     def __post_init__(self) -> None:
         given, whole = [p.id for p in self.asset.parts], [p.id for p in self.whole.parts]
@@ -68,5 +71,5 @@ class Specimen:
     @cached_property
     def given(self) -> FunctionalGraph:
         """The graph of the asset as it was modelled: contacts only, labels as given, nodes in the truth's order."""
-        graph = as_contacts(without_nodes(self.truth, self.missing))
+        graph = without_contacts(as_contacts(without_nodes(self.truth, self.missing)), self.apart)
         return relabelled(graph, {part.id: part.label for part in self.asset.parts})

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.point_distance import point_triangle_distances
-from grafu.graph.edges import Attached, Edge, Hinge, Rail
+from grafu.graph.edges import Attached, Edge, Hinge, Rail, ends_of
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
@@ -39,7 +39,15 @@ def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGrap
     Raises:
         GraphError: if a door turns about an axis across its thin side.
     """
-    graph = parse_graph(whole, ParsingConfig(points=points, seed=seed))
+    return with_true_edges(parse_graph(whole, ParsingConfig(points=points, seed=seed)), whole)
+
+
+def with_true_edges(graph: FunctionalGraph, whole: Asset) -> FunctionalGraph:
+    """Returns the contact graph of an asset with an edge for each of its joints and each handle's attachment.
+
+    Raises:
+        GraphError: if a door turns about an axis across its thin side.
+    """
     moving = {joint.part for joint in whole.joints}
     still = [p for p in whole.parts if p.id not in moving and p.rides_on is None and p.label.is_support]
     edges: list[Edge] = []
@@ -49,6 +57,12 @@ def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGrap
         if part.label is PartLabel.HANDLE and part.rides_on and whole.part(part.rides_on).label.is_movable:
             edges.append(Attached(part.rides_on, part.id))
     return with_edges(graph, edges)
+
+
+def pairs_apart(contacts: FunctionalGraph, truth: FunctionalGraph) -> frozenset[frozenset[str]]:
+    """Returns the pairs of parts that a functional edge of the truth joins though they do not touch."""
+    touching = {frozenset(ends_of(e)) for e in contacts.edges}
+    return frozenset(frozenset(ends_of(e)) for e in truth.edges) - touching
 
 
 def carriers(graph: FunctionalGraph) -> frozenset[str]:

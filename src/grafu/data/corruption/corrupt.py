@@ -1,5 +1,7 @@
 """One functional graph to one corrupted pair: a strategy is drawn, labels are masked, both sides mirrored."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from grafu.data.corruption.config import PAPER, STRATEGY_NAMES, CorruptionConfig, StrategyName
@@ -7,19 +9,27 @@ from grafu.data.corruption.masking import masked_each
 from grafu.data.corruption.strategies import STRATEGIES, probabilities
 from grafu.data.pair import GraphPair
 from grafu.errors import GraphError
-from grafu.graph.edit import mirrored
+from grafu.graph.edit import mirrored, without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
 
 
-def corrupt(target: FunctionalGraph, rng: np.random.Generator, config: CorruptionConfig = PAPER) -> GraphPair:
+def corrupt(
+    target: FunctionalGraph,
+    rng: np.random.Generator,
+    config: CorruptionConfig = PAPER,
+    apart: Collection[frozenset[str]] = (),
+) -> GraphPair:
     """Returns a pair of the target (or its mirror image) and a corrupted copy; boxes and points are shared.
+
+    `apart` are pairs of parts that do not touch: where a strategy makes contacts of edges, theirs vanishes instead.
+    Without it the contact between a drawer and a wall a centimetre away would tell where its rail goes.
 
     Raises:
         GraphError: if the target has no nodes.
         ValueError: if the config leaves no strategy.
     """
     name = STRATEGY_NAMES[int(rng.choice(len(STRATEGY_NAMES), p=probabilities(config)))]
-    return corrupt_by(name, _perhaps_mirrored(target, rng, config), rng, config)
+    return corrupt_by(name, _perhaps_mirrored(target, rng, config), rng, config, apart)
 
 
 def corrupt_by(
@@ -27,8 +37,9 @@ def corrupt_by(
     target: FunctionalGraph,
     rng: np.random.Generator,
     config: CorruptionConfig = PAPER,
+    apart: Collection[frozenset[str]] = (),
 ) -> GraphPair:
-    """Returns the pair of the target and its copy corrupted by one strategy; neither is mirrored.
+    """Returns the pair of the target and its copy corrupted by one strategy, as `corrupt` does; neither is mirrored.
 
     Raises:
         GraphError: if the target has no nodes.
@@ -36,9 +47,9 @@ def corrupt_by(
     if not target.nodes:
         raise GraphError(f"a graph to corrupt must have nodes: `{target.model_id}` has none")
     strategy = STRATEGIES[name]
-    given = strategy.apply(target, rng, config)
+    given = without_contacts(strategy.apply(target, rng, config), apart)
     if strategy.family != "label masking" and config.label_masking > 0:
-        given = masked_each(given, rng, config.label_masking)
+        given = without_contacts(masked_each(given, rng, config.label_masking), apart)
     return GraphPair(given, target, name, target.model_id)
 
 
