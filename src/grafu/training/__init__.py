@@ -1,0 +1,1 @@
+"""How GraFu is trained: losses, matching, the data it sees, the loop."""
