@@ -7,6 +7,7 @@ rates stated here. It builds no geometry.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from math import pi
 from typing import Literal, final
 
 import numpy as np
@@ -24,6 +25,8 @@ SAME_SIDE_PAIR = (
 ROW_HABITS: dict[Habit, float] = {"outer": 0.86, "left": 0.07, "right": 0.07}  # doors side by side
 LIKE_BELOW = 0.95  # a door above another one hangs on its side
 WALL_SIDE = 0.85  # beside a wall or a tall unit a door hangs there, so that it opens to the room
+SQUARE = pi / 2  # doors that hang beside another front open no further: their handles would strike
+SMALLEST = 0.03  # metres: a lower or narrower opening has no front
 NEAR = 0.02  # metres: openings whose sides agree to this stand above each other
 
 
@@ -83,6 +86,9 @@ def fitted(rng: np.random.Generator, layout: Layout, room: Rect, style: Style, s
     """Returns the layout of bare fronts, that divides this room, with every front decided.
 
     Doors with a level hinge (flaps) keep it; leaves and shelf counts that are not the default ones are kept too.
+
+    Raises:
+        ValueError: if some front is left no room.
     """
     return _fit(_Fitter(rng, style, site), layout, room, Place())
 
@@ -124,6 +130,8 @@ def _divided(layout: Row | Stack, room: Rect) -> Iterator[tuple[Layout, Rect]]:
 
 def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
     rng, style, site = fitter.rng, fitter.style, fitter.site
+    if not isinstance(layout, Bay) and min(room.width, room.height) < SMALLEST:
+        raise ValueError(f"the layout leaves a front no room: got {room.width:.3f} x {room.height:.3f} m")
     match layout:
         case Row():
             return _fit_row(fitter, layout, room, place)
@@ -133,9 +141,14 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
         case Door():
             flap = layout.hinge in ("top", "bottom")
             side = layout.hinge if flap else fitter.side(room, place)
-            return fit_door(rng, layout, side, room, style, site.hand)
+            door = fit_door(rng, layout, side, room, style, site.hand)
+            clear = flap or (place.first if side == "left" else place.last)
+            return door if clear else replace(door, opening=min(door.opening, SQUARE))
         case Pair():
-            return _fit_pair(fitter, layout, room)
+            pair = _fit_pair(fitter, layout, room)
+            if isinstance(pair, Row) or (place.first and place.last):
+                return pair
+            return replace(pair, opening=min(pair.opening, SQUARE))
         case Drawer():
             return fit_drawer(rng, layout, room, style)
         case Tilt():
@@ -143,7 +156,7 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
         case Blank():
             return fit_blank(layout, room, style)
         case Bay():
-            return fit_bay(rng, layout, room)
+            return fit_bay(rng, layout, room, style)
 
 
 def _fit_row(fitter: _Fitter, row: Row, room: Rect, place: Place) -> Row:
@@ -158,7 +171,7 @@ def _fit_row(fitter: _Fitter, row: Row, room: Rect, place: Place) -> Row:
     return replace(row, cells=tuple(cells))
 
 
-def _fit_pair(fitter: _Fitter, pair: Pair, room: Rect) -> Layout:
+def _fit_pair(fitter: _Fitter, pair: Pair, room: Rect) -> Pair | Row:
     rng, style = fitter.rng, fitter.style
     if pair.behind is None and chance(rng, SAME_SIDE_PAIR):
         side: Side = "left" if chance(rng, 0.5) else "right"

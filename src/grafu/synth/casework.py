@@ -37,6 +37,7 @@ SIDES: Mapping[SideKind, float] = {"panel": 0.95, "framed": 0.05}
 CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.7, "framed": 0.3}
 # A face frame is one part in tidy models, its bars one by one in kitchen models (44781, 45001, 45463, 45940).
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
+BARE_STANDS, BARE_BACKLESS = 0.6, 0.3  # of bare pieces: on nothing, without a back
 STRIPS = 0.07  # frameless cases whose panels have edge strips of their own (41003, 41085)
 BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces
 EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.06}
@@ -74,7 +75,7 @@ WALL_HUNG = Build(bases=("none",), tops=("between",))
 
 
 def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build = ANY) -> Case:
-    """Returns a case of the given outer size (width, depth, height) in this style.
+    """Returns a case of the given outer size (width, depth, height) in this style; a bare one without ornament.
 
     Raises:
         ValueError: if its panels leave no room inside.
@@ -95,7 +96,7 @@ def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, 
         base=base,
         top=top,
         frame=_frame(rng, style) if framed else _strips(rng, style, build, base),
-        sides=_sides(rng, style, CLASSIC_SIDES if classic else SIDES, plain_side),
+        sides=_sides(rng, style, CLASSIC_SIDES if classic else SIDES, plain_side or style.bare),
         bottom=_bottom(rng, base),
         moulding=moulding if height > 0.7 else 0.0,
         moulding_at="top" if chance(rng, 0.8) else "bottom",
@@ -107,6 +108,8 @@ def draw_base(rng: np.random.Generator, style: Style, size: tuple[float, float, 
     """Returns what a case of this size stands on."""
     width, depth, height = size
     kind = pick(rng, only(style.rules.base, build.bases))
+    if style.bare and "none" in build.bases and chance(rng, BARE_STANDS):
+        kind = "none"
     leg = draw_leg(rng, style, min(width, depth))
     span = build.legs if kind in ("legs", "posts", "sled") and build.legs else HEIGHTS[kind]
     if kind == "legs" and leg.shape in FOOT_HEIGHTS:
@@ -151,6 +154,8 @@ def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
 
 
 def _back(rng: np.random.Generator, style: Style, build: Build) -> Back:
+    if style.bare:
+        return Back("none" if chance(rng, BARE_BACKLESS) else "full", style.back, planted=chance(rng, 0.3))
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
     rails = count(rng, 2, 3) if chance(rng, 0.14) else 0
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))

@@ -31,6 +31,11 @@ def between(rng: np.random.Generator, span: Span) -> float:
     return span[0] + (span[1] - span[0]) * float(rng.random())
 
 
+def spread(rng: np.random.Generator, span: Span) -> float:
+    """Returns a number from low to high, each doubling alike: as sizes spread that differ by factors."""
+    return float(span[0] * (span[1] / span[0]) ** rng.random())
+
+
 def chance(rng: np.random.Generator, probability: float) -> bool:
     """Returns true with this probability."""
     return bool(rng.random() < probability)

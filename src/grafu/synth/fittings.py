@@ -16,8 +16,8 @@ from grafu.synth.style import Style
 
 HINGE_EDGE = 0.003  # doors whose handle sits on the hinge side: modellers' errors
 SMALL_FRONT = 0.15  # metres: a framed leaf of this height would be all frame, so small fronts are mostly plain
-SHELF_PITCH = 0.33  # metres between shelves, usually
-NO_SHELVES = 0.22  # openings left empty: modellers often stop at what is seen
+MOST_SHELVES = 7  # in one opening: more would be racks of trays
+NO_SHELVES, BARE_INSIDE = 0.22, 0.6  # openings left empty: modellers often stop at what is seen, of bare pieces more so
 INSIDES = {
     Inside(): 0.83,
     Inside(shelf="short"): 0.07,
@@ -34,17 +34,18 @@ def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style
     flap = side in ("top", "bottom")
     leaf = _leaf(rng, door.leaf, style.leaf, room, flap)
     grip = style.grip if leaf == "slab" else "none"
-    hold = _flap_hold(style) if flap else _door_hold(rng, style, room, hand)
+    handle = _handle(door.handle, style.handle, grip)
+    hold = _plain_hold(style, handle) if flap else _door_hold(rng, style, handle, room, hand)
     return replace(
         door,
         hinge=side,
         leaf=leaf,
-        handle=_handle(door.handle, style.handle, grip),
+        handle=handle,
         hold=hold,
         grip=grip,
         opening=min(style.opening, 1.75) if flap else style.opening,
-        shelves=_shelves(rng, door.shelves, room, door.behind is not None),
-        inside=_inside(rng, door.inside, leaf),
+        shelves=_shelves(rng, door.shelves, room, door.behind is not None, style),
+        inside=_inside(rng, door.inside, leaf, style),
     )
 
 
@@ -53,16 +54,17 @@ def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: Style, han
     half = replace(room, x1=room.center[0])
     leaf = _leaf(rng, pair.leaf, style.leaf, half, False)
     grip = style.grip if leaf == "slab" else "none"
+    handle = _handle(pair.handle, style.handle, grip)
     return replace(
         pair,
         leaf=leaf,
-        handle=_handle(pair.handle, style.handle, grip),
-        hold=_door_hold(rng, style, half, hand),
+        handle=handle,
+        hold=_door_hold(rng, style, handle, half, hand),
         grip=grip,
         opening=style.opening,
         muntin=0.0 if pair.behind else pair.muntin or style.muntin,  # what stands behind must come out
-        shelves=_shelves(rng, pair.shelves, room, pair.behind is not None),
-        inside=_inside(rng, pair.inside, leaf),
+        shelves=_shelves(rng, pair.shelves, room, pair.behind is not None, style),
+        inside=_inside(rng, pair.inside, leaf, style),
     )
 
 
@@ -72,12 +74,13 @@ def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: Styl
     if style.drawer_leaf == "bowed" and drawer.leaf == "slab" and room.height > SMALL_FRONT:
         leaf = "bowed"
     grip = style.grip if leaf == "slab" else "none"
+    handle = _handle(drawer.handle, style.drawer_handle, grip)
     return replace(
         drawer,
         box=style.box if drawer.box == "whole" else drawer.box,
         leaf=leaf,
-        handle=_handle(drawer.handle, style.drawer_handle, grip),
-        hold=_drawer_hold(style, room),
+        handle=handle,
+        hold=_drawer_hold(style, handle, room),
         grip=grip,
         travel=style.travel,
         runners=style.runners,
@@ -90,8 +93,8 @@ def fit_tilt(tilt: Tilt, style: Style) -> Tilt:
     leaf = style.leaf if style.leaf in ("slab", "chamfered", "shaker", "louvred", "planks") else "slab"
     grip = style.grip if leaf == "slab" else "none"
     handle = _handle(tilt.handle, style.drawer_handle, grip)
-    length = None if style.length is None else min(style.length, 0.2)
-    return replace(tilt, leaf=leaf, handle=handle, grip=grip, hold=Hold(length=length, inset=style.inset))
+    short = replace(style, full=False, length=None if style.length is None else min(style.length, 0.2))
+    return replace(tilt, leaf=leaf, handle=handle, grip=grip, hold=_plain_hold(short, handle))
 
 
 def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:
@@ -101,9 +104,9 @@ def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:
     return replace(blank, leaf="slab" if room.height < SMALL_FRONT else style.drawer_leaf)
 
 
-def fit_bay(rng: np.random.Generator, bay: Bay, room: Rect) -> Bay:
+def fit_bay(rng: np.random.Generator, bay: Bay, room: Rect, style: Style) -> Bay:
     """Returns the open bay with its shelves."""
-    return replace(bay, shelves=_shelves(rng, bay.shelves, room, False))
+    return replace(bay, shelves=_shelves(rng, bay.shelves, room, False, style))
 
 
 def _leaf(rng: np.random.Generator, asked: LeafStyle, usual: LeafStyle, room: Rect, level: bool) -> LeafStyle:
@@ -123,10 +126,9 @@ def _handle(asked: HandleStyle, usual: HandleStyle, grip: Grip) -> HandleStyle:
     return "none" if grip != "none" else usual
 
 
-def _door_hold(rng: np.random.Generator, style: Style, room: Rect, hand: float) -> Hold:
+def _door_hold(rng: np.random.Generator, style: Style, handle: HandleStyle, room: Rect, hand: float) -> Hold:
     """Returns how a side-hung door is held."""
-    share, length = _length(style)
-    plain = Hold(length=length, share=share, inset=style.inset)
+    plain = _plain_hold(style, handle)
     if chance(rng, HINGE_EDGE):
         return replace(plain, place="hinge edge", along=0.5)
     reach = (hand - room.z0) / room.height
@@ -141,34 +143,34 @@ def _door_hold(rng: np.random.Generator, style: Style, room: Rect, hand: float) 
     return replace(plain, place="free edge", along=float(np.clip(reach, 0.14, 0.86)))
 
 
-def _flap_hold(style: Style) -> Hold:
-    share, length = _length(style)
-    return Hold(length=length, share=share, inset=style.inset)
-
-
-def _drawer_hold(style: Style, room: Rect) -> Hold:
-    share, length = _length(style)
+def _drawer_hold(style: Style, handle: HandleStyle, room: Rect) -> Hold:
     high = style.drawer_high and room.height > 0.12
     two = room.width > 0.65 and not style.full and (style.length is None or style.length < 0.15)
-    hold = Hold(length=length, share=share, inset=style.inset, count=2 if two and style.inset > 0.04 else 1)
+    hold = replace(_plain_hold(style, handle), count=2 if two and style.inset > 0.035 else 1)
     return replace(hold, place="top edge") if high else hold
 
 
-def _length(style: Style) -> tuple[float, float | None]:
-    """Returns the most that a handle takes of its front's side, and its length."""
-    return (0.94, 3.0) if style.full else (0.8 if style.length else 0.4, style.length)
+def _plain_hold(style: Style, handle: HandleStyle) -> Hold:
+    """Returns how large a handle of this kind is on the piece, at its usual place; a small knob protrudes less."""
+    family = handle.partition("-")[0]
+    if family == "knob":
+        return Hold(length=style.knob, inset=style.inset)
+    bar = family == "bar" and handle != "bar-profile"
+    share, length = (0.94, 3.0) if style.full else (0.8 if style.length else 0.4, style.length)
+    return Hold(length=length, share=share, inset=style.inset, protrusion=style.protrusion if bar else None)
 
 
-def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool) -> int:
+def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: Style) -> int:
     """Returns the shelves of an opening, by its height; none where something stands behind the door."""
-    if asked or filled or room.height < 0.3 or chance(rng, NO_SHELVES):
+    least = min(0.3, 2 * style.pitch)
+    if asked or filled or room.height < least or chance(rng, BARE_INSIDE if style.bare else NO_SHELVES):
         return asked
-    usual = round(room.height / SHELF_PITCH) - 1 + count(rng, -1, 1)
-    return max(1 if room.height > 0.45 else 0, min(usual, 6))
+    usual = round(room.height / style.pitch) - 1 + count(rng, -1, 1)
+    return max(1 if room.height > 0.45 else 0, min(usual, MOST_SHELVES))
 
 
-def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle) -> Inside:
-    if asked != Inside():
+def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: Style) -> Inside:
+    if asked != Inside() or style.bare:
         return asked
     if leaf in ("glass", "muntins") and chance(rng, 0.4):
         return Inside(shelf="glass")

@@ -5,13 +5,13 @@ together, once for the whole piece, so that all its doors look alike.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import radians
 from typing import Literal, final
 
 import numpy as np
 
-from grafu.synth.chance import between, chance, only, pick
+from grafu.synth.chance import between, chance, only, pick, spread
 from grafu.synth.finish import Finish
 from grafu.synth.finishes import draw_finish
 from grafu.synth.hold import Grip, HandleStyle
@@ -33,10 +33,24 @@ KNOB_CARRIES: Mapping[Carry, float] = {
     "middle line": 0.03,
 }
 
+# Kitchens carry lying bars at the hand's edge more often: 45001, 45463, 45940, 46408 of eight.
+KITCHEN_CARRIES: Mapping[Carry, float] = {
+    "reach": 0.36, "middle": 0.17, "corner": 0.1, "top line": 0.33, "middle line": 0.04
+}  # fmt: skip
+KITCHENS: frozenset[TraditionName] = frozenset({"frameless", "face frame"})
+
 # A piece whose fronts have no handle: pushed, or held by something cut into the front.
 GRIPS: Mapping[Grip, float] = {
     "none": 0.42, "edge channel": 0.18, "lip": 0.1, "scoop": 0.14, "slot": 0.08, "finger hole": 0.08
 }  # fmt: skip
+BAR_LENGTHS = (0.09, 0.55)  # metres, as sold; real median: 0.38 of the front
+KNOB_LENGTHS = (0.013, 0.04)  # metres: the knobs of real models are this wide (45963: 13 mm)
+PROTRUSIONS = (0.016, 0.046)  # metres: how far real bars stand off, from strips to thick rods
+INSETS = (0.016, 0.07)  # metres from an edge to its handle's middle: the widest doors have it nearest to their edge
+PITCHES = ((0.26, 0.42), (0.13, 0.25))  # metres between shelves: usual ones, and close ones as for linen or cans
+CLOSE_SHELVES = 0.3  # of pieces: 46456 and 49182 have three and five shelves in low rooms
+BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
+PUSHED = 0.15  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
     {
@@ -53,7 +67,8 @@ class Style:
 
     `lap` is the most that overlay fronts cover of a panel, `frame` the width of a face frame (0: frameless). `carry`
     says where side-hung doors carry their handles, `length` how long handles are (None: each handle's own), `full`
-    that they run along the whole front.
+    that they run along the whole front; `knob` is a knob's width, `protrusion` how far bars stand off (None: their
+    own). `pitch` is the height of a shelf's room. A `bare` piece was modelled with the least: no base, no fittings.
     """
 
     tradition: TraditionName
@@ -75,6 +90,8 @@ class Style:
     carry: Carry
     length: float | None
     full: bool
+    knob: float | None
+    protrusion: float | None
     inset: float
     drawer_high: bool
     box: DrawerBox
@@ -83,6 +100,8 @@ class Style:
     travel: float
     runners: bool
     slide_gap: float
+    pitch: float
+    bare: bool
     finish: Finish
 
     @property
@@ -96,9 +115,11 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     name = pick(rng, traditions)
     rules = TRADITIONS[name]
     mount = pick(rng, rules.mount)
-    leaf, handle = pick(rng, rules.leaf), pick(rng, rules.handle)
+    bare = chance(rng, rules.bare)
+    leaf = pick(rng, rules.leaf)
+    handle: HandleStyle = "none" if bare and chance(rng, BARE_HANDLES) else pick(rng, rules.handle)
     grip: Grip = pick(rng, GRIPS) if handle == "none" and leaf == "slab" else "none"
-    frame = between(rng, (0.025, 0.055)) if chance(rng, rules.framed) else 0.0
+    frame = between(rng, (0.025, 0.055)) if chance(rng, rules.framed) and not bare else 0.0
     full = chance(rng, 0.6 if handle == "bar-profile" else LONG_SHARE)
     return Style(
         tradition=name,
@@ -112,28 +133,43 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         # fronts cover all of a panel, or leave a visible reveal as face frames do in every second piece
         lap=between(rng, (0.01, 0.02)) if chance(rng, 0.45 if frame else 0.08) else 1.0,
         frame=frame,
-        muntin=between(rng, (0.02, 0.07)) if chance(rng, rules.muntin) else 0.0,
-        moulding=between(rng, (0.03, 0.08)) if chance(rng, rules.moulded) else 0.0,
+        muntin=between(rng, (0.02, 0.07)) if chance(rng, rules.muntin) and not bare else 0.0,
+        moulding=between(rng, (0.03, 0.08)) if chance(rng, rules.moulded) and not bare else 0.0,
         leaf=leaf,
         drawer_leaf=_drawer_leaf(rng, leaf, rules),
         handle=handle,
         drawer_handle=_drawer_handle(rng, handle, rules),
         grip=grip,
-        carry=pick(rng, KNOB_CARRIES if handle.startswith(("knob", "ring")) else CARRIES),
-        # 60 mm to the width of a front: long bars are the rule on modern pieces (real median: 0.38 of the front)
-        length=None if chance(rng, 0.2) else float(0.09 * (0.55 / 0.09) ** rng.random()),
+        carry=pick(rng, _carries(name, handle)),
+        length=None if chance(rng, 0.2) else spread(rng, BAR_LENGTHS),
         full=full,
-        inset=between(rng, (0.025, 0.07)),
+        knob=None if chance(rng, 0.3) else spread(rng, KNOB_LENGTHS),
+        protrusion=None if chance(rng, 0.4) else between(rng, PROTRUSIONS),
+        inset=spread(rng, INSETS),
         drawer_high=chance(rng, 0.3),
         box=pick(rng, rules.box),
         between=pick(rng, rules.between),
         opening=radians(between(rng, rules.opening)),
         travel=between(rng, (0.55, 0.95)),
-        runners=chance(rng, 0.08),
+        runners=chance(rng, 0.0 if bare else 0.08),
         # slides need 12.5 mm; models are drawn tighter and looser
         slide_gap=pick(rng, {0.0125: 5.0, 0.005: 2.0, 0.002: 1.0, 0.02: 1.0}),
+        pitch=between(rng, PITCHES[chance(rng, CLOSE_SHELVES)]),
+        bare=bare,
         finish=draw_finish(rng),
     )
+
+
+def pushed(rng: np.random.Generator, style: Style, share: float = PUSHED) -> Style:
+    """Returns the style, in this share of draws with fronts that are pushed open or drawn by their edge."""
+    return replace(style, handle="none", drawer_handle="none") if chance(rng, share) else style
+
+
+def _carries(name: TraditionName, handle: HandleStyle) -> Mapping[Carry, float]:
+    """Returns where pieces of this tradition carry such handles."""
+    if handle.startswith(("knob", "ring")):
+        return KNOB_CARRIES
+    return KITCHEN_CARRIES if name in KITCHENS else CARRIES
 
 
 def _drawer_leaf(rng: np.random.Generator, leaf: LeafStyle, rules: Tradition) -> LeafStyle:

@@ -25,8 +25,9 @@ TraditionName = Literal[
 class Tradition:
     """What the makers of one tradition choose: tables of weights, spans in metres, shares from 0 to 1.
 
-    `leaf` is a piece's door style, and the share `plain_drawers` of pieces has slab drawer fronts beside it. `framed`
-    is the share with a face frame, `moulded` with a moulding. `opening` is how far doors swing, degrees.
+    `leaf` is a piece's door style, and the share `plain_drawers` of pieces has slab drawer fronts beside it. `bare`
+    is the share drawn with the fewest parts that still make a piece (46408 has 8, 49182 has 10), `framed` that with a
+    face frame, `moulded` with a moulding. `opening` is how far doors swing, degrees.
     """
 
     panel: Mapping[float, float]
@@ -41,6 +42,7 @@ class Tradition:
     base: Mapping[BaseKind, float]
     leg: Mapping[LegShape, float]
     top: Mapping[TopKind, float]
+    bare: float = 0.06
     plain_drawers: float = 0.3
     framed: float = 0.0
     moulded: float = 0.0
@@ -104,6 +106,7 @@ def mixed(*shares: tuple[float, Handles]) -> dict[HandleStyle, float]:
 TRADITIONS: dict[TraditionName, Tradition] = {
     "frameless": Tradition(
         panel=MELAMINE,
+        bare=0.1,
         front={0.013: 1.0, 0.016: 3.0, 0.018: 4.0, 0.019: 3.0, 0.022: 1.0},
         back=THIN_BACK,
         mount={"overlay": 0.96, "inset": 0.04},
@@ -120,6 +123,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "face frame": Tradition(
         panel=PLYWOOD,
+        bare=0.0,
         front={0.016: 1.0, 0.017: 2.0, 0.019: 4.0, 0.022: 1.0},
         back=THIN_BACK,
         mount={"overlay": 0.82, "inset": 0.18},
@@ -206,12 +210,13 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "minimal": Tradition(
         panel=ROUNDED,
+        bare=0.3,
         front={0.01: 1.0, 0.015: 1.0, 0.018: 2.0, 0.02: 4.0, 0.025: 1.0, 0.03: 0.7, 0.04: 0.3},
         back=ANY_BACK,
         mount={"overlay": 0.65, "inset": 0.35},
         gap=(0.0005, 0.005),
         leaf={"slab": 0.9, "chamfered": 0.03, "rounded": 0.03, "glass": 0.04},
-        handle=mixed((0.45, BARS), (0.32, KNOBS), (0.23, NONE)),
+        handle=mixed((0.42, BARS), (0.3, KNOBS), (0.28, NONE)),
         box=CRUDE_BOXES,
         between={"nothing": 0.45, "panel": 0.45, "rail": 0.1},
         base={"none": 0.45, "plinth": 0.2, "legs": 0.25, "sled": 0.05, "posts": 0.05},
@@ -255,6 +260,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "flat-pack": Tradition(
         panel={0.015: 3.0, 0.016: 4.0, 0.018: 2.0, 0.012: 0.7},
+        bare=0.14,
         front={0.015: 3.0, 0.016: 3.0, 0.018: 2.0, 0.012: 0.7},
         back={0.003: 6.0, 0.004: 3.0, 0.002: 1.0},
         mount={"overlay": 0.8, "inset": 0.2},

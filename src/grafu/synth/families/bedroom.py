@@ -15,7 +15,7 @@ from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
 from grafu.synth.inside import Inside
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
-from grafu.synth.style import draw_style
+from grafu.synth.style import draw_style, pushed
 from grafu.synth.traditions import TraditionName
 
 BEDROOM: Mapping[TraditionName, float] = {
@@ -52,12 +52,12 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
 
 def dresser(rng: np.random.Generator) -> Cabinet:
     """Returns a dresser: drawers in rows and columns, sometimes with a door beside them."""
-    style = draw_style(rng, BEDROOM)
+    style = pushed(rng, draw_style(rng, BEDROOM))
     size = draw_size(rng, (0.4, 1.7), (0.38, 0.55), (0.6, 1.35))
     width, _, height = size
     columns = 1 if width < 0.75 else 2 if width < 1.3 or chance(rng, 0.7) else 3
     rows = max(2, round(height / between(rng, (0.17, 0.28))))
-    layout = drawer_grid(rng, style, columns, min(rows, 6))
+    layout = drawer_grid(rng, style, columns, min(rows, 4 if columns == 3 else 6))
     if columns == 1 and width > 0.6 and chance(rng, 0.35):
         small = drawer_row(rng, 2 if chance(rng, 0.7) else 3)
         layout = Stack((*(Drawer(),) * (min(rows, 5) - 1), small), (), style.between)
@@ -68,8 +68,8 @@ def dresser(rng: np.random.Generator) -> Cabinet:
 
 def nightstand(rng: np.random.Generator) -> Cabinet:
     """Returns a nightstand: one to three drawers, an open bay, a door."""
-    style = draw_style(rng, BEDROOM)
-    size = draw_size(rng, (0.35, 0.65), (0.3, 0.48), (0.4, 0.75))
+    style = pushed(rng, draw_style(rng, BEDROOM))
+    size = draw_size(rng, (0.35, 0.8), (0.3, 0.48), (0.32, 0.75))
     kind = pick(rng, {"drawers": 0.45, "drawer over bay": 0.3, "drawer over door": 0.17, "door": 0.08})
     layouts: dict[str, Layout] = {
         "drawers": drawer_stack(rng, style, count(rng, 1, 3)),
@@ -98,11 +98,14 @@ def shoe_cabinet(rng: np.random.Generator) -> Cabinet:
 
 def apothecary(rng: np.random.Generator) -> Cabinet:
     """Returns a chest of many small drawers, to 24 of them."""
-    style = draw_style(rng, {"shaker": 0.45, "ornate": 0.25, "flat-pack": 0.2, "minimal": 0.1})
+    style = pushed(rng, draw_style(rng, {"shaker": 0.45, "ornate": 0.25, "flat-pack": 0.2, "minimal": 0.1}))
     columns, rows = pick(
         rng, {(3, 3): 2.0, (3, 4): 2.0, (4, 3): 1.5, (4, 4): 1.5, (3, 5): 1.0, (4, 5): 0.6, (4, 6): 0.4, (6, 4): 0.3}
     )
     size = (columns * between(rng, (0.18, 0.3)), between(rng, (0.28, 0.45)), 0.1 + rows * between(rng, (0.13, 0.2)))
+    if columns * rows > 12:  # each in a box of its own would make more parts than a model may have
+        column = drawer_stack(rng, replace(style, between="nothing"), rows)
+        return build_cabinet(rng, "apothecary", style, size, Row((column,) * columns), OVER, STAND)
     return build_cabinet(rng, "apothecary", style, size, drawer_grid(rng, style, columns, rows), OVER, STAND)
 
 

@@ -6,7 +6,7 @@ from grafu.synth.cabinet import Cabinet
 from grafu.synth.carpentry import FREE, Site, fitted, needed_gap
 from grafu.synth.case import Case
 from grafu.synth.casework import ANY, Build, draw_case
-from grafu.synth.chance import Span, between
+from grafu.synth.chance import Span, between, spread
 from grafu.synth.families.layouts import with_inner_drawers
 from grafu.synth.layout import Layout
 from grafu.synth.style import Style
@@ -17,8 +17,8 @@ Size = tuple[float, float, float]
 
 
 def draw_size(rng: np.random.Generator, width: Span, depth: Span, height: Span) -> Size:
-    """Returns a size (width, depth, height) in metres, each drawn evenly."""
-    return between(rng, width), between(rng, depth), between(rng, height)
+    """Returns a size (width, depth, height) in metres: depth and height drawn evenly, of widths each doubling alike."""
+    return spread(rng, width), between(rng, depth), between(rng, height)
 
 
 def build_cabinet(

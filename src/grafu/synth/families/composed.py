@@ -68,9 +68,11 @@ def _island_front(rng: np.random.Generator, style: Style, width: float, height: 
 
 def kitchen_units(rng: np.random.Generator) -> Ensemble:
     """Returns kitchen units side by side under one worktop, mostly wall units above, now and then a tall one."""
-    style = replace(draw_style(rng, KITCHEN), moulding=0.0, opening=pi / 2)  # further doors would strike neighbours
+    style = replace(
+        draw_style(rng, KITCHEN), moulding=0.0, runners=False, opening=pi / 2
+    )  # further doors would strike neighbours
     height, depth = between(rng, (0.72, 0.88)), between(rng, (0.52, 0.62))
-    widths = [pick(rng, UNIT_WIDTHS) for _ in range(count(rng, 2, 3))]
+    widths = [pick(rng, UNIT_WIDTHS) for _ in range(3 if chance(rng, 0.3) else 2)]
     whole = sum(widths)
     build = replace(BASE, tops=("between", "none", "stretchers"), bases=("plinth", "toe kick"))
     lows = [_unit(rng, style, (w, depth, height), build) for w in widths]
@@ -82,7 +84,7 @@ def kitchen_units(rng: np.random.Generator) -> Ensemble:
     top = Slab(PartLabel.TOP_PANEL, "worktop", (-whole / 2, reach, height), (whole / 2, depth / 2, height + thick))
     boards = [top]
     tall_side = pick(rng, {0: 0.7, -1: 0.15, 1: 0.15})
-    if chance(rng, 0.65):
+    if chance(rng, 0.65 if len(widths) == 2 else 0.3):
         members += _wall_units(rng, style, widths, depth, height + thick + between(rng, (0.45, 0.6)), tall_side)
     if tall_side:
         width = pick(rng, UNIT_WIDTHS)

@@ -33,7 +33,8 @@ BASE = Build(
     moulded=False,
 )
 TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "over"), legs=(0.05, 0.15))
-BRIDGES = 0.2  # wall units that are wide and low, over a hood or a fridge (46408)
+NARROW = 0.09  # base units for bottles, towels, trays
+BRIDGES = 0.27  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 BASE_FRONTS = {"doors": 0.3, "under drawers": 0.36, "drawers": 0.22, "beside": 0.06, "open": 0.06}
 
@@ -41,7 +42,7 @@ BASE_FRONTS = {"doors": 0.3, "under drawers": 0.36, "drawers": 0.22, "beside": 0
 def base_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a base unit: doors, doors under drawers, or drawers alone."""
     style = draw_style(rng, KITCHEN)
-    size = draw_size(rng, (0.3, 1.2), (0.42, 0.65), (0.72, 0.9))
+    size = draw_size(rng, (0.15, 0.3) if chance(rng, NARROW) else (0.3, 1.2), (0.42, 0.65), (0.72, 0.9))
     return build_cabinet(rng, "base_cabinet", style, size, base_layout(rng, style, size), BASE)
 
 
@@ -64,7 +65,7 @@ def wall_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a wall unit: doors, or a lift-up flap where it is wide and low (six in ten of those)."""
     style = draw_style(rng, KITCHEN)
     bridge = chance(rng, BRIDGES)
-    size = draw_size(rng, (0.6, 1.1) if bridge else (0.3, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
+    size = draw_size(rng, (0.6, 1.25) if bridge else (0.2, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
     return build_cabinet(
         rng, "wall_cabinet", style, size, wall_layout(rng, style, size), WALL_HUNG, _beside(rng, ON_WALL)
     )
@@ -73,7 +74,7 @@ def wall_cabinet(rng: np.random.Generator) -> Cabinet:
 def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
     """Returns the fronts of a wall unit of this size."""
     width, _, height = size
-    if width > 1.5 * height and chance(rng, 0.6):
+    if width > 1.5 * height and chance(rng, 0.65):
         return Door("top")
     if height > 0.6 and width > 0.5 and chance(rng, 0.08):
         return Stack((Door("top"), Door("top")), between=style.between)
@@ -86,7 +87,7 @@ def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
 def tall_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a tall unit: doors above doors, above drawers, or one door over all its height."""
     style = draw_style(rng, KITCHEN)
-    size = draw_size(rng, (0.3, 0.95), (0.35, 0.62), (1.35, 2.3))
+    size = draw_size(rng, (0.25, 0.95), (0.35, 0.62), (1.35, 2.3))
     layout = tall_layout(rng, style, size)
     return build_cabinet(rng, "tall_cabinet", style, size, layout, TALL, _beside(rng, FREE))
 

@@ -48,7 +48,7 @@ def sideboard(rng: np.random.Generator) -> Cabinet:
 def tv_stand(rng: np.random.Generator) -> Cabinet:
     """Returns a low TV stand: open bays between drawers and doors."""
     style = draw_style(rng, LIVING)
-    size = draw_size(rng, (0.9, 2.2), (0.33, 0.5), (0.32, 0.65))
+    size = draw_size(rng, (0.9, 2.6), (0.33, 0.5), (0.3, 0.65))
     low = style.between
     fronts: Mapping[Layout, float] = {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25}
     closed = pick(rng, fronts)
@@ -67,7 +67,7 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
 def lowboard(rng: np.random.Generator) -> Cabinet:
     """Returns a lowboard: flaps that drop down (mostly) or lift up, drawers or bays beside them."""
     style = draw_style(rng, {"minimal": 0.35, "frameless": 0.25, "mid-century": 0.25, "flat-pack": 0.15})
-    size = draw_size(rng, (0.9, 2.4), (0.35, 0.5), (0.28, 0.6))
+    size = draw_size(rng, (0.9, 2.6), (0.35, 0.5), (0.25, 0.6))
     flap = Door("bottom" if chance(rng, 0.8) else "top")
     columns = max(1, round(size[0] / between(rng, (0.6, 0.95))))
     cells: list[Layout] = [flap] * columns
@@ -82,7 +82,7 @@ def lowboard(rng: np.random.Generator) -> Cabinet:
 def bookcase(rng: np.random.Generator) -> Cabinet:
     """Returns a bookcase: open shelves above doors or drawers."""
     style = draw_style(rng, LIVING)
-    size = draw_size(rng, (0.5, 1.6), (0.26, 0.42), (1.2, 2.2))
+    size = draw_size(rng, (0.3, 1.6), (0.22, 0.42), (1.2, 2.2))
     width, _, height = size
     low: Layout = doors_across(rng, width) if chance(rng, 0.75) else drawer_stack(rng, style, count(rng, 1, 3))
     bay = Bay(shelves=max(2, round(0.65 * height / between(rng, (0.28, 0.42)))))
@@ -102,7 +102,7 @@ def bookcase(rng: np.random.Generator) -> Cabinet:
 def display_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a cabinet with glass doors, over all its height or above plain doors or drawers."""
     style = draw_style(rng, LIVING)
-    size = draw_size(rng, (0.4, 1.4), (0.3, 0.45), (1.1, 2.1))
+    size = draw_size(rng, (0.35, 1.4), (0.3, 0.45), (1.1, 2.1))
     glass = pick(rng, GLASS)
     tall: Layout = Door(leaf=glass) if size[0] < 0.55 else Pair(leaf=glass)
     if size[0] > 1.1:
@@ -138,7 +138,7 @@ def free_form(rng: np.random.Generator) -> Cabinet:
     """Returns a cabinet of any size whose front is split at random into rows and stacks."""
     style = draw_style(rng, dict.fromkeys(LIVING, 1.0) | {"office": 1.0, "face frame": 1.0})
     size = draw_size(rng, (0.4, 2.2), (0.3, 0.65), (0.4, 2.2))
-    layout = free_layout(rng, style, size[0], size[2])
+    layout = free_layout(rng, style, size[0], size[2], count(rng, 2, 3) if size[0] * size[2] < 2.0 else 2)
     if isinstance(layout, Bay):
         layout = doors_across(rng, size[0])
     return build_cabinet(rng, "cabinet", style, size, layout)

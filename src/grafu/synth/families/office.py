@@ -1,4 +1,4 @@
-"""Filing cabinets, and boxes that look like fridges, ovens and dishwashers."""
+"""Filing cabinets, plan chests, and boxes that look like fridges, ovens and dishwashers."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,7 +11,7 @@ from grafu.synth.casework import Build
 from grafu.synth.chance import between, chance, count, pick
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.layout import Blank, Door, Drawer, Layout, Pair, Stack
-from grafu.synth.style import draw_style
+from grafu.synth.style import draw_style, pushed
 from grafu.synth.traditions import TraditionName
 
 OFFICE: Mapping[TraditionName, float] = {"office": 0.5, "minimal": 0.2, "flat-pack": 0.2, "shaker": 0.1}
@@ -20,7 +20,7 @@ STAND = Site(hand=0.9)
 
 def filing_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a filing cabinet: two to five like drawers, the lowest deeper on pedestals on casters."""
-    style = replace(draw_style(rng, OFFICE), leaf="slab", drawer_leaf="slab", frame=0.0)
+    style = pushed(rng, replace(draw_style(rng, OFFICE), leaf="slab", drawer_leaf="slab", frame=0.0))
     mobile = chance(rng, 0.45)
     size = draw_size(rng, (0.35, 0.5), (0.42, 0.65), (0.5, 0.75) if mobile else (0.7, 1.4))
     number = count(rng, 2, 3) if mobile else count(rng, 2, 5)
@@ -28,6 +28,19 @@ def filing_cabinet(rng: np.random.Generator) -> Cabinet:
     layout = Stack((Drawer(),) * number, shares, style.between)
     build = Build(bases=("legs", "none", "plinth"), legs=(0.03, 0.08), moulded=False, framed=False)
     return build_cabinet(rng, "filing_cabinet", style, size, layout, build, STAND)
+
+
+def plan_chest(rng: np.random.Generator) -> Cabinet:
+    """Returns a chest of many flat drawers, as wide as a drawing or as small as a tool chest."""
+    style = pushed(rng, replace(draw_style(rng, OFFICE), leaf="slab", drawer_leaf="slab", frame=0.0, runners=False))
+    large = chance(rng, 0.6)
+    size = draw_size(rng, (0.9, 1.4) if large else (0.4, 0.75), (0.6, 0.95) if large else (0.3, 0.45), (0.35, 0.95))
+    number = max(3, min(14, round((size[2] - 0.1) / between(rng, (0.038, 0.075)))))
+    style = replace(style, between="nothing", length=None if style.length is None else min(style.length, 0.14))
+    shares = (*(2.0,) * count(rng, 1, 2), *(1.0,) * (number - 2)) if chance(rng, 0.3) else ()
+    layout = Stack((Drawer(),) * (len(shares) or number), shares, "nothing")
+    build = Build(bases=("none", "plinth", "legs"), legs=(0.03, 0.12), moulded=False, framed=False)
+    return build_cabinet(rng, "plan_chest", style, size, layout, build, STAND)
 
 
 def fridge(rng: np.random.Generator) -> Cabinet:

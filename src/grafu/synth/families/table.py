@@ -46,6 +46,7 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "rack": (1.0, racks.rack),
     "free form": (3.5, living.free_form),
     "filing cabinet": (1.5, office.filing_cabinet),
+    "plan chest": (1.0, office.plan_chest),
     "desk": (4.0, tables.desk),
     "writing desk": (3.0, tables.writing_desk),
     "table with drawers": (4.0, tables.drawer_table),

@@ -8,7 +8,7 @@ import numpy as np
 from grafu.synth.cabinet import Cabinet
 from grafu.synth.carpentry import Site, fitted, needed_gap
 from grafu.synth.casework import EDGES, ORNATE_EDGES, Build, draw_base, draw_leg
-from grafu.synth.chance import Span, between, chance, count, only, pick, weights
+from grafu.synth.chance import Span, between, chance, count, only, pick, spread, weights
 from grafu.synth.construction import Stretcher
 from grafu.synth.desk import Desk
 from grafu.synth.families.built import Size, build_cabinet, draw_size
@@ -35,8 +35,14 @@ TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "console": ((0.8, 1.5), (0.28, 0.45), (0.7, 0.9), (1, 4)),
     "coffee": ((0.8, 1.3), (0.5, 0.8), (0.35, 0.5), (1, 2)),
     "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
+    "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 5)),
 }
-KINDS: Mapping[str, float] = {"side": 0.38, "console": 0.25, "coffee": 0.17, "dining": 0.2}
+KINDS: Mapping[str, float] = {"side": 0.36, "console": 0.22, "coffee": 0.15, "dining": 0.13, "long": 0.14}
+# metres: the height of a table's apron, from a pencil drawer's to a drawer's for cutlery or linen
+APRONS: Mapping[str, Span] = {
+    "side": (0.07, 0.22), "console": (0.05, 0.2), "coffee": (0.055, 0.18), "dining": (0.06, 0.16), "long": (0.055, 0.12)
+}  # fmt: skip
+THICK_LEGS = 0.25  # of small tables: legs and boards thick for their size (20411)
 
 
 def desk(rng: np.random.Generator) -> Desk:
@@ -98,7 +104,7 @@ def writing_desk(rng: np.random.Generator) -> Table:
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.8, 1.5), (0.45, 0.75), (0.7, 0.8))
     hutch = _hutch(rng, style, size[0], size[1]) if chance(rng, 0.2) else None
-    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.09, 0.16), hutch=hutch)
+    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.05, 0.16), hutch=hutch)
 
 
 def drawer_table(rng: np.random.Generator) -> Table:
@@ -106,9 +112,9 @@ def drawer_table(rng: np.random.Generator) -> Table:
     style = draw_style(rng, HOME)
     kind = pick(rng, KINDS)
     *spans, numbers = TABLES[kind]
-    two_sided = kind in ("dining", "coffee") and chance(rng, 0.4)
+    two_sided = kind in ("dining", "coffee", "long") and chance(rng, 0.4)
     size = draw_size(rng, *spans)
-    return _table(rng, "drawer_table", style, size, count(rng, *numbers), (0.08, 0.22), two_sided=two_sided)
+    return _table(rng, "drawer_table", style, size, count(rng, *numbers), APRONS[kind], two_sided=two_sided)
 
 
 def vanity(rng: np.random.Generator) -> Table:
@@ -132,8 +138,11 @@ def _table(
 ) -> Table:
     """Returns a table with this many drawers in its apron."""
     width, depth, height = size
+    thick = width < 0.8 and chance(rng, THICK_LEGS)
     leg = _table_leg(rng, style, min(width, depth))
-    zone = min(between(rng, apron), 0.35 * height)
+    if thick:
+        leg = replace(leg, thick=between(rng, (0.045, 0.08)))
+    zone = min(spread(rng, apron), 0.35 * height)
     gaps: Between = "panel" if chance(rng, 0.3) else "nothing"
     drawers: Layout = Row((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
@@ -145,7 +154,7 @@ def _table(
         width=width,
         depth=depth,
         height=height,
-        top=between(rng, (0.015, 0.045)),
+        top=between(rng, (0.03, 0.07) if thick else (0.015, 0.045)),
         leg=leg.thick,
         apron=zone,
         has_aprons=chance(rng, 0.85),
