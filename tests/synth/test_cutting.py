@@ -1,9 +1,10 @@
 """Which parts are drawn to be joined or cut: only still ones, and handles only with what carries them."""
 
 import numpy as np
+import pytest
 
 from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.cutting import GROUPS, draw_cuts, draw_joined
+from grafu.synth.cutting import GROUPS, NAMELESS, ODD, draw_cuts, draw_joined
 from grafu.synth.layout import Door, Drawer, Row, Stack
 from grafu.vocabulary import PartLabel
 from sketches import board, sketch
@@ -14,12 +15,24 @@ STILL = {p.id for p in TIDY.parts if p.label.is_support}
 
 def test_groups_join_still_parts_under_one_of_their_names() -> None:
     rng = np.random.default_rng(0)
-    names = {name for _, _, labels in GROUPS.values() for name in labels}
+    names = {label for _, labels in GROUPS.values() for label in labels} | {PartLabel.MISC}
     for _ in range(100):
         [group] = draw_joined(rng, TIDY, TIDY.parts, 1.0, 0.0)
         assert len(group.ids) > 1
         assert set(group.ids) <= STILL
         assert group.label in names
+        assert group.label is not PartLabel.BAR
+
+
+def test_what_is_joined_is_called_after_its_largest_wall_or_not_at_all() -> None:
+    rng = np.random.default_rng(3)
+    groups = [draw_joined(rng, TIDY, TIDY.parts, 1.0, 0.0)[0] for _ in range(300)]
+    mixed = [g for g in groups if len({TIDY.part(i).label for i in g.ids}) > 1]
+
+    assert sum(g.label is PartLabel.MISC for g in mixed) / len(mixed) == pytest.approx(ODD, abs=0.06)
+    assert sum(not g.named for g in mixed) / len(mixed) == pytest.approx(NAMELESS, abs=0.06)
+    assert not {g.label for g in mixed} & {PartLabel.TOP_PANEL, PartLabel.SHELF}
+    assert all(g.named for g in groups if g not in mixed)
 
 
 def test_handles_join_all_or_none() -> None:

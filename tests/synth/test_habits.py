@@ -7,7 +7,20 @@ import numpy as np
 import pytest
 
 from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.habits import AJAR, HABITS, NO_BACK, NO_BOTTOM, NO_HANDLES, draw_untidiness, is_storage
+from grafu.synth.habits import (
+    AJAR,
+    BOTH_SIDES,
+    DENSITY,
+    HABITS,
+    NO_BACK,
+    NO_BOTTOM,
+    NO_CASE_TOP,
+    NO_HANDLES,
+    NO_TOP,
+    TURNED,
+    draw_untidiness,
+    is_storage,
+)
 from grafu.synth.kinds import TIDY as KINDS
 from grafu.synth.layout import Door, Drawer, Row, Stack
 from grafu.synth.untidiness import Untidiness
@@ -43,7 +56,8 @@ def test_maskings_are_distributions_and_labels_survive_in_about_45_percent() -> 
 
 
 @pytest.mark.parametrize(
-    ("part", "rate"), [("back_panel", NO_BACK), ("bottom_panel", NO_BOTTOM), ("top_panel", 0.36), (HANDLES, NO_HANDLES)]
+    ("part", "rate"),
+    [("back_panel", NO_BACK), ("bottom_panel", NO_BOTTOM), ("top_panel", NO_CASE_TOP), (HANDLES, NO_HANDLES)],
 )
 def test_parts_are_missing_at_their_rates(part: str | set[str], rate: float) -> None:
     wanted = {part} if isinstance(part, str) else part
@@ -51,8 +65,19 @@ def test_parts_are_missing_at_their_rates(part: str | set[str], rate: float) -> 
     assert share([wanted <= set(u.missing) for u in draws()]) == pytest.approx(rate, abs=0.03)
 
 
-def test_kitchen_bases_go_without_a_top() -> None:
-    assert share(["top_panel" in u.missing for u in draws("base cabinet")]) == pytest.approx(0.7, abs=0.04)
+@pytest.mark.parametrize("family", ["base cabinet", "sideboard", "desk"])
+def test_tops_are_missing_where_nobody_sees_them(family: str) -> None:
+    assert share(["top_panel" in u.missing for u in draws(family)]) == pytest.approx(NO_TOP[family], abs=0.04)
+
+
+def test_faces_are_drawn_as_exporters_do() -> None:
+    assert share([u.both_sides for u in draws()]) == pytest.approx(BOTH_SIDES, abs=0.04)
+    assert share([u.density == "plain" for u in draws()]) == pytest.approx(DENSITY["plain"], abs=0.03)
+
+
+def test_few_look_the_wrong_way() -> None:
+    assert share([abs(u.yaw) > 1.0 for u in draws()]) == pytest.approx(TURNED, abs=0.015)
+    assert share([0 < abs(u.yaw) < 1.0 for u in draws()]) < 0.03
 
 
 def test_few_are_ajar_and_few_mislabelled() -> None:

@@ -17,6 +17,7 @@ from grafu.geometry.arrays import Mat4, Scalars
 from grafu.geometry.box_stack import BoxStack, box_frames, overlapping, penetrations, stacked
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
+from grafu.synth.tessellation import is_two_sided
 from grafu.vocabulary import JointType
 
 DEPTH = 0.001  # metres that parts may sink into one another: below what a modeller sees, above rounding
@@ -202,18 +203,24 @@ def _values(joint: AnnotatedJoint) -> Scalars:
 def _boxes(meshes: Iterable[TriangleMesh]) -> tuple[np.ndarray, BoxStack]:
     """Returns which meshes are boxes, and the boxes of all: their own, or the axis-aligned ones around them."""
     meshes = list(meshes)
-    maybe = np.array([len(mesh.faces) == _BOX_FACES for mesh in meshes], dtype=bool)
+    maybe = np.array([_may_be_box(mesh) for mesh in meshes], dtype=bool)
     lows, highs = np.array([mesh.box.low for mesh in meshes]), np.array([mesh.box.high for mesh in meshes])
     around = BoxStack.aligned(lows.reshape(-1, 3), highs.reshape(-1, 3))
     if not maybe.any():
         return maybe, around
-    is_box, boxes = box_frames(np.stack([m.vertices[m.faces] for m, may in zip(meshes, maybe, strict=True) if may]))
     rows = np.flatnonzero(maybe)
+    is_box, boxes = box_frames(np.stack([meshes[k].vertices[meshes[k].faces[:_BOX_FACES]] for k in rows]))
     parts = [np.array(getattr(around, name)) for name in ("centers", "halves", "rotations")]
     for values, name in zip(parts, ("centers", "halves", "rotations"), strict=True):
         values[rows] = getattr(boxes, name)
     maybe[rows] = is_box
     return maybe, BoxStack(*parts)
+
+
+def _may_be_box(mesh: TriangleMesh) -> bool:
+    """Whether a mesh has as many faces as a box, or as many again turned over."""
+    count = len(mesh.faces)
+    return count == _BOX_FACES or (count == 2 * _BOX_FACES and is_two_sided(mesh.faces))
 
 
 _known: dict[int, Clashes] = {}

@@ -188,13 +188,20 @@ def _edge_sheets(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
 
 
 def _pads(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+    """Yields a pad under each leg, or near the four corners, each below something that stands on the floor."""
     box, h, r = asset.box, between(rng, (0.003, 0.015)), between(rng, (0.01, 0.025))
-    legs = [p.box.center for p in asset.parts if p.label is PartLabel.LEG and p.box.low[2] < 0.001]
-    inset = vec3(*(box.half * (0.9, 0.85, 1.0)).tolist())
-    spots = [c[:2] for c in legs] or [box.center[:2] + inset[:2] * s for s in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    floor = float(box.low[2]) + 0.001
+    feet = [p.mesh.vertices[p.mesh.vertices[:, 2] < floor, :2] for p in asset.parts if p.label is PartLabel.LEG]
+    spots = [foot.mean(axis=0) for foot in feet if len(foot)]
+    if not spots:
+        corners = [box.center[:2] + box.half[:2] * s for s in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        standing = np.concatenate([p.mesh.vertices[p.mesh.vertices[:, 2] < floor, :2] for p in asset.parts])
+        nearest = [standing[np.linalg.norm(standing - corner, axis=1).argmin()] for corner in corners]
+        inward = [spot + r * np.sign(box.center[:2] - spot) for spot in nearest]
+        spots = list({tuple(np.round(spot, 3).tolist()): spot for spot in inward}.values())
     label = PartLabel.LEG if chance(rng, 0.6) else PartLabel.MISC
     for x, y in spots:
-        top = vec3(float(x), float(y), 0.0)
+        top = vec3(float(x), float(y), float(box.low[2]))
         yield Addition(label, "pad", turned(top - vec3(0.0, 0.0, h), top, ((0.0, r), (1.0, r)), 8))
 
 

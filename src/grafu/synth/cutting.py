@@ -13,35 +13,20 @@ from grafu.vocabulary import PartLabel
 
 _CASE = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.TOP_PANEL, PartLabel.DIVIDER)
 
-# What is joined, by weight, and what the result is called. 32052 has each pedestal's whole case as one back panel, and
-# 22692 and 49182 have panels with their mouldings in one.
-GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...], dict[PartLabel, float]]]] = {
-    "case": (
-        0.22,
-        (*_CASE, PartLabel.SHELF),
-        {
-            PartLabel.SIDE_PANEL: 0.4,
-            PartLabel.BACK_PANEL: 0.2,
-            PartLabel.MISC: 0.25,
-            PartLabel.FACE_FRAME: 0.15,
-        },
-    ),
-    "case without shelves": (
-        0.13,
-        _CASE,
-        {PartLabel.SIDE_PANEL: 0.5, PartLabel.BACK_PANEL: 0.25, PartLabel.MISC: 0.25},
-    ),
-    "sides": (0.15, (PartLabel.SIDE_PANEL,), {PartLabel.SIDE_PANEL: 1.0}),
-    "sides and back": (
-        0.1,
-        (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL),
-        {PartLabel.SIDE_PANEL: 0.6, PartLabel.BACK_PANEL: 0.4},
-    ),
-    "shelves": (0.12, (PartLabel.SHELF,), {PartLabel.SHELF: 1.0}),
-    "legs": (0.1, (PartLabel.LEG,), {PartLabel.LEG: 1.0}),
-    "bars": (0.08, (PartLabel.BAR,), {PartLabel.BAR: 1.0}),
-    "front frame": (0.1, (PartLabel.FACE_FRAME, PartLabel.BAR), {PartLabel.FACE_FRAME: 0.6, PartLabel.BAR: 0.4}),
+# What is joined, by weight. 32052 has each pedestal's whole case as one back panel, and 22692 and 49182 have panels
+# with their mouldings in one.
+GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...]]]] = {
+    "case": (0.22, (*_CASE, PartLabel.SHELF)),
+    "case without shelves": (0.13, _CASE),
+    "sides": (0.15, (PartLabel.SIDE_PANEL,)),
+    "sides and back": (0.1, (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL)),
+    "shelves": (0.12, (PartLabel.SHELF,)),
+    "legs": (0.1, (PartLabel.LEG,)),
+    "bars": (0.08, (PartLabel.BAR,)),
+    "front frame": (0.1, (PartLabel.FACE_FRAME, PartLabel.BAR)),
 }
+# What is joined of several kinds is called after its largest wall; now and then it is an odd part, or has no label.
+ODD, NAMELESS = 0.15, 0.12
 
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
 FRAME_IN_BARS = 0.6
@@ -59,17 +44,26 @@ def draw_joined(
     if chance(rng, share):
         able = {
             name: weight
-            for name, (weight, labels, _) in GROUPS.items()
+            for name, (weight, labels) in GROUPS.items()
             if sum(p.label in labels for p in still) > 1
             and len({p.label for p in still} & set(labels)) > (len(labels) > 1)
         }
         if able:
-            _, labels, names = GROUPS[pick(rng, able)]
-            found.append(Joined(tuple(p.id for p in still if p.label in labels), pick(rng, names)))
+            _, labels = GROUPS[pick(rng, able)]
+            found.append(_joined(rng, [p for p in still if p.label in labels]))
     riders = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.rides_on)
     if riders and chance(rng, handles):
         found.append(Joined(riders, None))
     return tuple(found)
+
+
+def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:
+    walls = [p for p in parts if p.label not in (PartLabel.TOP_PANEL, PartLabel.SHELF)] or parts
+    largest = max(walls, key=lambda p: float(p.box.volume)).label
+    alike = all(p.label is largest for p in parts)
+    odd, nameless = chance(rng, ODD), chance(rng, NAMELESS)
+    label = PartLabel.MISC if odd and not alike else largest
+    return Joined(tuple(p.id for p in parts), label, named=alike or not nameless)
 
 
 def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float) -> tuple[Cut, ...]:

@@ -1,9 +1,13 @@
 """Furniture without end: one specimen for each seed and index, the same for the same two. It writes no files."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.errors import GraphError
+from grafu.graph.edges import Contact
+from grafu.graph.edit import without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.synth.blueprint import draw_made
@@ -11,6 +15,7 @@ from grafu.synth.check import faults_in, faults_of
 from grafu.synth.habits import draw_untidiness
 from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
+from grafu.synth.tessellation import STEPS, tessellated
 from grafu.synth.truth import carriers, pairs_apart, with_true_edges
 from grafu.synth.untidiness import Untidiness, apply_untidiness, as_given
 from grafu.vocabulary import PartLabel
@@ -43,12 +48,12 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
             continue  # a door stretched or opened until no border lies along its pin
         fits = len(specimen.asset.parts) >= LEAST_PARTS and len(specimen.whole.parts) <= MOST_PARTS
         if fits and not faults_in(specimen):  # a stretched front may strike what it just passed
-            return specimen
+            return as_exported(specimen, untidiness)
     raise ValueError(f"no sound model was found for {name} in {ATTEMPTS} draws")
 
 
 def untidied(name: str, family: str, tidy: Asset, untidiness: Untidiness, points: int = 512) -> Specimen:
-    """Returns a tidy model as this untidiness leaves it, with its truth.
+    """Returns a tidy model as this untidiness leaves it, with its truth, boards still plain (see `as_exported`).
 
     Raises:
         GraphError: if a door cannot be said in the graph's codes any more.
@@ -60,6 +65,26 @@ def untidied(name: str, family: str, tidy: Asset, untidiness: Untidiness, points
     given, flaws = as_given(whole, untidiness, removable)
     apart = pairs_apart(contacts, truth)
     return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws), apart)
+
+
+def as_exported(specimen: Specimen, untidiness: Untidiness) -> Specimen:
+    """Returns the specimen with its faces drawn as the untidiness says.
+
+    Nothing moves by more than an edge is broken, so that motions stay true; contacts are looked at again where edges
+    were broken: what barely touched may not touch any more.
+    """
+    whole = tessellated(specimen.whole, untidiness.density, untidiness.edge, untidiness.both_sides)
+    if whole is specimen.whole:
+        return specimen
+    drawn = {part.id: part.surfaces for part in whole.parts}
+    parts = tuple(replace(part, surfaces=drawn[part.id]) for part in specimen.asset.parts)
+    truth, apart = specimen.truth, specimen.apart
+    if untidiness.density in STEPS:
+        contacts = parse_graph(whole)
+        apart = pairs_apart(contacts, replace(truth, edges=tuple(e for e in truth.edges if not isinstance(e, Contact))))
+        parted = pairs_apart(contacts, truth)
+        truth = without_contacts(truth, parted)
+    return replace(specimen, asset=replace(specimen.asset, parts=parts), whole=whole, truth=truth, apart=apart)
 
 
 def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:

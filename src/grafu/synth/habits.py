@@ -16,6 +16,7 @@ from grafu.synth.chance import between, chance, count, pick
 from grafu.synth.clutter import CLUTTER
 from grafu.synth.cutting import draw_cuts, draw_joined
 from grafu.synth.naming import draw_wording
+from grafu.synth.tessellation import Density
 from grafu.synth.untidiness import Faces, Misfit, Untidiness
 from grafu.vocabulary import PartLabel
 
@@ -52,16 +53,33 @@ HABITS: Final[dict[str, Habit]] = {
 }
 LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))  # shares of labels for the four entries of a masking
 
-# Parts that are not there. Tops: 48 % of real storage furniture has none (kitchen bases under one worktop, cases whose
-# top lies below another), tables nearly always have theirs. No handles at all: 3 of 17 (22692, 26608, 46896; 32052 and
-# 49182 have grips of other kinds), some of which are pushed to open; single ones are rarely forgotten.
+# Parts that are not there. Tops: 48 % of PartNet-Mobility's storage furniture has none, mostly kitchen units (one
+# worktop is drawn over several, or none); tables nearly always have theirs. No handles at all: 3 of 17 (22692, 26608,
+# 46896; 32052 and 49182 have grips of other kinds), some of which are pushed to open; single ones are rarely forgotten.
 NO_TOP: Final[dict[str, float]] = {
-    "base cabinet": 0.7,
+    # below a worktop, or above what anybody sees: most are modelled without
+    "base cabinet": 0.75,
     "sink cabinet": 0.8,
+    "corner cabinet": 0.7,
+    "wall cabinet": 0.65,
+    "oven": 0.6,
     "kitchen units": 0.6,
     "kitchen island": 0.4,
+    "tall cabinet": 0.4,
+    "fridge": 0.3,
+    # things are put on it: hardly any
+    "desk": 0.01,
+    "writing desk": 0.01,
+    "table with drawers": 0.01,
+    "vanity": 0.01,
+    # it is seen
+    "wardrobe": 0.13,
+    "dresser": 0.12,
+    "TV stand": 0.12,
+    "lowboard": 0.12,
+    "sideboard": 0.12,
 }
-NO_CASE_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.36, 0.01, 0.10, 0.08, 0.12
+NO_CASE_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.2, 0.01, 0.10, 0.08, 0.12
 NO_HANDLES, ONE_HANDLE_LOST, A_SHELF_LOST = 0.08, 0.03, 0.05
 
 # How likely panels are sheets, relative to the habit: those nobody looks at before those everybody sees.
@@ -77,8 +95,21 @@ SHEETS: Final[dict[PartLabel, float]] = {
     PartLabel.DOOR: 0.12,
 }
 THICKEST_SHEET = 0.023  # metres: a thicker panel's outer face alone would stand too far off for any hinge
-# All development models draw every face from both sides, as PartNet's exports do; the surface stays the same.
-FACES: Final[dict[Faces, float]] = {"doubled": 0.6, "inverted": 0.1, "loose": 0.1, "open back": 0.12, "shells": 0.08}
+# What else is done to the faces of some parts, or of all
+FACES: Final[dict[Faces, float]] = {"doubled": 0.3, "inverted": 0.2, "loose": 0.2, "open back": 0.2, "shells": 0.1}
+# All development models draw every face from both sides, as PartNet's exports do; artists' files and scans do not.
+BOTH_SIDES = 0.4
+# Faces of the median part: 16 to 1600 in the development models, of which half are drawn from both sides. Chamfers are
+# what modelling programs break edges with by default; finer rounding and splitting are for renderers and come seldom.
+DENSITY: Final[dict[Density, float]] = {
+    "plain": 0.85,
+    "broken edges": 0.055,
+    "rounded edges": 0.03,
+    "finely rounded": 0.015,
+    "split": 0.03,
+    "split twice": 0.02,
+}
+EDGE = (0.0005, 0.0025)  # metres: below, nobody sees it; above, contacts of boards set edge to edge would change
 # Nailers behind or under backs stand in 8 of 17 models, corner plates in 6, edges as sheets in 2, runners in 2.
 CLUTTER_WEIGHT: Final[dict[str, float]] = {
     "nailers": 3.0,
@@ -96,9 +127,10 @@ CLUTTER_WEIGHT: Final[dict[str, float]] = {
 AJAR = 0.02  # of models: 22692 and 26608 have one drawer pulled out each; they were picked for it more than others
 MISFIT = (0.0005, 0.008)  # metres: below, no reader notices; above, no maker would have left it
 GROWN = (0.0003, 0.003)
+SEEN, NEARLY = 0.004, 0.85  # of the largest side: so little is not seen in the whole, and most stay below it
 MISLABELLED = 0.01
 BEND = (0.0005, 0.003)  # metres: what scanning leaves on furniture
-YAWED, TURNED = 0.015, 0.025  # of models: askew by up to four degrees; front mistaken by quarter turns
+YAWED, TURNED = 0.015, 0.03  # of models: askew by up to four degrees; front mistaken by quarter turns
 SHUFFLED = 0.6  # part order: exporters sort by name, material or not at all
 STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, and by up to a quarter
 MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
@@ -128,7 +160,7 @@ def draw_untidiness(
         joined=joined,
         cuts=draw_cuts(rng, tidy, free, habit.cuts),
         faces=_faces(rng, habit, kept),
-        misfits=_misfits(rng, free) if chance(rng, habit.misfits) else (),
+        misfits=_misfits(rng, free, tidy.unit) if chance(rng, habit.misfits) else (),
         ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
         factors=_factors(rng),
         bend=between(rng, BEND) if chance(rng, habit.bend) else 0.0,
@@ -138,6 +170,9 @@ def draw_untidiness(
         masked=between(rng, LOST[int(rng.choice(4, p=habit.masking))]),
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
+        density=pick(rng, DENSITY),
+        edge=between(rng, EDGE),
+        both_sides=chance(rng, BOTH_SIDES),
     )
 
 
@@ -192,8 +227,11 @@ def _faces(rng: np.random.Generator, habit: Habit, parts: Sequence[Part]) -> tup
     return tuple(found)
 
 
-def _misfits(rng: np.random.Generator, parts: Sequence[Part]) -> tuple[Misfit, ...]:
-    """Returns one to three parts out of place, fronts before panels: a gap in a case is seldom left open."""
+def _misfits(rng: np.random.Generator, parts: Sequence[Part], unit: float) -> tuple[Misfit, ...]:
+    """Returns one to three parts out of place, fronts before panels: a gap in a case is seldom left open.
+
+    `unit` is the object's largest side: what is shifted by much more than a share of it looks broken.
+    """
     weights = np.array([3.0 if p.label.is_movable else 1.0 for p in parts])
     if not len(weights):
         return ()
@@ -203,6 +241,8 @@ def _misfits(rng: np.random.Generator, parts: Sequence[Part]) -> tuple[Misfit, .
         grown = chance(rng, 0.35)
         offset = np.zeros(3)
         amount = between(rng, GROWN if grown else MISFIT)
+        if not grown and chance(rng, NEARLY):
+            amount = min(amount, SEEN * unit)
         offset[int(rng.integers(3))] = amount if grown or chance(rng, 0.5) else -amount
         found.append(Misfit(parts[k].id, (float(offset[0]), float(offset[1]), float(offset[2])), grown))
     return tuple(found)

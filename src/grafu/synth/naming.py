@@ -39,6 +39,10 @@ def _frame_members(asset: Asset) -> dict[str, PartLabel]:
     return {p.id: PartLabel.BAR for p in asset.parts if p.label is PartLabel.FACE_FRAME and not _is_false_front(p)}
 
 
+def _odd_false_fronts(asset: Asset) -> dict[str, PartLabel]:
+    return {p.id: PartLabel.MISC for p in asset.parts if p.label is PartLabel.FACE_FRAME and _is_false_front(p)}
+
+
 def _frame_bars(asset: Asset) -> dict[str, PartLabel]:
     """Returns upright bars in front of the case as face frame: the converse of the habit above."""
     front = asset.box.low[1] + 0.25 * asset.box.size[1]
@@ -58,7 +62,7 @@ def _posts(asset: Asset) -> dict[str, PartLabel]:
 
 
 def _is_false_front(part: Part) -> bool:
-    """Whether a still part is a plate in the fronts' plane: false fronts are face frame in every wording."""
+    """Whether a still part is a plate in the fronts' plane: a false front is no bar in any wording."""
     width, depth, height = part.box.size.tolist()
     return depth < 0.03 and min(width, height) > 0.09 and len(part.surfaces) < 3
 
@@ -67,7 +71,8 @@ Rule = Callable[[Asset], dict[str, PartLabel]]
 
 # A rule and the share of models whose maker words it so. From the development models: toe kicks are side panels in all
 # of them (`base_side_panel`) and frame members bars (`frame_vertical_bar`); 23372 calls inner uprights side panels and
-# inner levels bottom panels, and the shelf between its legs too; 26608 has its dividers as connectors. Other makers
+# inner levels bottom panels, and the shelf between its legs too; 26608 has its dividers as connectors; 45001's false
+# fronts are face frame. Other makers
 # (the authors' vocabulary has divider and face frame) do otherwise, so no rule is certain.
 HABITS: Final[dict[str, tuple[Rule, float]]] = {
     "inner uprights are side panels": (_inner_uprights, 0.22),
@@ -75,6 +80,7 @@ HABITS: Final[dict[str, tuple[Rule, float]]] = {
     "inner levels are bottom panels": (_inner_levels, 0.06),
     "toe kicks are side panels": (_toe_kicks, 0.6),
     "frame members are bars": (_frame_members, 0.5),
+    "false fronts are odds and ends": (_odd_false_fronts, 0.15),
     "bars in front are face frame": (_frame_bars, 0.08),
     "a shelf between legs is a bottom panel": (_shelf_between_legs, 0.4),
     "legs are bars": (_posts, 0.03),

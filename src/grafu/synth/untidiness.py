@@ -26,14 +26,16 @@ from grafu.synth.segmentation import (
     with_joined,
     with_riders_joined,
 )
+from grafu.synth.sheets import with_anchored_sheets
 from grafu.synth.specimen import Defect
+from grafu.synth.tessellation import Density
 from grafu.vocabulary import PartLabel
 
 Offset = tuple[float, float, float]
 Faces = Literal["sheet", "open back", "doubled", "inverted", "loose", "shells"]
 
 FACE_EDITS: Final[dict[Faces, Callable[[Asset, Collection[str]], Asset]]] = {
-    "sheet": untidy.with_sheets,
+    "sheet": with_anchored_sheets,
     "open back": untidy.with_open_backs,
     "doubled": untidy.with_doubled_faces,
     "inverted": untidy.with_inverted_normals,
@@ -50,6 +52,7 @@ class Joined:
 
     ids: tuple[str, ...]
     label: PartLabel | None  # none: the ids are riders, and join what carries them
+    named: bool = True  # otherwise the input says no label for it
 
 
 @final
@@ -81,8 +84,9 @@ class Untidiness:
     """All that is untidy about one model; the parts named are those of the tidy one.
 
     `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
-    shares of their range; `masked` is the share of parts whose label is lost. What is left to chance in applying
-    (clutter, which labels are lost) follows `seed`.
+    shares of their range; `masked` is the share of parts whose label is lost. `density`, `edge` (metres) and
+    `both_sides` say how faces are drawn, `grafu.synth.tessellation`. What is left to chance in applying (clutter, which
+    labels are lost) follows `seed`.
     """
 
     habit: str
@@ -101,6 +105,9 @@ class Untidiness:
     masked: float = 0.0
     mislabelled: bool = False
     shuffled: bool = False
+    density: Density = "plain"
+    edge: float = 0.0015
+    both_sides: bool = False
 
 
 def apply_untidiness(tidy: Asset, untidiness: Untidiness) -> tuple[Asset, tuple[Defect, ...]]:
@@ -153,7 +160,9 @@ def as_given(whole: Asset, untidiness: Untidiness, removable: Collection[str]) -
         part = mistakable[int(rng.integers(len(mistakable)))]
         given = given.with_labels({part.id: mistaken(part, rng)})
         defects.append(Defect("mislabelled", (part.id,)))
-    return with_labels_masked(given, _masked(given, untidiness.masked, rng)), tuple(defects)
+    nameless = {_joined_id(k) for k, group in enumerate(untidiness.joined) if not group.named}
+    lost = _masked(given, untidiness.masked, rng) | {p.id for p in kept if p.id in nameless}
+    return with_labels_masked(given, lost), tuple(defects)
 
 
 def _masked(given: Asset, share: float, rng: np.random.Generator) -> frozenset[str]:
@@ -167,6 +176,10 @@ def _masked(given: Asset, share: float, rng: np.random.Generator) -> frozenset[s
     return frozenset(given.parts[k].id for k in picked)
 
 
+def _joined_id(k: int) -> str:
+    return f"joined_{k + 1}"
+
+
 def _has(asset: Asset, part_id: str) -> bool:
     return any(part.id == part_id for part in asset.parts)
 
@@ -177,7 +190,7 @@ def _recut(asset: Asset, untidiness: Untidiness) -> Asset:
             asset = with_riders_joined(asset, group.ids)
             continue
         ids = [p.id for p in asset.parts if p.id in group.ids]
-        asset = with_joined(asset, ids, group.label, f"joined_{k + 1}") if len(ids) > 1 else asset
+        asset = with_joined(asset, ids, group.label, _joined_id(k)) if len(ids) > 1 else asset
     for cut in untidiness.cuts:
         asset = _cut(asset, cut) if _has(asset, cut.part) else asset
     return asset

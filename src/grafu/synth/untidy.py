@@ -25,13 +25,17 @@ def with_sheets(asset: Asset, where: Collection[str] = ()) -> Asset:
     The outer side is that of the thin axis which looks away from the object's middle.
     """
     middle = asset.box.center
+    parts = ((as_sheet(p, middle) or p) if _selected(p, where) else p for p in asset.parts)
+    return replace(asset, parts=tuple(parts))
 
-    def outer(part: Part, surface: Surface) -> Surface:
-        thin = part.box.thin_axis
-        sign = 1.0 if part.box.center[thin] >= middle[thin] else -1.0
-        return _kept(surface, surface.mesh.face_normals[:, thin] * sign > 0.5)
 
-    return _edited(asset, where, outer)
+def as_sheet(part: Part, middle: Vec3, inner: bool = False) -> Part | None:
+    """Returns a board's face that looks away from the middle (`inner`: to it) as a part; None where it has none."""
+    thin = part.box.thin_axis
+    sign = 1.0 if (part.box.center[thin] >= middle[thin]) != inner else -1.0
+    surfaces = (_kept(s, s.mesh.face_normals[:, thin] * sign > 0.5) for s in part.surfaces)
+    left = tuple(s for s in surfaces if not s.is_empty)
+    return replace(part, surfaces=left) if left else None
 
 
 def with_open_backs(asset: Asset, where: Collection[str] = ()) -> Asset:
