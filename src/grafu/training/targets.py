@@ -1,0 +1,172 @@
+"""What the network is to answer about a graph, as arrays, and the padded batch of several. It knows no losses.
+
+Boxes stand in the frame of the INPUT graph's features, since that is where the network answers. The graph's edges are
+one symmetric matrix of codes and a matrix that says who is the child; of a moving part all edges state one motion, so
+that motion is a property of the part.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import final
+
+import numpy as np
+import torch
+from jaxtyping import Bool, Float32, Float64, Int64
+from torch import Tensor
+
+from grafu.graph.edges import Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import EdgeKind, PartLabel
+
+EDGES = (EdgeKind.CONTACT, EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED)  # the authors' codes (official.md 4)
+CONTACT, HINGE, RAIL, ATTACHED, NULL = range(5)
+NONE = -1  # no answer is known, or there is none: no loss is taken there
+_LABEL_CODES = {label: code for code, label in enumerate(PartLabel)}
+DOOR, DRAWER, HANDLE, UNKNOWN = (
+    _LABEL_CODES[label] for label in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE, PartLabel.UNKNOWN)
+)
+_EDGE_CODES = {kind: code for code, kind in enumerate(EDGES)}
+_PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending (official.md 3.2)
+
+
+@final
+@dataclass(frozen=True)
+class GraphTargets:
+    """The answers for one graph of t nodes, given n of them.
+
+    `boxes` are centres and half sizes in the normalised frame of the input; `edges` are codes, symmetric, null where
+    there is none; `child[i, j]` says that i hangs on j: it is the door, drawer or handle of their edge. `border`,
+    `sign` and `slide` are motion codes, `NONE` where a part has no such motion. `thin` is the thin axis of each box.
+    `anchors` names, for each input node, the node that it is.
+    """
+
+    labels: Int64[np.ndarray, " t"]
+    boxes: Float32[np.ndarray, "t 6"]
+    edges: Int64[np.ndarray, "t t"]
+    child: Bool[np.ndarray, "t t"]
+    border: Int64[np.ndarray, " t"]
+    sign: Int64[np.ndarray, " t"]
+    slide: Int64[np.ndarray, " t"]
+    thin: Int64[np.ndarray, " t"]
+    anchors: Int64[np.ndarray, " n"]
+
+
+@final
+@dataclass(frozen=True)
+class TargetBatch:
+    """The answers for several graphs, padded: `mask` marks the true nodes, `anchors` is `NONE` where n is padding."""
+
+    labels: Int64[Tensor, "b t"]
+    boxes: Float32[Tensor, "b t 6"]
+    edges: Int64[Tensor, "b t t"]
+    child: Bool[Tensor, "b t t"]
+    border: Int64[Tensor, "b t"]
+    sign: Int64[Tensor, "b t"]
+    slide: Int64[Tensor, "b t"]
+    anchors: Int64[Tensor, "b n"]
+    mask: Bool[Tensor, "b t"]
+
+    def to(self, device: torch.device | str) -> "TargetBatch":
+        """Returns the same batch on a device."""
+        moved = {f.name: getattr(self, f.name).to(device, non_blocking=True) for f in fields(self)}
+        return replace(self, **moved)
+
+
+def graph_targets(
+    target: FunctionalGraph, given: Sequence[str], origin: Float64[np.ndarray, "3"], scale: float
+) -> GraphTargets:
+    """Returns the answers for a functional graph of which the nodes `given` are seen, in the order of the input.
+
+    `origin` (metres) and `scale` (metres per unit) are those of the input's features: x becomes (x - origin) / scale.
+
+    Raises:
+        KeyError: if a given id is not in the target.
+    """
+    place = {node.id: k for k, node in enumerate(target.nodes)}
+    count = len(place)
+    edges, child = np.full((count, count), NULL), np.zeros((count, count), dtype=bool)
+    motion = np.full((3, count), NONE)
+    for edge in target.edges:
+        _enter(edge, place, edges, child, motion)
+    centres = np.array([n.box.center for n in target.nodes]).reshape(-1, 3)
+    sizes = np.array([n.box.size for n in target.nodes]).reshape(-1, 3)
+    return GraphTargets(
+        labels=np.array([_LABEL_CODES[n.label] for n in target.nodes], dtype=np.int64),
+        boxes=np.hstack([(centres - origin) / scale, sizes / (2 * scale)]).astype(np.float32),
+        edges=edges,
+        child=child,
+        border=motion[0],
+        sign=motion[1],
+        slide=motion[2],
+        thin=np.argmin(sizes, axis=1).astype(np.int64),
+        anchors=np.array([place[name] for name in given], dtype=np.int64),
+    )
+
+
+def mirrored_targets(targets: GraphTargets, across: int) -> GraphTargets:
+    """Returns the answers for the mirror image across axis 0 (X) or 1 (Y) (official.md 3.6).
+
+    Raises:
+        ValueError: if `across` is not 0 or 1.
+    """
+    if across not in (0, 1):
+        raise ValueError(f"`across` must be 0 (X) or 1 (Y): got {across}")
+    boxes = targets.boxes.copy()
+    boxes[:, across] *= -1
+    axes = _PLANE_AXES[targets.thin]
+    slot = np.maximum(targets.border, 0) // 2
+    pinned, along = (np.take_along_axis(axes, s[:, None], axis=1)[:, 0] for s in (slot, 1 - slot))
+    return replace(
+        targets,
+        boxes=boxes,
+        border=_flipped(targets.border, pinned == across),
+        sign=_flipped(targets.sign, along != across),
+        slide=_flipped(targets.slide, targets.slide // 2 == across),
+    )
+
+
+def stack_targets(graphs: Sequence[GraphTargets]) -> TargetBatch:
+    """Returns the graphs as one padded batch; padding is null, `NONE` and not marked in `mask`.
+
+    Raises:
+        ValueError: if there is no graph.
+    """
+    if not graphs:
+        raise ValueError("a batch must hold at least one graph: got none")
+    t = max(len(g.labels) for g in graphs)
+    n = max(len(g.anchors) for g in graphs)
+    return TargetBatch(
+        labels=_padded([g.labels for g in graphs], (t,), UNKNOWN),
+        boxes=_padded([g.boxes for g in graphs], (t, 6), 0.0),
+        edges=_padded([g.edges for g in graphs], (t, t), NULL),
+        child=_padded([g.child for g in graphs], (t, t), False),
+        border=_padded([g.border for g in graphs], (t,), NONE),
+        sign=_padded([g.sign for g in graphs], (t,), NONE),
+        slide=_padded([g.slide for g in graphs], (t,), NONE),
+        anchors=_padded([g.anchors for g in graphs], (n,), NONE),
+        mask=_padded([np.ones(len(g.labels), dtype=bool) for g in graphs], (t,), False),
+    )
+
+
+def _enter(edge: Edge, place: Mapping[str, int], edges: np.ndarray, child: np.ndarray, motion: np.ndarray) -> None:
+    first, second = (place[end] for end in ends_of(edge))
+    edges[first, second] = edges[second, first] = _EDGE_CODES[kind_of(edge)]
+    if isinstance(edge, Contact):
+        return
+    child[second, first] = True
+    if isinstance(edge, Hinge):
+        motion[:2, second] = edge.border, edge.sign
+    elif isinstance(edge, Rail):
+        motion[2, second] = edge.axis
+
+
+def _flipped(codes: np.ndarray, where: np.ndarray) -> np.ndarray:
+    """Returns the codes with their last bit, the side or sense, turned where asked and where there is a code."""
+    return np.where(where & (codes != NONE), codes ^ 1, codes)
+
+
+def _padded(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: float | int | bool) -> Tensor:
+    stacked = np.full((len(arrays), *shape), fill, dtype=arrays[0].dtype)
+    for row, array in zip(stacked, arrays, strict=True):
+        row[tuple(slice(size) for size in array.shape)] = array
+    return torch.from_numpy(stacked)
