@@ -31,7 +31,7 @@ from grafu.synth.legs import Leg, LegShape
 from grafu.synth.style import Style
 
 # How backs are modelled: nearly all are full sheets; the half and split ones are cheap furniture's.
-BACKS: Mapping[BackKind, float] = {"full": 0.92, "split": 0.03, "half": 0.02, "none": 0.03}
+BACKS: Mapping[BackKind, float] = {"full": 0.88, "split": 0.07, "half": 0.02, "none": 0.03}
 BOTTOMS: Mapping[BottomKind, float] = {"between": 0.74, "sheet": 0.1, "under": 0.14, "none": 0.02}
 SIDES: Mapping[SideKind, float] = {"panel": 0.95, "framed": 0.05}
 CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.7, "framed": 0.3}

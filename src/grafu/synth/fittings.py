@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.chance import between, chance, pick
 from grafu.synth.hold import Grip, HandleStyle, Hold
 from grafu.synth.inside import Inside
 from grafu.synth.layout import CURVED, Bay, Blank, Door, Drawer, LeafStyle, Pair, Rect, Side, Tilt
@@ -17,7 +17,8 @@ from grafu.synth.style import Style
 HINGE_EDGE = 0.003  # doors whose handle sits on the hinge side: modellers' errors
 SMALL_FRONT = 0.15  # metres: a framed leaf of this height would be all frame, so small fronts are mostly plain
 MOST_SHELVES = 7  # in one opening: more would be racks of trays
-NO_SHELVES, BARE_INSIDE = 0.22, 0.6  # openings left empty: modellers often stop at what is seen, of bare pieces more so
+NO_SHELVES, BARE_INSIDE = 0.1, 0.3  # openings left empty: modellers often stop at what is seen, of bare pieces more so
+MORE_SHELVES = {0: 0.5, 1: 0.35, -1: 0.15}  # than the pitch says
 INSIDES = {
     Inside(): 0.83,
     Inside(shelf="short"): 0.07,
@@ -165,8 +166,8 @@ def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, sty
     least = min(0.3, 2 * style.pitch)
     if asked or filled or room.height < least or chance(rng, BARE_INSIDE if style.bare else NO_SHELVES):
         return asked
-    usual = round(room.height / style.pitch) - 1 + count(rng, -1, 1)
-    return max(1 if room.height > 0.45 else 0, min(usual, MOST_SHELVES))
+    usual = round(room.height / style.pitch) - 1 + pick(rng, MORE_SHELVES)
+    return max(1 if room.height > 0.3 else 0, min(usual, MOST_SHELVES))
 
 
 def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: Style) -> Inside:

@@ -48,9 +48,11 @@ KNOB_LENGTHS = (0.013, 0.04)  # metres: the knobs of real models are this wide (
 PROTRUSIONS = (0.016, 0.046)  # metres: how far real bars stand off, from strips to thick rods
 INSETS = (0.016, 0.07)  # metres from an edge to its handle's middle: the widest doors have it nearest to their edge
 PITCHES = ((0.26, 0.42), (0.13, 0.25))  # metres between shelves: usual ones, and close ones as for linen or cans
-CLOSE_SHELVES = 0.3  # of pieces: 46456 and 49182 have three and five shelves in low rooms
+CLOSE_SHELVES = 0.42  # of pieces: 46456 and 49182 have three and five shelves in low rooms
 BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
-PUSHED = 0.15  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
+LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
+THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
+PUSHED = 0.25  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
     {
@@ -116,15 +118,15 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     rules = TRADITIONS[name]
     mount = pick(rng, rules.mount)
     bare = chance(rng, rules.bare)
-    leaf = pick(rng, rules.leaf)
+    leaf, panel = pick(rng, rules.leaf), pick(rng, rules.panel)
     handle: HandleStyle = "none" if bare and chance(rng, BARE_HANDLES) else pick(rng, rules.handle)
     grip: Grip = pick(rng, GRIPS) if handle == "none" and leaf == "slab" else "none"
     frame = between(rng, (0.025, 0.055)) if chance(rng, rules.framed) and not bare else 0.0
     full = chance(rng, 0.6 if handle == "bar-profile" else LONG_SHARE)
     return Style(
         tradition=name,
-        panel=pick(rng, rules.panel),
-        front=pick(rng, rules.front),
+        panel=panel,
+        front=min(pick(rng, rules.front), LIGHT_FRONT) if panel < LIGHT else pick(rng, rules.front),
         back=pick(rng, rules.back),
         mount=mount,
         gap=between(rng, rules.gap),
@@ -163,6 +165,11 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
 def pushed(rng: np.random.Generator, style: Style, share: float = PUSHED) -> Style:
     """Returns the style, in this share of draws with fronts that are pushed open or drawn by their edge."""
     return replace(style, handle="none", drawer_handle="none") if chance(rng, share) else style
+
+
+def chunky(rng: np.random.Generator, style: Style, share: float) -> Style:
+    """Returns the style, in this share of draws with boards that are thick for a small piece."""
+    return replace(style, panel=max(style.panel, between(rng, THICK_BOARDS))) if chance(rng, share) else style
 
 
 def _carries(name: TraditionName, handle: HandleStyle) -> Mapping[Carry, float]:

@@ -42,7 +42,7 @@ class Tradition:
     base: Mapping[BaseKind, float]
     leg: Mapping[LegShape, float]
     top: Mapping[TopKind, float]
-    bare: float = 0.06
+    bare: float = 0.12
     plain_drawers: float = 0.3
     framed: float = 0.0
     moulded: float = 0.0
@@ -53,10 +53,10 @@ class Tradition:
 
 # Melamine board is sold in 15, 16, 18, 19 and 22 mm, plywood in 9, 12, 18; solid wood in 20 and 22. The bare models of
 # modelling sites round them (20, 25) or exaggerate them (30 to 50).
-MELAMINE = {0.015: 1.0, 0.016: 4.0, 0.018: 5.0, 0.019: 3.0, 0.022: 0.7}
-PLYWOOD = {0.009: 1.0, 0.012: 3.0, 0.016: 2.0, 0.019: 4.0}
+MELAMINE = {0.01: 1.0, 0.012: 1.5, 0.013: 1.0, 0.015: 1.0, 0.016: 4.0, 0.018: 5.0, 0.019: 3.0, 0.022: 0.7}
+PLYWOOD = {0.009: 2.5, 0.012: 4.0, 0.016: 2.0, 0.019: 3.0}
 SOLID = {0.018: 2.0, 0.02: 4.0, 0.022: 3.0, 0.025: 2.0, 0.03: 0.7, 0.035: 0.5}
-ROUNDED = {0.01: 1.0, 0.015: 1.5, 0.018: 3.0, 0.02: 4.0, 0.025: 2.0, 0.03: 1.5, 0.04: 0.7, 0.05: 0.4}
+ROUNDED = {0.01: 1.0, 0.015: 1.5, 0.018: 3.0, 0.02: 4.0, 0.025: 2.0, 0.03: 1.5, 0.04: 1.0, 0.05: 0.7}
 
 # Backs are hardboard of 3 to 5 mm, thin plywood, or a board like the case (solid furniture, 49182: 35 mm).
 THIN_BACK = {0.003: 3.0, 0.004: 3.0, 0.006: 2.0, 0.009: 1.5, 0.018: 0.5}
@@ -106,7 +106,7 @@ def mixed(*shares: tuple[float, Handles]) -> dict[HandleStyle, float]:
 TRADITIONS: dict[TraditionName, Tradition] = {
     "frameless": Tradition(
         panel=MELAMINE,
-        bare=0.1,
+        bare=0.28,
         front={0.013: 1.0, 0.016: 3.0, 0.018: 4.0, 0.019: 3.0, 0.022: 1.0},
         back=THIN_BACK,
         mount={"overlay": 0.96, "inset": 0.04},
@@ -124,7 +124,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     "face frame": Tradition(
         panel=PLYWOOD,
         bare=0.0,
-        front={0.016: 1.0, 0.017: 2.0, 0.019: 4.0, 0.022: 1.0},
+        front={0.013: 1.5, 0.016: 1.5, 0.017: 2.0, 0.019: 3.5, 0.022: 1.0},
         back=THIN_BACK,
         mount={"overlay": 0.82, "inset": 0.18},
         gap=(0.002, 0.005),
@@ -210,7 +210,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "minimal": Tradition(
         panel=ROUNDED,
-        bare=0.3,
+        bare=0.42,
         front={0.01: 1.0, 0.015: 1.0, 0.018: 2.0, 0.02: 4.0, 0.025: 1.0, 0.03: 0.7, 0.04: 0.3},
         back=ANY_BACK,
         mount={"overlay": 0.65, "inset": 0.35},
@@ -260,7 +260,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "flat-pack": Tradition(
         panel={0.015: 3.0, 0.016: 4.0, 0.018: 2.0, 0.012: 0.7},
-        bare=0.14,
+        bare=0.32,
         front={0.015: 3.0, 0.016: 3.0, 0.018: 2.0, 0.012: 0.7},
         back={0.003: 6.0, 0.004: 3.0, 0.002: 1.0},
         mount={"overlay": 0.8, "inset": 0.2},

@@ -15,7 +15,7 @@ from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
 from grafu.synth.inside import Inside
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
-from grafu.synth.style import draw_style, pushed
+from grafu.synth.style import chunky, draw_style, pushed
 from grafu.synth.traditions import TraditionName
 
 BEDROOM: Mapping[TraditionName, float] = {
@@ -52,11 +52,11 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
 
 def dresser(rng: np.random.Generator) -> Cabinet:
     """Returns a dresser: drawers in rows and columns, sometimes with a door beside them."""
-    style = pushed(rng, draw_style(rng, BEDROOM))
+    style = pushed(rng, draw_style(rng, BEDROOM), 0.3)
     size = draw_size(rng, (0.4, 1.7), (0.38, 0.55), (0.6, 1.35))
     width, _, height = size
     columns = 1 if width < 0.75 else 2 if width < 1.3 or chance(rng, 0.7) else 3
-    rows = max(2, round(height / between(rng, (0.17, 0.28))))
+    rows = max(2, round(height / between(rng, (0.15, 0.28))))
     layout = drawer_grid(rng, style, columns, min(rows, 4 if columns == 3 else 6))
     if columns == 1 and width > 0.6 and chance(rng, 0.35):
         small = drawer_row(rng, 2 if chance(rng, 0.7) else 3)
@@ -68,7 +68,7 @@ def dresser(rng: np.random.Generator) -> Cabinet:
 
 def nightstand(rng: np.random.Generator) -> Cabinet:
     """Returns a nightstand: one to three drawers, an open bay, a door."""
-    style = pushed(rng, draw_style(rng, BEDROOM))
+    style = chunky(rng, pushed(rng, draw_style(rng, BEDROOM)), 0.2)
     size = draw_size(rng, (0.35, 0.8), (0.3, 0.48), (0.32, 0.75))
     kind = pick(rng, {"drawers": 0.45, "drawer over bay": 0.3, "drawer over door": 0.17, "door": 0.08})
     layouts: dict[str, Layout] = {

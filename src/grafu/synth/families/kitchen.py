@@ -16,7 +16,7 @@ from grafu.synth.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
 from grafu.synth.layout import Bay, Blank, Door, Layout, Pair, Row, Stack
-from grafu.synth.style import Style, draw_style
+from grafu.synth.style import Style, chunky, draw_style, pushed
 from grafu.synth.traditions import TraditionName
 
 KITCHEN: Mapping[TraditionName, float] = {
@@ -36,12 +36,12 @@ TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "ove
 NARROW = 0.09  # base units for bottles, towels, trays
 BRIDGES = 0.27  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
-BASE_FRONTS = {"doors": 0.3, "under drawers": 0.36, "drawers": 0.22, "beside": 0.06, "open": 0.06}
+BASE_FRONTS = {"doors": 0.34, "under drawers": 0.33, "drawers": 0.22, "beside": 0.05, "open": 0.06}
 
 
 def base_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a base unit: doors, doors under drawers, or drawers alone."""
-    style = draw_style(rng, KITCHEN)
+    style = pushed(rng, draw_style(rng, KITCHEN), 0.06)
     size = draw_size(rng, (0.15, 0.3) if chance(rng, NARROW) else (0.3, 1.2), (0.42, 0.65), (0.72, 0.9))
     return build_cabinet(rng, "base_cabinet", style, size, base_layout(rng, style, size), BASE)
 
@@ -63,7 +63,7 @@ def base_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
 
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a wall unit: doors, or a lift-up flap where it is wide and low (six in ten of those)."""
-    style = draw_style(rng, KITCHEN)
+    style = chunky(rng, draw_style(rng, KITCHEN), 0.06)
     bridge = chance(rng, BRIDGES)
     size = draw_size(rng, (0.6, 1.25) if bridge else (0.2, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
     return build_cabinet(
@@ -87,7 +87,7 @@ def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
 def tall_cabinet(rng: np.random.Generator) -> Cabinet:
     """Returns a tall unit: doors above doors, above drawers, or one door over all its height."""
     style = draw_style(rng, KITCHEN)
-    size = draw_size(rng, (0.25, 0.95), (0.35, 0.62), (1.35, 2.3))
+    size = draw_size(rng, (0.25, 0.95), (0.3, 0.62), (1.35, 2.35))
     layout = tall_layout(rng, style, size)
     return build_cabinet(rng, "tall_cabinet", style, size, layout, TALL, _beside(rng, FREE))
 
@@ -96,7 +96,7 @@ def tall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
     """Returns the fronts of a tall unit of this size."""
     width = size[0]
     doors = doors_across(rng, width)
-    kind = pick(rng, {"two": 0.45, "one": 0.2, "drawers": 0.2, "niche": 0.1, "three": 0.05})
+    kind = pick(rng, {"two": 0.42, "one": 0.28, "drawers": 0.17, "niche": 0.08, "three": 0.05})
     if kind == "one":
         return doors
     low = between(rng, (0.25, 1.4))

@@ -21,6 +21,7 @@ LIVING: Mapping[TraditionName, float] = {
 LOW = Build(tops=("over", "between"), legs=(0.08, 0.3))
 SLENDER = Build(tops=("between", "over"), legs=(0.04, 0.15), open_back=True, bases=("none", "plinth", "legs"))
 STAND = Site(hand=0.9)
+TOWERS = 0.2  # bookcases as narrow as one row of discs
 CLOSED: Mapping[Layout, float] = {Door(): 3.0, Drawer(): 1.0, Stack((Drawer(), Drawer()), (), "nothing"): 1.0}
 GLASS: Mapping[LeafStyle, float] = {"glass": 0.65, "muntins": 0.35}
 
@@ -48,7 +49,7 @@ def sideboard(rng: np.random.Generator) -> Cabinet:
 def tv_stand(rng: np.random.Generator) -> Cabinet:
     """Returns a low TV stand: open bays between drawers and doors."""
     style = draw_style(rng, LIVING)
-    size = draw_size(rng, (0.9, 2.6), (0.33, 0.5), (0.3, 0.65))
+    size = draw_size(rng, (0.9, 2.8), (0.33, 0.5), (0.3, 0.65))
     low = style.between
     fronts: Mapping[Layout, float] = {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25}
     closed = pick(rng, fronts)
@@ -67,7 +68,7 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
 def lowboard(rng: np.random.Generator) -> Cabinet:
     """Returns a lowboard: flaps that drop down (mostly) or lift up, drawers or bays beside them."""
     style = draw_style(rng, {"minimal": 0.35, "frameless": 0.25, "mid-century": 0.25, "flat-pack": 0.15})
-    size = draw_size(rng, (0.9, 2.6), (0.35, 0.5), (0.25, 0.6))
+    size = draw_size(rng, (1.0, 2.8), (0.35, 0.5), (0.25, 0.6))
     flap = Door("bottom" if chance(rng, 0.8) else "top")
     columns = max(1, round(size[0] / between(rng, (0.6, 0.95))))
     cells: list[Layout] = [flap] * columns
@@ -82,10 +83,11 @@ def lowboard(rng: np.random.Generator) -> Cabinet:
 def bookcase(rng: np.random.Generator) -> Cabinet:
     """Returns a bookcase: open shelves above doors or drawers."""
     style = draw_style(rng, LIVING)
-    size = draw_size(rng, (0.3, 1.6), (0.22, 0.42), (1.2, 2.2))
+    tower = chance(rng, TOWERS)
+    size = draw_size(rng, (0.22, 0.4) if tower else (0.35, 1.6), (0.18, 0.3) if tower else (0.24, 0.42), (1.2, 2.2))
     width, _, height = size
     low: Layout = doors_across(rng, width) if chance(rng, 0.75) else drawer_stack(rng, style, count(rng, 1, 3))
-    bay = Bay(shelves=max(2, round(0.65 * height / between(rng, (0.28, 0.42)))))
+    bay = Bay(shelves=max(2, round(0.65 * height / between(rng, (0.2, 0.4)))))
     above: Layout = bay
     if width > 0.9:
         above = Row((bay,) * (2 if width < 1.35 else 3))

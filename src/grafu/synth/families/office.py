@@ -33,9 +33,10 @@ def filing_cabinet(rng: np.random.Generator) -> Cabinet:
 def plan_chest(rng: np.random.Generator) -> Cabinet:
     """Returns a chest of many flat drawers, as wide as a drawing or as small as a tool chest."""
     style = pushed(rng, replace(draw_style(rng, OFFICE), leaf="slab", drawer_leaf="slab", frame=0.0, runners=False))
-    large = chance(rng, 0.6)
-    size = draw_size(rng, (0.9, 1.4) if large else (0.4, 0.75), (0.6, 0.95) if large else (0.3, 0.45), (0.35, 0.95))
-    number = max(3, min(14, round((size[2] - 0.1) / between(rng, (0.038, 0.075)))))
+    large = chance(rng, 0.75)
+    number = count(rng, 4, 12)
+    high = 0.08 + number * between(rng, (0.032, 0.065))
+    size = draw_size(rng, (0.9, 1.45) if large else (0.4, 0.75), (0.6, 0.95) if large else (0.3, 0.45), (high, high))
     style = replace(style, between="nothing", length=None if style.length is None else min(style.length, 0.14))
     shares = (*(2.0,) * count(rng, 1, 2), *(1.0,) * (number - 2)) if chance(rng, 0.3) else ()
     layout = Stack((Drawer(),) * (len(shares) or number), shares, "nothing")

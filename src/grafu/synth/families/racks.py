@@ -51,10 +51,10 @@ def _held(rng: np.random.Generator, style: Style) -> Rack:
         upright=between(rng, (0.015, 0.03)),
         deep=between(rng, (0.02, 0.045)),
         lift=lift,
-        shelves=count(rng, 2, 4),
+        shelves=count(rng, 2, 5),
         shelf=pick(rng, {style.panel: 0.6, 0.014: 0.4}),
         shelf_depth=between(rng, (0.55, 1.0)),
-        brackets=chance(rng, 0.6),
+        brackets=chance(rng, 0.8),
         metal=chance(rng, 0.65),
     )
 

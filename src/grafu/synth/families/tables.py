@@ -15,7 +15,7 @@ from grafu.synth.families.built import Size, build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
 from grafu.synth.layout import Bay, Between, Door, Drawer, Layout, Rect, Row, Stack
 from grafu.synth.legs import Leg, LegShape
-from grafu.synth.style import Style, draw_style
+from grafu.synth.style import Style, draw_style, pushed
 from grafu.synth.table import Table
 from grafu.synth.traditions import TraditionName
 
@@ -37,17 +37,18 @@ TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
     "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 5)),
 }
-KINDS: Mapping[str, float] = {"side": 0.36, "console": 0.22, "coffee": 0.15, "dining": 0.13, "long": 0.14}
+KINDS: Mapping[str, float] = {"side": 0.36, "console": 0.2, "coffee": 0.14, "dining": 0.1, "long": 0.2}
 # metres: the height of a table's apron, from a pencil drawer's to a drawer's for cutlery or linen
 APRONS: Mapping[str, Span] = {
-    "side": (0.07, 0.22), "console": (0.05, 0.2), "coffee": (0.055, 0.18), "dining": (0.06, 0.16), "long": (0.055, 0.12)
+    "side": (0.07, 0.22), "console": (0.042, 0.2), "coffee": (0.05, 0.18), "dining": (0.055, 0.16),
+    "long": (0.055, 0.11),
 }  # fmt: skip
-THICK_LEGS = 0.25  # of small tables: legs and boards thick for their size (20411)
+THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
 
 def desk(rng: np.random.Generator) -> Desk:
     """Returns a desk with one or two pedestals of drawers, a door now and then."""
-    style = draw_style(rng, DESK)
+    style = pushed(rng, draw_style(rng, DESK))
     size = draw_size(rng, (1.0, 1.9), (0.5, 0.85), (0.68, 0.78))
     pedestal = between(rng, (0.3, 0.48))
     both = size[0] > 1.2 and chance(rng, 0.5)
@@ -102,9 +103,9 @@ def _middle(rng: np.random.Generator, style: Style) -> Layout:
 def writing_desk(rng: np.random.Generator) -> Table:
     """Returns a desk on legs with one to three drawers in its apron, a hutch on it now and then."""
     style = draw_style(rng, HOME)
-    size = draw_size(rng, (0.8, 1.5), (0.45, 0.75), (0.7, 0.8))
+    size = draw_size(rng, (0.8, 1.8), (0.45, 0.75), (0.7, 0.8))
     hutch = _hutch(rng, style, size[0], size[1]) if chance(rng, 0.2) else None
-    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.05, 0.16), hutch=hutch)
+    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.037, 0.16), hutch=hutch)
 
 
 def drawer_table(rng: np.random.Generator) -> Table:
@@ -122,7 +123,7 @@ def vanity(rng: np.random.Generator) -> Table:
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.75, 1.3), (0.38, 0.55), (0.7, 0.8))
     mirror = between(rng, (0.4, 0.9)) if chance(rng, 0.75) else 0.0
-    return _table(rng, "vanity", style, size, count(rng, 2, 3), (0.1, 0.2), mirror=mirror)
+    return _table(rng, "vanity", style, size, count(rng, 2, 3), (0.06, 0.2), mirror=mirror)
 
 
 def _table(
