@@ -8,7 +8,7 @@ from grafu.synth.assembly import Piece
 from grafu.synth.case import Case
 from grafu.synth.construction import Stretcher
 from grafu.synth.finish import Finish
-from grafu.synth.legs import Leg, leg_meshes
+from grafu.synth.legs import Leg, lean, leg_meshes
 from grafu.synth.planks import Span, both_sides, plank, solid
 from grafu.synth.shapes import arched_rail, board
 from grafu.vocabulary import PartLabel
@@ -47,7 +47,7 @@ def waist(leg: Leg) -> float:
 def stretcher_pieces(
     kind: Stretcher, feet: tuple[float, float], bar: float, z: float, finish: Finish, wide: float
 ) -> Iterator[Piece]:
-    """Yields square bars between legs whose middles stand at (+-x, +-y); `wide` is a leg's width at their height."""
+    """Yields square bars between legs that stand at (+-x, +-y) and are `wide` at the height `z`."""
     (x, y), h, free = feet, bar / 2, max(wide, bar) / 2
     if kind == "none":
         return
@@ -110,7 +110,9 @@ def _below(case: Case, finish: Finish) -> Iterator[Piece]:
     bar = min(0.025, 0.7 * base.leg.thick)
     z = max(base.stretcher_at * (case.floor - base.apron), bar)
     if z + bar < case.floor - base.apron and base.leg.shape not in FEET:
-        yield from stretcher_pieces(base.stretcher, feet, bar, z, finish, waist(base.leg))
+        out = lean(base.leg, z, case.floor)
+        there = (feet[0] + out, feet[1] + out)
+        yield from stretcher_pieces(base.stretcher, there, bar, z, finish, waist(base.leg))
     if base.apron:
         x, y = feet[0] - base.leg.thick / 2, -feet[1] - base.leg.thick / 2
         low, high = (-x, y, case.floor - base.apron), (x, y + case.panel, case.floor)

@@ -17,6 +17,7 @@ LegShape = Literal[
 # (share of the way from the floor, share of the leg's half width)
 BALUSTER = ((0.0, 0.45), (0.04, 0.62), (0.10, 0.5), (0.14, 0.8), (0.19, 0.5), (0.5, 0.72), (0.66, 0.98), (0.7, 0.6))
 BUN = ((0.0, 0.55), (0.2, 0.9), (0.5, 1.0), (0.8, 0.85), (0.9, 0.6), (1.0, 0.6))
+STRAIGHT = 0.8  # share of a tapered leg's height at which its straight block begins
 CABRIOLE = (
     (0.0, 0.9, 0.55),
     (0.05, 1.1, 0.5),
@@ -54,6 +55,21 @@ def leg_meshes(leg: Leg, at: tuple[float, float], outward: tuple[float, float], 
     return _SHAPES[leg.shape](leg, vec3(*at, 0.0), vec3(*outward, 0.0), high)
 
 
+def lean(leg: Leg, z: float, high: float) -> float:
+    """Returns how far outwards of its top's middle a leg of this height stands at `z`, metres along x and along y."""
+    share, h = min(max(z / high, 0.0), 1.0), leg.thick / 2
+    match leg.shape:
+        case "tapered":
+            return h * (1 - leg.foot) * max(1 - share / STRAIGHT, 0.0)
+        case "splayed":
+            return leg.slant * high * (1 - share)
+        case "cabriole":
+            shares, shifts, _ = zip(*CABRIOLE, strict=True)
+            return h * float(np.interp(share, shares, shifts))
+        case _:
+            return 0.0
+
+
 def _square(leg: Leg, at: Vec3, _out: Vec3, high: float) -> list[TriangleMesh]:
     h = leg.thick / 2
     return [board((at[0] - h, at[1] - h, 0.0), (at[0] + h, at[1] + h, high))]
@@ -63,7 +79,7 @@ def _tapered(leg: Leg, at: Vec3, out: Vec3, high: float) -> list[TriangleMesh]:
     """Returns a leg whose inner faces run in towards the foot, below a straight block of a fifth of its height."""
     h = leg.thick / 2
     foot = at + out * h * (1 - leg.foot)
-    rings = [_ring(foot, leg.foot * h, 0.0), _ring(at, h, 0.8 * high), _ring(at, h, high)]
+    rings = [_ring(foot, leg.foot * h, 0.0), _ring(at, h, STRAIGHT * high), _ring(at, h, high)]
     return [loft(np.stack(rings))]
 
 

@@ -16,7 +16,7 @@ from grafu.synth.construction import Stretcher, TopEdge
 from grafu.synth.finish import PLAIN, Finish
 from grafu.synth.fronts import front_pieces
 from grafu.synth.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Row, divide
-from grafu.synth.legs import Leg, LegShape
+from grafu.synth.legs import Leg, LegShape, lean
 from grafu.synth.planks import both_sides, plank, solid
 from grafu.synth.setting import Setting
 from grafu.synth.shapes import arched_rail
@@ -154,8 +154,9 @@ def _below(spec: Table) -> Iterator[Piece]:
     (x, y), leg = spec.half, spec.leg
     bar = min(0.03, 0.7 * leg)
     z = max(spec.stretcher_at * (spec.under - spec.apron), bar)
-    wide = waist(Leg(spec.leg_shape, leg))
-    yield from stretcher_pieces(spec.stretcher, (x - leg / 2, y - leg / 2), bar, z, spec.finish, wide)
+    shape = Leg(spec.leg_shape, leg, spec.leg_foot)
+    out = lean(shape, z, spec.under - spec.apron) - leg / 2
+    yield from stretcher_pieces(spec.stretcher, (x + out, y + out), bar, z, spec.finish, waist(shape))
     if spec.arch:
         low = spec.under - spec.apron - spec.arch
         box = Box(vec3(leg - x, -y, low), vec3(x - leg, APRON - y, low + spec.arch))

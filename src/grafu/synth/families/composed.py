@@ -22,6 +22,7 @@ from grafu.vocabulary import PartLabel
 
 UNIT_WIDTHS = {0.3: 1.0, 0.4: 1.5, 0.45: 1.0, 0.5: 1.5, 0.6: 3.0, 0.8: 1.5, 0.9: 1.0}  # metres: the trade's modules
 
+WALL_PANEL = 0.85  # of kitchens with wall units: what hangs on a wall is mostly drawn with a piece of it
 FILLER = 0.05  # metres between base units and a tall one: a door beside it opens square, its handle has room
 
 
@@ -85,7 +86,11 @@ def kitchen_units(rng: np.random.Generator) -> Ensemble:
     boards = [top]
     tall_side = pick(rng, {0: 0.7, -1: 0.15, 1: 0.15})
     if chance(rng, 0.65 if len(widths) == 2 else 0.3):
-        members += _wall_units(rng, style, widths, depth, height + thick + between(rng, (0.45, 0.6)), tall_side)
+        hung = _wall_units(rng, style, widths, depth, height + thick + between(rng, (0.45, 0.6)), tall_side)
+        members += hung
+        if hung and chance(rng, WALL_PANEL):
+            panel = _wall_panel(rng, hung, whole, (depth / 2, height + thick))
+            boards = [replace(top, high=(whole / 2, panel.low[1], height + thick)), panel]
     if tall_side:
         width = pick(rng, UNIT_WIDTHS)
         size = (width, depth, between(rng, (1.9, 2.2)))
@@ -106,6 +111,16 @@ def _filler(x: float, side: int, depth: float, heights: tuple[float, float]) -> 
     low, high = sorted((x, x + side * FILLER))
     y = -depth / 2
     return Slab(PartLabel.BAR, "filler", (low, y, heights[0]), (high, y + 0.018, heights[1]))
+
+
+def _wall_panel(rng: np.random.Generator, hung: list[Placed], width: float, edge: tuple[float, float]) -> Slab:
+    """Returns the board behind wall units, from the worktop's back edge (y, z) up, which joins the two."""
+    backs = (unit.spec.case.back for unit in hung)
+    y = edge[0] + max(back.thickness if back.planted else 0.0 for back in backs)
+    share = 1.0 if chance(rng, 0.5) else between(rng, (0.1, 0.5))  # a splashback ends behind the units
+    top = max(unit.at[2] + share * unit.spec.case.height for unit in hung)
+    high = (width / 2, y + between(rng, (0.006, 0.02)), top)
+    return Slab(PartLabel.MISC, "wall_panel", (-width / 2, y, edge[1] - 0.02), high)
 
 
 def _flush(unit: Cabinet, base: Base) -> Cabinet:
