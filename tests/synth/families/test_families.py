@@ -13,10 +13,10 @@ from sweeping import collisions
 
 # metres: the least and greatest width, depth and height of a whole piece, fronts, handles and overhang included
 SIZES = {
-    "base cabinet": ((0.25, 1.35), (0.4, 0.85), (0.65, 0.95)),
-    "wall cabinet": ((0.25, 1.2), (0.25, 0.55), (0.25, 1.0)),
-    "tall cabinet": ((0.25, 1.1), (0.3, 0.85), (1.3, 2.35)),
-    "nightstand": ((0.3, 0.8), (0.27, 0.7), (0.35, 0.8)),
+    "base cabinet": ((0.14, 1.35), (0.4, 0.85), (0.65, 0.95)),
+    "wall cabinet": ((0.18, 1.35), (0.25, 0.55), (0.25, 1.0)),
+    "tall cabinet": ((0.24, 1.1), (0.28, 0.85), (1.3, 2.45)),
+    "nightstand": ((0.3, 0.95), (0.27, 0.7), (0.3, 0.85)),
     "desk": ((0.95, 2.0), (0.45, 1.7), (0.65, 1.25)),
     "filing cabinet": ((0.3, 0.6), (0.4, 0.8), (0.45, 1.45)),
 }
