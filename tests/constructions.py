@@ -54,6 +54,11 @@ CASES = {
     "edge strips": Case(frame=FaceFrame(0.04, "strips"), back=Back(thickness=0.004, rails=3)),
     "arched frame": Case(frame=FaceFrame(0.05, arched=True)),
     "arched bars": Case(frame=FaceFrame(0.05, "bars", arched=True)),
+    "double sides": Case(panel=0.03, sides=Sides("double")),
+    "top rail": Case(top=Top("over", overhang=0.02, rail=0.05)),
+    "top rail behind strips": Case(frame=FaceFrame(kind="strips"), top=Top(rail=0.04)),
+    "posts with a skirt": Case(0.86, 0.6, 0.6, base=Base("posts", 0.08, Leg("square", 0.036), skirt=True)),
+    "legs with a skirt": Case(base=Base("legs", 0.1, Leg("square", 0.04), skirt=True)),
 }
 CABINETS = {
     **{name: Cabinet(case=case, layout=MIXED) for name, case in CASES.items()},
@@ -92,6 +97,31 @@ CABINETS = {
     "oven": Cabinet(
         layout=Stack((Drawer(), Door("bottom", "glass"), Blank(name="control_panel")), (1.0, 4.0, 0.8), "nothing")
     ),
+}
+LIPPED = Inside(setback=0.0, lip=0.03, cleats=True, dividers=1, rails=2, blocks=True)
+TOUCHING = {
+    "shelves against doors": Pair(shelves=3, inside=Inside(setback=0.0)),
+    "shelves set back": Row(
+        (Door(shelves=2, inside=Inside(setback=0.06, cleats=True)), Bay(3, Inside("short", lip=0.02)))
+    ),
+    "lips, cleats and blocks": Row((Door(shelves=2, inside=LIPPED), Bay(1, LIPPED))),
+    "open frames between drawers": Stack(
+        (Drawer(), Row((Drawer(), Drawer()), between="frame"), Drawer()), between="frame"
+    ),
+    "flaps that meet fronts": Stack((Drawer(), Door("bottom"), Door("top"), Drawer("tray")), between="nothing"),
+}
+CABINETS |= {
+    **{name: Cabinet(case=Case(0.9, 1.1, 0.4), layout=layout) for name, layout in TOUCHING.items()},
+    **{f"{name}, inset": Cabinet(layout=layout, mount="inset") for name, layout in TOUCHING.items()},
+    "open frames in a face frame": Cabinet(
+        case=Case(frame=FaceFrame(0.04, "bars")), layout=TOUCHING["open frames between drawers"], lap=0.01
+    ),
+    "lips in a face frame": Cabinet(case=Case(frame=FaceFrame(0.04)), layout=TOUCHING["lips, cleats and blocks"]),
+    "fronts flush with the case": Cabinet(layout=MIXED, reveal=0.0),
+    "fronts wider than the case": Cabinet(
+        case=Case(base=Base("posts", 0.05, Leg("square", 0.036))), layout=THREE, reveal=-0.01
+    ),
+    "doors wider than the case": Cabinet(layout=Row((Door("left"), Door("right"))), reveal=-0.02),
 }
 HUTCH = Cabinet(case=Case(1.1, 0.45, 0.25), layout=Row((Bay(1), Drawer(), Bay(1))))
 TABLES = {

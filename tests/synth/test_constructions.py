@@ -10,7 +10,7 @@ from grafu.synth.desk import Desk
 from grafu.synth.finish import PLAIN
 from grafu.synth.inner_corner import InnerCorner, make_inner_corner
 from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Blank, Door, Drawer, Tilt
+from grafu.synth.layout import Bay, Blank, Door, Drawer, Stack, Tilt
 from grafu.synth.legs import Leg
 from grafu.synth.rack import Rack, make_rack
 from grafu.synth.table import Table
@@ -163,6 +163,39 @@ def test_a_rack_s_shelves_lie_between_its_uprights():
     assert shelf.high[2] <= upright.high[2]
 
 
+def test_shelves_without_a_setback_touch_the_doors():
+    asset = made(SPECS["shelves against doors"])
+    assert all(asset.part(f"shelf_{k}").box.gap(asset.part("door_1").box) < 0.0015 for k in (1, 2, 3))
+
+
+def test_cleats_touch_shelf_and_wall_and_lips_stand_before_shelves():
+    asset = made(SPECS["lips, cleats and blocks"])
+    shelf, lip, cleat = (asset.part(f"{name}_1").box for name in ("shelf", "shelf_lip", "cleat"))
+    assert lip.high[1] == pytest.approx(shelf.low[1])
+    assert cleat.high[2] == pytest.approx(shelf.low[2])
+    assert cleat.gap(asset.part("side_panel_left").box) < 1e-6
+
+
+@pytest.mark.parametrize(("reveal", "wider"), [(0.0, 0.0), (-0.02, 0.04)])
+def test_fronts_may_cover_the_case_wholly_and_more(reveal, wider):
+    asset = make_cabinet(Cabinet(case=Case(0.8), layout=Door(), reveal=reveal))
+    assert asset.part("door").box.size[0] == pytest.approx(0.8 + wider)
+    assert asset.part("door").box.size[2] == pytest.approx(0.72)
+
+
+def test_a_flap_above_a_drawer_hangs_on_a_bar_at_its_pin():
+    asset = made(SPECS["oven"])
+    flap = next(j for j in asset.joints if j.part.startswith("door"))
+    bar = asset.part("hinge_rail").box
+    assert abs(bar.high[2] - flap.axis.point[2]) < TOUCHING
+    assert bar.gap(asset.part(flap.part).box) < TOUCHING
+
+
+def test_an_open_frame_between_drawers_has_four_bars():
+    asset = make_cabinet(Cabinet(layout=Stack((Drawer(), Drawer()), between="frame")))
+    assert sum(p.id.startswith(("rail_bar", "drawer_rail")) for p in asset.parts) == 4
+
+
 def test_no_base_has_no_pieces():
     assert list(base_pieces(Case(), PLAIN)) == []
 
@@ -176,6 +209,7 @@ def test_no_base_has_no_pieces():
         lambda: FaceFrame(0.0),
         lambda: Leg(thick=0.0),
         lambda: Inside(dividers=-1),
+        lambda: Inside(setback=-0.01),
         lambda: Cabinet(share=0.9),
         lambda: Table(leg=0.4),
         lambda: Desk(left=Drawer(), wing=0.8),

@@ -107,6 +107,9 @@ def leg_feet(case: Case) -> tuple[float, float]:
 def _below(case: Case, finish: Finish) -> Iterator[Piece]:
     """Yields the stretchers between the legs and the apron before them."""
     base, feet = case.base, leg_feet(case)
+    if base.skirt and base.leg.shape == "square":
+        yield from _skirt(case, finish, feet)
+        return
     bar = min(0.025, 0.7 * base.leg.thick)
     z = max(base.stretcher_at * (case.floor - base.apron), bar)
     if z + bar < case.floor - base.apron and base.leg.shape not in FEET:
@@ -119,6 +122,17 @@ def _below(case: Case, finish: Finish) -> Iterator[Piece]:
         box = Box(vec3(*low), vec3(*high))
         mesh = arched_rail(box, 0.6 * base.apron) if base.arched else board(low, high)
         yield solid(PartLabel.BAR, "apron", finish.case, [mesh])
+
+
+def _skirt(case: Case, finish: Finish, feet: tuple[float, float]) -> Iterator[Piece]:
+    """Yields boards between the legs on all four sides, flush with the legs' outer faces."""
+    (x, y), h = feet, case.base.leg.thick / 2
+    t = min(case.panel, 2 * h)
+    for near in (-y - h, y + h - t):
+        span = ((h - x, near, 0.0), (x - h, near + t, case.floor))
+        yield plank(PartLabel.SIDE_PANEL, "base_side_panel", finish.case, span)
+    for _, at in both_sides(((x + h - t, h - y, 0.0), (x + h, y - h, case.floor))):
+        yield plank(PartLabel.SIDE_PANEL, "base_side_panel", finish.case, at)
 
 
 def _sled(case: Case, finish: Finish) -> Iterator[Piece]:

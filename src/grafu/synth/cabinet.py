@@ -13,7 +13,7 @@ from grafu.synth.carcass import case_pieces
 from grafu.synth.case import Case
 from grafu.synth.construction import Back
 from grafu.synth.finish import PLAIN, Finish
-from grafu.synth.fronts import front_pieces, partition_piece
+from grafu.synth.fronts import front_pieces, partition_pieces
 from grafu.synth.layout import Layout, Pair, Partition, Rect, divide
 from grafu.synth.planks import plank
 from grafu.synth.setting import Mount, Setting
@@ -28,6 +28,8 @@ TWO_DOORS = Pair()
 class Cabinet:
     """A cabinet, metres. `lap` is the most that an overlay front covers of a panel; `gap` parts neighbouring fronts.
 
+    Overlay fronts end `reveal` within the case's outer faces (none: by the gap; 0: flush; below 0: beyond them to the
+    sides, as free-standing pieces may).
     Drawer boxes keep `slide_gap` from the walls on either side, 12.5 mm as real slides need. A two-sided cabinet has a
     second layout, `rear`, that faces +Y; a wall in place of the back then parts the two, `share` of the depth for the
     front one.
@@ -48,6 +50,7 @@ class Cabinet:
     finish: Finish = PLAIN
     rear: Layout | None = None
     share: float = 0.55
+    reveal: float | None = None
 
     def __post_init__(self) -> None:
         if not 0.2 <= self.share <= 0.8:
@@ -73,6 +76,7 @@ class Cabinet:
             borders=case.borders,
             case_wall=0.0 if case.posts else case.side_border - case.panel,
             frame=case.face_depth,
+            reveal=self.reveal,
         )
 
     @property
@@ -126,13 +130,13 @@ def _partition(item: Partition, spec: Cabinet, setting: Setting) -> Iterator[Pie
     """Yields a partition's panel and, in a face frame, the frame's bar before it."""
     case, r = spec.case, item.rect
     if case.face is None:
-        yield partition_piece(item, setting)
+        yield from partition_pieces(item, setting)
         return
     one = case.face.kind == "one"
     stem = "face_frame_bar" if one else "edge_strip" if case.face.kind == "strips" else _bar_name(item)
     label = PartLabel.FACE_FRAME if one else PartLabel.BAR
     yield plank(label, stem, spec.finish.case, ((r.x0, case.front, r.z0), (r.x1, case.carcass, r.z1)))
-    if item.kind == "panel":
+    if item.kind != "rail":
         spare = max(case.border - case.panel, 0.0) / 2
         thin = (
             replace(r, x0=r.x0 + spare, x1=r.x1 - spare)
@@ -140,7 +144,7 @@ def _partition(item: Partition, spec: Cabinet, setting: Setting) -> Iterator[Pie
             else replace(r, z0=r.z0 + spare, z1=r.z1 - spare)
         )
         panel = replace(item, rect=_to_walls(thin, item, case))
-        yield partition_piece(panel, replace(setting, plane=case.carcass))
+        yield from partition_pieces(panel, replace(setting, plane=case.carcass))
 
 
 def _bar_name(item: Partition) -> str:
@@ -151,7 +155,7 @@ def _to_walls(rect: Rect, item: Partition, case: Case) -> Rect:
     """Returns a panel behind a face frame lengthened to the case's walls, where it ends at the frame's opening."""
     o, t = case.opening, case.posts or case.panel
     if item.upright:
-        high = case.height - case.top_thickness
+        high = case.height - case.top_thickness - case.top_rail
         return replace(
             rect,
             z0=case.floor + case.bottom_thickness if rect.z0 == o.z0 else rect.z0,

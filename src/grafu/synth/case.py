@@ -141,6 +141,12 @@ class Case:
         return self.face.rail or self.face.width
 
     @property
+    def top_rail(self) -> float:
+        """The height of the bar below the top, 0 where there is none or a face frame has its own."""
+        framed = self.face is not None and self.face.kind != "strips"
+        return self.top.rail if self.top.kind in ("between", "over") and not framed else 0.0
+
+    @property
     def opening_room(self) -> float:
         """The height of the opening; not above 0 where there is no room."""
         low, high = self._span
@@ -179,6 +185,7 @@ class Case:
     def _span(self) -> tuple[float, float]:
         rail = self.rail_border
         low, high = self.floor + max(self.bottom_thickness, rail), self.height - max(self.top_thickness, rail)
+        high = min(high, self.height - self.top_thickness - self.top_rail)
         if self.top.kind == "over" and rail:  # at least a centimetre of rail shows below the top
             high = min(high, self.crown - 0.01)
         if self.moulding and self.moulding_at == "top":

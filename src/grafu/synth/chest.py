@@ -14,7 +14,7 @@ from grafu.synth.carcass import case_pieces
 from grafu.synth.case import Case
 from grafu.synth.construction import Top, TopEdge
 from grafu.synth.finish import PLAIN, Finish, surface_of
-from grafu.synth.fronts import front_pieces, partition_piece
+from grafu.synth.fronts import front_pieces, partition_pieces
 from grafu.synth.layout import Cell, Edges, Layout, Rect, divide
 from grafu.synth.planks import plank
 from grafu.synth.setting import Setting
@@ -76,7 +76,7 @@ def _front(box: Case, spec: Chest) -> Iterator[Piece]:
         )
         setting = Setting(y, box.inner_back, "inset", panel=t, gap=spec.gap, finish=spec.finish)
         for item in divide(spec.drawers, Rect(-x, x, low, top), Edges(), t):
-            yield from front_pieces(item, setting) if isinstance(item, Cell) else (partition_piece(item, setting),)
+            yield from front_pieces(item, setting) if isinstance(item, Cell) else partition_pieces(item, setting)
         low = top + t
     yield plank(PartLabel.SIDE_PANEL, "front_panel", spec.finish.case, ((-x, y, low), (x, y + t, z)))
 

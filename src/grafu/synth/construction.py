@@ -12,7 +12,7 @@ BaseKind = Literal["none", "plinth", "toe kick", "legs", "posts", "sled"]
 Stretcher = Literal["none", "sides", "H", "box", "shelf"]
 TopKind = Literal["between", "over", "none", "stretchers", "corner blocks"]
 TopEdge = Literal["square", "chamfered", "rounded", "moulded"]
-SideKind = Literal["panel", "framed", "slats", "metal", "none"]
+SideKind = Literal["panel", "double", "framed", "slats", "metal", "none"]
 BackKind = Literal["full", "half", "split", "none"]
 BottomKind = Literal["between", "under", "sheet", "none"]
 FrameKind = Literal["one", "bars", "strips"]
@@ -28,7 +28,8 @@ class Base:
     3 front and sides, 4 all around), labelled side panel as in real kitchens. Posts are legs that run up to the top at
     the corners, the case between them. Legs stand `inset` from the outer corner; `stretcher` bars join them at
     `stretcher_at` of the height ("shelf": boards across the side bars); an `apron` board of that height hangs in front
-    below the case, its lower edge arched where `arched`.
+    below the case, its lower edge arched where `arched`. With a `skirt`, boards between square legs or posts close the
+    room below the case on all four sides, in place of stretchers and apron (22692).
     """
 
     kind: BaseKind = "none"
@@ -41,6 +42,7 @@ class Base:
     stretcher_at: float = 0.3
     apron: float = 0.0
     arched: bool = False
+    skirt: bool = False
 
     def __post_init__(self) -> None:
         if not (self.height >= 0 and 0 <= self.stretcher_at <= 1 and 0 <= self.apron <= self.height):
@@ -55,7 +57,8 @@ class Top:
 
     `thickness` 0 means the case's panel. A top over the sides juts out by `overhang` beyond the front and the sides,
     by `front` and `sides` more, and by `back` behind. A moulded edge is two stacked boards, the lower one smaller. A
-    raised edge of height `rim` stands at the back. With `sink`, a basin hangs in a cut-out.
+    raised edge of height `rim` stands at the back. With `sink`, a basin hangs in a cut-out. Below a top between or
+    over the sides of a case without a face frame, a bar of height `rail` spans the front.
     """
 
     kind: TopKind = "between"
@@ -69,12 +72,13 @@ class Top:
     sink: bool = False
     glass: bool = False
     width: float = 0.07  # of stretchers: the usual flat bar of kitchen cabinets
+    rail: float = 0.0
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """The sides: one panel each, a frame with an infill panel, upright slats, metal uprights with bars, or none.
+    """The sides: one panel each or two of half the thickness, framed panels, slats, metal uprights with bars, or none.
 
     They stand `beyond` before the case's front; `thickness` 0 means the case's panel.
     """

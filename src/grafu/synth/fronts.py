@@ -32,6 +32,7 @@ from grafu.synth.layout import (
     divide,
 )
 from grafu.synth.leaves import LeafShape, leaf_surfaces
+from grafu.synth.planks import plank
 from grafu.synth.setting import Setting, front_rect, inner_span
 from grafu.synth.shapes import board
 from grafu.synth.tilt import tray_meshes
@@ -39,6 +40,8 @@ from grafu.vocabulary import JointType, PartLabel
 
 BEHIND_ROOM = 0.05  # metres between a door and the fronts behind it: their knobs need 26 mm
 TRAY_GAP = 0.001  # metres on either side of a tray that no runners carry: it lies in grooves
+RAIL_DEPTH = 0.06  # metres
+HINGE_RAIL = (0.016, 0.01)  # metres below and above a seam: drawers' boxes keep 20 mm and 12 mm clear there
 BEHIND_SIDE = 0.035  # metres on either side of the fronts behind a door: an inset door stands there when open
 
 
@@ -47,16 +50,24 @@ def front_pieces(cell: Cell, setting: Setting) -> tuple[Piece, ...]:
     return tuple(_MAKERS[type(cell.leaf)](cell, setting))
 
 
-def partition_piece(partition: Partition, setting: Setting) -> Piece:
-    """Returns a divider or shelf that runs to the back, or a rail 60 mm deep behind the front."""
-    r = partition.rect
-    depth = min(0.06, (setting.back - setting.plane) / 3)
-    back = setting.back if partition.kind == "panel" else setting.plane + depth
-    surface = surface_of(board((r.x0, setting.plane, r.z0), (r.x1, back, r.z1)), setting.finish.case)
-    if partition.kind == "rail":
-        return Piece(PartLabel.BAR, "rail_bar", (surface,))
-    label = PartLabel.DIVIDER if partition.upright else PartLabel.SHELF
-    return Piece(label, label.value, (surface,))
+def partition_pieces(partition: Partition, setting: Setting) -> Iterator[Piece]:
+    """Yields a divider or shelf that runs to the back, a rail 60 mm deep behind the front, or an open level frame.
+
+    The frame has such a rail in front and at the back and a drawer's rail along either wall; an upright one is a panel.
+    """
+    r, wood = partition.rect, setting.finish.case
+    depth = min(RAIL_DEPTH, (setting.back - setting.plane) / 3)
+    y0, y1 = setting.plane, setting.back
+    if partition.kind == "panel" or (partition.kind == "frame" and partition.upright):
+        label = PartLabel.DIVIDER if partition.upright else PartLabel.SHELF
+        yield plank(label, label.value, wood, ((r.x0, y0, r.z0), (r.x1, y1, r.z1)))
+        return
+    yield plank(PartLabel.BAR, "rail_bar", wood, ((r.x0, y0, r.z0), (r.x1, y0 + depth, r.z1)))
+    if partition.kind == "frame":
+        wide = min(depth, r.width / 4)
+        yield plank(PartLabel.BAR, "rail_bar", wood, ((r.x0, y1 - depth, r.z0), (r.x1, y1, r.z1)))
+        for low, high in ((r.x0, r.x0 + wide), (r.x1 - wide, r.x1)):
+            yield plank(PartLabel.BAR, "drawer_rail", wood, ((low, y0 + depth, r.z0), (high, y1 - depth, r.z1)))
 
 
 def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
@@ -64,6 +75,7 @@ def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     assert isinstance(door, Door)
     limited = replace(door, opening=_opening(door, cell.edges))
     yield _door(limited, front_rect(cell, setting), setting)
+    yield from _hinge_rail(door, cell, setting)
     if door.behind is not None:
         yield from _behind(door.behind, cell, setting)
     else:
@@ -167,6 +179,16 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
     return Piece(PartLabel.DOOR, "door", leaf_surfaces(leaf, setting.finish), motion, handle)
 
 
+def _hinge_rail(door: Door, cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields the bar that carries a flap which meets another front at its hinge: behind it, beyond the seam."""
+    if door.hinge not in ("top", "bottom") or getattr(cell.edges, door.hinge) is not Edge.SEAM:
+        return
+    o, (x0, x1) = cell.opening, inner_span(cell, setting)
+    z0, z1 = (o.z1, o.z1 + HINGE_RAIL[1]) if door.hinge == "top" else (o.z0 - HINGE_RAIL[0], o.z0)
+    y = setting.inner
+    yield plank(PartLabel.BAR, "hinge_rail", setting.finish.case, ((x0, y, z0), (x1, y + RAIL_DEPTH / 2, z1)))
+
+
 def _leaf(front: Door | Drawer, rect: Rect, hinge: Side | None, setting: Setting) -> LeafShape:
     side, free = gripped_side(front.hold, hinge), opposite(hinge) if hinge else "top"
     grip = front.grip, side, held_along(front.hold, side)
@@ -199,4 +221,4 @@ def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[Piece]:
         yield Piece(PartLabel.DIVIDER, "divider", (surface_of(mesh, setting.finish.inside),))
     inner = replace(setting, plane=plane, mount="inset", wall=0.0, case_wall=None, borders=None, frame=0.0)
     for item in divide(layout, rect, Edges(), setting.panel):
-        yield from (partition_piece(item, inner),) if isinstance(item, Partition) else front_pieces(item, inner)
+        yield from partition_pieces(item, inner) if isinstance(item, Partition) else front_pieces(item, inner)

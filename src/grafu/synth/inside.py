@@ -1,4 +1,4 @@
-"""What lies inside an opening besides fronts and shelves: dividers, rods, baskets, runners. It builds no geometry."""
+"""What lies inside an opening besides fronts: how shelves lie, dividers, rods, baskets, runners. It builds nothing."""
 
 from dataclasses import dataclass
 from typing import Literal, final
@@ -14,10 +14,13 @@ class Inside:
 
     `shelf` says how its shelves are made: over the full depth, over 60 % of it, or of glass. `dividers` upright boards
     part the room below the lowest shelf. A hanging `rod` runs below the top. A `basket` of wire or a plate `rack`
-    stands on the floor. With `runners`, slides that belong to no drawer hang on both walls, as in many real models.
+    stands on the floor. With `runners`, slides that belong to no drawer hang on both walls, as in many real models;
+    `rails` are level bars along the back wall. Shelves and dividers stand `setback` behind the fronts, 0 where they
+    touch them (41003). A lip of height `lip` stands before each shelf's front edge; `cleats` carry the shelves' ends
+    (47315), and `blocks` stiffen the upper corners.
 
     Raises:
-        ValueError: if `dividers` is negative.
+        ValueError: if a count or a length is negative.
     """
 
     shelf: ShelfKind = "full"
@@ -25,11 +28,15 @@ class Inside:
     rod: bool = False
     basket: BasketKind = "none"
     runners: int = 0
-    rails: int = 0  # level rails along the back wall
+    rails: int = 0
+    setback: float = 0.01
+    lip: float = 0.0
+    cleats: bool = False
+    blocks: bool = False
 
     def __post_init__(self) -> None:
-        if min(self.dividers, self.runners, self.rails) < 0:
-            raise ValueError(f"counts of `Inside` must not be negative: got {self}")
+        if min(self.dividers, self.runners, self.rails, self.setback, self.lip) < 0:
+            raise ValueError(f"counts and lengths of `Inside` must not be negative: got {self}")
 
 
 EMPTY = Inside()

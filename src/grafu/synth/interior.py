@@ -1,4 +1,4 @@
-"""What fills the room behind an opening: shelves, dividers, rods, baskets, runners. It knows no fronts."""
+"""What fills the room behind an opening: shelves with lips and cleats, dividers, rods, baskets. It knows no fronts."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,11 @@ from grafu.synth.setting import Setting, inner_span
 from grafu.synth.shapes import rod
 from grafu.vocabulary import PartLabel
 
-FRONT_ROOM = 0.01  # metres between fronts and what lies behind them
+FRONT_ROOM = 0.01  # metres between fronts and the fittings behind them
+LIP = 0.012  # metres: how thick the lip before a shelf is
+CLEAT = (0.02, 0.04)  # metres: how wide and high bars under shelves are (47315 has 22 x 58 mm)
+WALL_RAIL = 0.012  # metres: how thick level rails along the back wall are
+BLOCK = (0.05, 0.018)  # metres: how wide and high blocks in the upper corners are
 GLASS_SHELF = 0.006  # metres
 WIRE = 0.002  # metres: the radius of a basket's wires
 ROD = 0.0125  # metres: the radius of a hanging rod, 25 mm tubes being the usual ones
@@ -25,8 +29,13 @@ def interior_pieces(shelves: int, inside: Inside, cell: Cell, setting: Setting) 
     o, (x0, x1) = cell.opening, inner_span(cell, setting)
     y0, y1 = setting.inner + FRONT_ROOM, setting.back
     room = o.height / (shelves + 1) - min(setting.panel, 0.018) / 2
+    if inside.cleats and shelves and not inside.runners:
+        yield from _cleats(shelves, inside, cell, setting)
+    if inside.blocks and not inside.rod:
+        yield from _blocks(inside, cell, setting)
     if inside.dividers:
-        yield from _dividers(inside.dividers, ((x0, y0, o.z0), (x1, y1, o.z0 + room)), setting)
+        near = setting.inner + inside.setback + (LIP if inside.lip and shelves else 0.0)
+        yield from _dividers(inside.dividers, ((x0, near, o.z0), (x1, y1, o.z0 + room)), setting)
     if inside.rod:
         z, y = o.z1 - min(0.06, 0.3 * room), (y0 + y1) / 2
         yield solid(PartLabel.BAR, "hanging_rod", setting.finish.metal, [rod(vec3(x0, y, z), vec3(x1, y, z), ROD, 10)])
@@ -52,16 +61,53 @@ def runner_pieces(cell: Cell, setting: Setting, z: float, thick: float) -> Itera
 
 
 def _shelves(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
-    x0, x1 = inner_span(cell, setting)
-    y0, finish = setting.inner + FRONT_ROOM, setting.finish
-    if inside.shelf == "short":
-        y0 = setting.back - 0.6 * (setting.back - y0)
-    glass = inside.shelf == "glass"
-    half = GLASS_SHELF / 2 if glass else min(setting.panel, 0.018) / 2
+    (x0, x1), y0, finish = inner_span(cell, setting), _shelf_front(inside, setting), setting.finish
+    lip = 0.0 if inside.shelf == "glass" else min(inside.lip, 0.3 * cell.opening.height / (count + 1))
+    near = y0 + (LIP if lip else 0.0)
+    material = finish.glass if inside.shelf == "glass" else finish.inside
+    for low, high in _levels(count, inside, cell, setting):
+        yield plank(PartLabel.SHELF, "shelf", material, ((x0, near, low), (x1, setting.back, high)))
+        if lip:
+            yield plank(PartLabel.BAR, "shelf_lip", material, ((x0, y0, min(low, high - lip)), (x1, near, high)))
+
+
+def _shelf_front(inside: Inside, setting: Setting) -> float:
+    y0 = setting.inner + inside.setback
+    return setting.back - 0.6 * (setting.back - y0) if inside.shelf == "short" else y0
+
+
+def _levels(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[tuple[float, float]]:
+    """Yields the heights of the shelves' lower and upper faces."""
+    half = GLASS_SHELF / 2 if inside.shelf == "glass" else min(setting.panel, 0.018) / 2
     for k in range(count):
         z = cell.opening.z0 + cell.opening.height * (k + 1) / (count + 1)
-        span = ((x0, y0, z - half), (x1, setting.back, z + half))
-        yield plank(PartLabel.SHELF, "shelf", finish.glass if glass else finish.inside, span)
+        yield z - half, z + half
+
+
+def _cleats(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields a bar under either end of each shelf, where there is a wall."""
+    (x0, x1), w = inner_span(cell, setting), CLEAT[0]
+    high = min(CLEAT[1], 0.25 * cell.opening.height / (count + 1))
+    y0 = _shelf_front(inside, setting) + (LIP if inside.lip else 0.0)
+    y1 = setting.back - (WALL_RAIL if inside.rails else 0.0)
+    for low, _ in _levels(count, inside, cell, setting):
+        for edge, a, b in ((cell.edges.left, x0, x0 + w), (cell.edges.right, x1 - w, x1)):
+            if edge is not Edge.SEAM:
+                yield plank(PartLabel.BAR, "cleat", setting.finish.inside, ((a, y0, low - high), (b, y1, low)))
+
+
+def _blocks(inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+    """Yields blocks in the upper corners of a cell's room."""
+    o, (x0, x1), (w, high) = cell.opening, inner_span(cell, setting), BLOCK
+    y0, y1 = setting.inner + FRONT_ROOM, setting.back - (WALL_RAIL if inside.rails else 0.0)
+    if min(x1 - x0, y1 - y0) < 3 * w or cell.edges.top is Edge.SEAM:
+        return
+    for edge, a, b in ((cell.edges.left, x0, x0 + w), (cell.edges.right, x1 - w, x1)):
+        if edge is Edge.SEAM:
+            continue
+        for near in (y0, y1 - w):
+            span = ((a, near, o.z1 - high), (b, near + w, o.z1))
+            yield plank(PartLabel.MISC, "corner_block", setting.finish.inside, span)
 
 
 def _dividers(count: int, room: Span, setting: Setting) -> Iterator[Piece]:
@@ -111,5 +157,5 @@ def _wall_rails(count: int, cell: Cell, setting: Setting) -> Iterator[Piece]:
     """Yields bars along the back wall: the first below the top, the second above the bottom."""
     o, (x0, x1), high = cell.opening, inner_span(cell, setting), min(0.07, 0.2 * cell.opening.height)
     for z in (o.z1 - high, o.z0)[:count]:
-        span = ((x0, setting.back - 0.012, z), (x1, setting.back, z + high))
+        span = ((x0, setting.back - WALL_RAIL, z), (x1, setting.back, z + high))
         yield plank(PartLabel.BAR, "wall_rail", setting.finish.inside, span)

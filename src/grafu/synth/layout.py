@@ -19,7 +19,7 @@ LeafStyle = Literal[
     "glass", "mirror", "raised panel", "two panels", "muntins", "louvred", "arched rail",
 ]  # fmt: skip
 DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray", "four walls"]
-Between = Literal["panel", "rail", "nothing"]
+Between = Literal["panel", "rail", "frame", "nothing"]
 CURVED: frozenset[LeafStyle] = frozenset({"bowed", "swept", "swept frame"})  # they bulge before the front's plane
 
 
@@ -229,11 +229,11 @@ class Cell:
 @final
 @dataclass(frozen=True, slots=True)
 class Partition:
-    """A panel (or a thin front rail) between cells, upright in a row and level in a stack."""
+    """A panel, a front rail or an open frame between cells, upright in a row and level in a stack."""
 
     rect: Rect
     upright: bool
-    kind: Literal["panel", "rail"]
+    kind: Literal["panel", "rail", "frame"]
 
 
 def divide(layout: Layout, opening: Rect, edges: Edges, thickness: float) -> Iterator[Cell | Partition]:

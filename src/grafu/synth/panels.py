@@ -22,6 +22,10 @@ def side_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
     if case.sides.kind == "panel":
         for side, at in both_sides(span):
             yield plank(PartLabel.SIDE_PANEL, f"side_panel_{side}", finish.case, at)
+    elif case.sides.kind == "double":
+        for stem, x0, x1 in (("side_panel", x - t / 2, x), ("inner_side_panel", x - t, x - t / 2)):
+            for side, at in both_sides(((x0, y0, low), (x1, y1, case.crown))):
+                yield plank(PartLabel.SIDE_PANEL, f"{stem}_{side}", finish.case, at)
     elif case.sides.kind != "none":
         yield from {"framed": _framed, "slats": _slatted, "metal": _metal}[case.sides.kind](case.sides, finish, span)
 

@@ -27,8 +27,9 @@ class Setting:
 
     Openings lie `panel` apart; walls behind them stand back by `wall` (half of it on either side of a partition), and
     the case's own sides by `case_wall` (none: by `wall`). An overlay front stands `seat` before the plane and covers at
-    most `lap` of a panel, and of the case what `borders` says (none: as of a panel); an inset front is flush. A frame
-    behind the plane is `frame` deep.
+    most `lap` of a panel, and of the case what `borders` says (none: as of a panel); an inset front is flush. Overlay
+    fronts end `reveal` within the case's outer faces (none: by the gap): 0 where they are flush, below 0 where they
+    are wider than the case; above and below they never reach beyond it. A frame behind the plane is `frame` deep.
     """
 
     plane: float
@@ -45,6 +46,7 @@ class Setting:
     borders: Borders | None = None
     case_wall: float | None = None
     frame: float = 0.0
+    reveal: float | None = None
 
     @property
     def front(self) -> float:
@@ -83,7 +85,14 @@ def _reach(side: Side, cell: Cell, setting: Setting) -> float:
     if setting.mount == "inset" or edge is Edge.STOP:
         return -setting.gap
     if edge is Edge.CASE:
-        cover = (getattr(setting.borders, side) if setting.borders else setting.panel) - setting.gap
+        cover = (getattr(setting.borders, side) if setting.borders else setting.panel) - _spare(side, setting)
     else:
         cover = (setting.panel - setting.gap) / 2
     return min(cover, setting.lap)
+
+
+def _spare(side: Side, setting: Setting) -> float:
+    """Returns how much of the case an overlay front leaves uncovered on one side, below 0 where it juts out."""
+    if setting.reveal is None:
+        return setting.gap
+    return setting.reveal if side in ("left", "right") else max(setting.reveal, 0.0)

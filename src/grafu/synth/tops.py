@@ -34,6 +34,10 @@ def top_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
         yield from _stretchers(case, finish)
     elif kind == "corner blocks":
         yield from _corner_blocks(case, finish)
+    if case.top_rail:
+        x, high = case.width / 2 - case.panel, case.height - case.top_thickness
+        span = ((-x, case.carcass, high - case.top_rail), (x, case.carcass + case.panel, high))
+        yield plank(PartLabel.BAR, "top_rail", finish.case, span)
 
 
 def over_box(case: Case) -> Box:
