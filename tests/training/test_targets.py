@@ -4,22 +4,10 @@ import numpy as np
 import pytest
 import torch
 
+from grafu.graph.arrays import HANDLE, NONE, NULL
 from grafu.graph.edit import mirrored, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.training.targets import (
-    ATTACHED,
-    CONTACT,
-    DOOR,
-    HANDLE,
-    HINGE,
-    NONE,
-    NULL,
-    RAIL,
-    GraphTargets,
-    graph_targets,
-    mirrored_targets,
-    stack_targets,
-)
+from grafu.training.targets import GraphTargets, graph_targets, mirrored_targets, stack_targets
 from small_graphs import cabinet
 
 IDS = [node.id for node in cabinet().nodes]
@@ -32,29 +20,6 @@ def targets_of(graph: FunctionalGraph, given: list[str] | None = None) -> GraphT
 
 def same(a: GraphTargets, b: GraphTargets) -> bool:
     return all(np.array_equal(getattr(a, name), getattr(b, name)) for name in a.__dataclass_fields__)
-
-
-def test_edges_are_codes_and_the_child_is_the_part_that_moves() -> None:
-    targets = targets_of(cabinet())
-    left, door, drawer, knob = (IDS.index(i) for i in ("left", "door_1", "drawer_1", "knob_1"))
-    assert targets.edges[left, door] == targets.edges[door, left] == HINGE
-    assert targets.edges[left, drawer] == RAIL
-    assert targets.edges[door, knob] == ATTACHED
-    assert targets.edges[left, IDS.index("back")] == CONTACT
-    assert (np.diag(targets.edges) == NULL).all()
-    assert targets.child[door, left]
-    assert not targets.child[left, door]
-    assert targets.child[knob, door]
-    assert not targets.child[left, IDS.index("back")]
-
-
-def test_a_motion_belongs_to_the_part_that_moves() -> None:
-    targets = targets_of(cabinet())
-    doors = targets.labels == DOOR
-    assert targets.border[doors].tolist() == [0, 1]
-    assert targets.sign[doors].tolist() == [0, 1]
-    assert (targets.border[~doors] == NONE).all()
-    assert targets.slide[[IDS.index("drawer_1"), IDS.index("drawer_2")]].tolist() == [2, 2]
 
 
 def test_boxes_stand_in_the_frame_of_the_input() -> None:

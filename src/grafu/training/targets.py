@@ -1,11 +1,9 @@
 """What the network is to answer about a graph, as arrays, and the padded batch of several. It knows no losses.
 
-Boxes stand in the frame of the INPUT graph's features, since that is where the network answers. The graph's edges are
-one symmetric matrix of codes and a matrix that says who is the child; of a moving part all edges state one motion, so
-that motion is a property of the part.
+Boxes stand in the frame of the INPUT graph's features, since that is where the network answers.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import final
 
@@ -14,18 +12,9 @@ import torch
 from jaxtyping import Bool, Float32, Float64, Int64
 from torch import Tensor
 
-from grafu.graph.edges import Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.arrays import NONE, NULL, UNKNOWN, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.vocabulary import EdgeKind, PartLabel
 
-EDGES = (EdgeKind.CONTACT, EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED)  # the authors' codes (official.md 4)
-CONTACT, HINGE, RAIL, ATTACHED, NULL = range(5)
-NONE = -1  # no answer is known, or there is none: no loss is taken there
-_LABEL_CODES = {label: code for code, label in enumerate(PartLabel)}
-DOOR, DRAWER, HANDLE, UNKNOWN = (
-    _LABEL_CODES[label] for label in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE, PartLabel.UNKNOWN)
-)
-_EDGE_CODES = {kind: code for code, kind in enumerate(EDGES)}
 _PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending (official.md 3.2)
 
 
@@ -34,10 +23,8 @@ _PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin
 class GraphTargets:
     """The answers for one graph of t nodes, given n of them.
 
-    `boxes` are centres and half sizes in the normalised frame of the input; `edges` are codes, symmetric, null where
-    there is none; `child[i, j]` says that i hangs on j: it is the door, drawer or handle of their edge. `border`,
-    `sign` and `slide` are motion codes, `NONE` where a part has no such motion. `thin` is the thin axis of each box.
-    `anchors` names, for each input node, the node that it is.
+    The fields up to `slide` are those of `grafu.graph.arrays.GraphArrays`, with `boxes` in the normalised frame of the
+    input. `thin` is the thin axis of each box. `anchors` names, for each input node, the node that it is.
     """
 
     labels: Int64[np.ndarray, " t"]
@@ -82,23 +69,18 @@ def graph_targets(
     Raises:
         KeyError: if a given id is not in the target.
     """
+    arrays = graph_arrays(target)
     place = {node.id: k for k, node in enumerate(target.nodes)}
-    count = len(place)
-    edges, child = np.full((count, count), NULL), np.zeros((count, count), dtype=bool)
-    motion = np.full((3, count), NONE)
-    for edge in target.edges:
-        _enter(edge, place, edges, child, motion)
-    centres = np.array([n.box.center for n in target.nodes]).reshape(-1, 3)
-    sizes = np.array([n.box.size for n in target.nodes]).reshape(-1, 3)
+    boxes = np.hstack([(arrays.boxes[:, :3] - origin) / scale, arrays.boxes[:, 3:] / scale])
     return GraphTargets(
-        labels=np.array([_LABEL_CODES[n.label] for n in target.nodes], dtype=np.int64),
-        boxes=np.hstack([(centres - origin) / scale, sizes / (2 * scale)]).astype(np.float32),
-        edges=edges,
-        child=child,
-        border=motion[0],
-        sign=motion[1],
-        slide=motion[2],
-        thin=np.argmin(sizes, axis=1).astype(np.int64),
+        labels=arrays.labels,
+        boxes=boxes.astype(np.float32),
+        edges=arrays.edges,
+        child=arrays.child,
+        border=arrays.border,
+        sign=arrays.sign,
+        slide=arrays.slide,
+        thin=np.array([node.box.thin_axis for node in target.nodes], dtype=np.int64),
         anchors=np.array([place[name] for name in given], dtype=np.int64),
     )
 
@@ -146,18 +128,6 @@ def stack_targets(graphs: Sequence[GraphTargets]) -> TargetBatch:
         anchors=_padded([g.anchors for g in graphs], (n,), NONE),
         mask=_padded([np.ones(len(g.labels), dtype=bool) for g in graphs], (t,), False),
     )
-
-
-def _enter(edge: Edge, place: Mapping[str, int], edges: np.ndarray, child: np.ndarray, motion: np.ndarray) -> None:
-    first, second = (place[end] for end in ends_of(edge))
-    edges[first, second] = edges[second, first] = _EDGE_CODES[kind_of(edge)]
-    if isinstance(edge, Contact):
-        return
-    child[second, first] = True
-    if isinstance(edge, Hinge):
-        motion[:2, second] = edge.border, edge.sign
-    elif isinstance(edge, Rail):
-        motion[2, second] = edge.axis
 
 
 def _flipped(codes: np.ndarray, where: np.ndarray) -> np.ndarray:

@@ -1,0 +1,65 @@
+"""A functional graph as arrays of codes and boxes, and the codes. It knows no networks.
+
+The codes of edges are the authors' (official.md 4), those of labels the order of `PartLabel`. All edges of a moving
+part state one motion, so that a motion is a property of the part here.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Float64, Int64
+
+from grafu.graph.edges import Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import EdgeKind, PartLabel
+
+KINDS = (EdgeKind.CONTACT, EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED)
+CONTACT, HINGE, RAIL, ATTACHED, NULL = range(5)
+NONE = -1  # there is no such motion, or it is not known
+LABEL_CODES = {label: code for code, label in enumerate(PartLabel)}
+DOOR, DRAWER, HANDLE, UNKNOWN = (
+    LABEL_CODES[label] for label in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE, PartLabel.UNKNOWN)
+)
+_KIND_CODES = {kind: code for code, kind in enumerate(KINDS)}
+
+
+@final
+@dataclass(frozen=True)
+class GraphArrays:
+    """A graph of n nodes. `boxes` are centres and half sizes.
+
+    `edges` are codes, symmetric, null where there is none; `child[i, j]` says that i hangs on j: it is the door, drawer
+    or handle of their edge. `border`, `sign` and `slide` are motion codes, `NONE` for parts without such a motion.
+    """
+
+    labels: Int64[np.ndarray, " n"]
+    boxes: Float64[np.ndarray, "n 6"]
+    edges: Int64[np.ndarray, "n n"]
+    child: Bool[np.ndarray, "n n"]
+    border: Int64[np.ndarray, " n"]
+    sign: Int64[np.ndarray, " n"]
+    slide: Int64[np.ndarray, " n"]
+
+
+def graph_arrays(graph: FunctionalGraph) -> GraphArrays:
+    """Returns the graph as arrays, nodes in its order, boxes in the object frame, metres."""
+    place = {node.id: k for k, node in enumerate(graph.nodes)}
+    count = len(place)
+    edges, child = np.full((count, count), NULL), np.zeros((count, count), dtype=bool)
+    motion = np.full((3, count), NONE)
+    for edge in graph.edges:
+        first, second = (place[end] for end in ends_of(edge))
+        edges[first, second] = edges[second, first] = _KIND_CODES[kind_of(edge)]
+        child[second, first] = not isinstance(edge, Contact)
+        motion[:, second] = np.maximum(motion[:, second], _motion(edge))
+    lows = np.array([n.box.low for n in graph.nodes]).reshape(-1, 3)
+    highs = np.array([n.box.high for n in graph.nodes]).reshape(-1, 3)
+    labels = np.array([LABEL_CODES[n.label] for n in graph.nodes], dtype=np.int64)
+    return GraphArrays(labels, np.hstack([(lows + highs) / 2, (highs - lows) / 2]), edges, child, *motion)
+
+
+def _motion(edge: Edge) -> tuple[int, int, int]:
+    if isinstance(edge, Hinge):
+        return edge.border, edge.sign, NONE
+    return NONE, NONE, edge.axis if isinstance(edge, Rail) else NONE
