@@ -27,7 +27,11 @@ INSIDES = {
     Inside(basket="wire"): 0.015,
     Inside(basket="rack"): 0.01,
     Inside(runners=2): 0.015,
+    Inside(cleats=True): 0.06,
+    Inside(blocks=True): 0.04,
+    Inside(lip=0.02): 0.02,
 }
+FLUSH_BAYS = 0.6  # open shelves mostly end with the case's front
 
 
 def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style: Style, hand: float) -> Door:
@@ -107,7 +111,8 @@ def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:
 
 def fit_bay(rng: np.random.Generator, bay: Bay, room: Rect, style: Style) -> Bay:
     """Returns the open bay with its shelves."""
-    return replace(bay, shelves=_shelves(rng, bay.shelves, room, False, style))
+    inside = replace(bay.inside, setback=0.0 if chance(rng, FLUSH_BAYS) else style.setback)
+    return replace(bay, shelves=_shelves(rng, bay.shelves, room, False, style), inside=inside)
 
 
 def _leaf(rng: np.random.Generator, asked: LeafStyle, usual: LeafStyle, room: Rect, level: bool) -> LeafStyle:
@@ -171,8 +176,9 @@ def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, sty
 
 
 def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: Style) -> Inside:
-    if asked != Inside() or style.bare:
+    asked = replace(asked, setback=style.setback)
+    if asked != Inside(setback=style.setback) or style.bare:
         return asked
     if leaf in ("glass", "muntins") and chance(rng, 0.4):
-        return Inside(shelf="glass")
-    return pick(rng, INSIDES)
+        return replace(asked, shelf="glass")
+    return replace(pick(rng, INSIDES), setback=style.setback)

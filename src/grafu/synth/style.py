@@ -11,7 +11,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.synth.chance import between, chance, only, pick, spread
+from grafu.synth.chance import Span, between, chance, only, pick, spread
 from grafu.synth.finish import Finish
 from grafu.synth.finishes import draw_finish
 from grafu.synth.hold import Grip, HandleStyle
@@ -53,6 +53,10 @@ BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
 LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
 THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
 PUSHED = 0.25  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
+# Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones.
+FLUSH, BEYOND, JUT = 0.4, 0.06, (-0.015, -0.002)  # shares of pieces, metres
+# Metres from the fronts to the shelves behind them: touching (41003), as is usual, and well behind (half of the real).
+SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.4, (0.003, 0.015): 0.25, (0.015, 0.07): 0.35}
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
     {
@@ -67,10 +71,12 @@ PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
 class Style:
     """The choices of one maker for one piece, metres and radians.
 
-    `lap` is the most that overlay fronts cover of a panel, `frame` the width of a face frame (0: frameless). `carry`
-    says where side-hung doors carry their handles, `length` how long handles are (None: each handle's own), `full`
-    that they run along the whole front; `knob` is a knob's width, `protrusion` how far bars stand off (None: their
-    own). `pitch` is the height of a shelf's room. A `bare` piece was modelled with the least: no base, no fittings.
+    `lap` is the most that overlay fronts cover of a panel, `reveal` what they leave of the case's outer edges (None:
+    the gap; below 0: they jut out), `frame` the width of a face frame (0: frameless). `carry` says where side-hung
+    doors carry their handles, `length` how long handles are (None: each handle's own), `full` that they run along the
+    whole front; `knob` is a knob's width, `protrusion` how far bars stand off (None: their own). `pitch` is the height
+    of a shelf's room, `setback` how far behind the fronts shelves end. A `bare` piece was modelled with the least: no
+    base, no fittings.
     """
 
     tradition: TraditionName
@@ -81,6 +87,7 @@ class Style:
     gap: float
     seat: float
     lap: float
+    reveal: float | None
     frame: float
     muntin: float
     moulding: float
@@ -103,6 +110,7 @@ class Style:
     runners: bool
     slide_gap: float
     pitch: float
+    setback: float
     bare: bool
     finish: Finish
 
@@ -134,6 +142,7 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         seat=0.0002 if chance(rng, 0.5) else between(rng, (0.0005, 0.003)),
         # fronts cover all of a panel, or leave a visible reveal as face frames do in every second piece
         lap=between(rng, (0.01, 0.02)) if chance(rng, 0.45 if frame else 0.08) else 1.0,
+        reveal=_reveal(rng),
         frame=frame,
         muntin=between(rng, (0.02, 0.07)) if chance(rng, rules.muntin) and not bare else 0.0,
         moulding=between(rng, (0.03, 0.08)) if chance(rng, rules.moulded) and not bare else 0.0,
@@ -157,6 +166,7 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         # slides need 12.5 mm; models are drawn tighter and looser
         slide_gap=pick(rng, {0.0125: 5.0, 0.005: 2.0, 0.002: 1.0, 0.02: 1.0}),
         pitch=between(rng, PITCHES[chance(rng, CLOSE_SHELVES)]),
+        setback=between(rng, pick(rng, SETBACKS)),
         bare=bare,
         finish=draw_finish(rng),
     )
@@ -177,6 +187,12 @@ def _carries(name: TraditionName, handle: HandleStyle) -> Mapping[Carry, float]:
     if handle.startswith(("knob", "ring")):
         return KNOB_CARRIES
     return KITCHEN_CARRIES if name in KITCHENS else CARRIES
+
+
+def _reveal(rng: np.random.Generator) -> float | None:
+    """Returns what overlay fronts leave of the case's outer edges, metres: the gap (None), nothing, or less."""
+    kind = pick(rng, {"gap": 1.0 - FLUSH - BEYOND, "flush": FLUSH, "beyond": BEYOND})
+    return None if kind == "gap" else 0.0 if kind == "flush" else between(rng, JUT)
 
 
 def _drawer_leaf(rng: np.random.Generator, leaf: LeafStyle, rules: Tradition) -> LeafStyle:

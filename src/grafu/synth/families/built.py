@@ -71,4 +71,5 @@ def cabinet_of(
         finish=style.finish,
         rear=behind,
         share=between(rng, (0.45, 0.65)),
+        reveal=style.reveal,
     )

@@ -70,7 +70,7 @@ def _island_front(rng: np.random.Generator, style: Style, width: float, height: 
 def kitchen_units(rng: np.random.Generator) -> Ensemble:
     """Returns kitchen units side by side under one worktop, mostly wall units above, now and then a tall one."""
     style = replace(
-        draw_style(rng, KITCHEN), moulding=0.0, runners=False, opening=pi / 2
+        draw_style(rng, KITCHEN), moulding=0.0, reveal=None, runners=False, opening=pi / 2
     )  # further doors would strike neighbours
     height, depth = between(rng, (0.72, 0.88)), between(rng, (0.52, 0.62))
     widths = [pick(rng, UNIT_WIDTHS) for _ in range(3 if chance(rng, 0.3) else 2)]
