@@ -74,6 +74,21 @@ def test_what_is_given_touches_as_its_meshes_do_whatever_the_truth_joins() -> No
         assert given == {pair for pair in parsed if pair <= {p.id for p in s.asset.parts}}
 
 
+def test_where_a_label_is_lost_no_name_says_it() -> None:
+    lost = 0
+    for s in specimens():
+        for part, node in zip(s.asset.parts, s.given.nodes, strict=True):
+            if part.label is PartLabel.UNKNOWN:
+                lost += 1
+                assert part.source.name.startswith("Cube.")
+                assert part.labelled_by == "none"
+                assert (part.source.file, part.source.link) == ("", "")
+                assert node.label is PartLabel.UNKNOWN
+                assert node.source_name == part.source.name
+                assert s.truth.node(node.id).source_name == part.source.name
+    assert lost > 100
+
+
 def test_defects_name_parts_of_the_whole_and_what_is_missing() -> None:
     for s in specimens():
         ids = {p.id for p in s.whole.parts}

@@ -218,7 +218,15 @@ def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
             continue  # only on fronts that face -Y
         x, z, y = float(box.center[0]), float(box.center[2] + at * box.size[2]), float(box.low[1])
         mesh = block((x - w / 2, y - t, z - h / 2), (x + w / 2, y, z + h / 2))
-        yield Addition(PartLabel.MISC, "plate", mesh, rides_on=joint.part)
+        if _is_foremost(asset.part(joint.part), x, z):
+            yield Addition(PartLabel.MISC, "plate", mesh, rides_on=joint.part)
+
+
+def _is_foremost(front: Part, x: float, z: float) -> bool:
+    """Whether a face of the part that lies in its foremost plane covers x and z: on a recessed panel nothing holds."""
+    faces = front.mesh.triangles[:, :, [0, 2]][(front.mesh.triangles[:, :, 1] < front.box.low[1] + 0.0005).all(axis=1)]
+    at = np.array([x, z])
+    return bool(((faces.min(axis=1) <= at) & (faces.max(axis=1) >= at)).all(axis=1).any())
 
 
 def _posts(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:

@@ -35,12 +35,17 @@ BOX_APART = 0.12  # of cut models: fronts moved by the artist, their boxes left 
 
 
 def draw_joined(
-    rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float, handles: float
+    rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float, handles: float, tops: float = 1.0
 ) -> tuple[Joined, ...]:
-    """Returns which of the parts are joined: with chance `share` a group, with chance `handles` handles with fronts."""
+    """Returns which of the parts are joined: with chance `share` a group, with chance `handles` handles with fronts.
+
+    Where a case is joined, its top is one of what is joined with chance `tops`.
+    """
     found = []
     busy = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
     still = [p for p in parts if p.id not in busy and p.rides_on is None]
+    if not chance(rng, tops):
+        still = [p for p in still if p.label is not PartLabel.TOP_PANEL]
     if chance(rng, share):
         able = {
             name: weight

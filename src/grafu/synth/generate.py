@@ -63,6 +63,8 @@ def untidied(name: str, family: str, tidy: Asset, untidiness: Untidiness, points
     truth = with_true_edges(contacts, whole)
     removable = removable_parts(whole, truth)
     given, flaws = as_given(whole, untidiness, removable)
+    if any(part.label is PartLabel.UNKNOWN for part in given.parts):
+        whole, truth = _with_names_lost(whole, truth, given)
     apart = pairs_apart(contacts, truth)
     return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws), apart)
 
@@ -85,6 +87,14 @@ def as_exported(specimen: Specimen, untidiness: Untidiness) -> Specimen:
         parted = pairs_apart(contacts, truth)
         truth = without_contacts(truth, parted)
     return replace(specimen, asset=replace(specimen.asset, parts=parts), whole=whole, truth=truth, apart=apart)
+
+
+def _with_names_lost(whole: Asset, truth: FunctionalGraph, given: Asset) -> tuple[Asset, FunctionalGraph]:
+    """Returns both with the names that the given parts have: where a label is lost, no other word says it."""
+    sources = {part.id: part.source for part in given.parts}
+    parts = tuple(replace(p, source=sources.get(p.id, p.source)) for p in whole.parts)
+    nodes = tuple(replace(n, source_name=p.source.name) for n, p in zip(truth.nodes, parts, strict=True))
+    return replace(whole, parts=parts), replace(truth, nodes=nodes)
 
 
 def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:
