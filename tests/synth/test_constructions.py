@@ -1,6 +1,7 @@
 import pytest
 
 from constructions import CHESTS, SPECS
+from grafu.graph.touching import touching_pairs
 from grafu.synth.bases import base_pieces
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
@@ -154,6 +155,13 @@ def test_the_fronts_of_an_inner_corner_meet_in_a_post():
     assert first.gap(post) < TOUCHING
     assert second.gap(post) < TOUCHING
     assert [j.axis.direction[2] for j in asset.joints] == [1.0, -1.0]
+
+
+def test_the_ends_of_an_angled_corner_meet_its_frame():
+    asset = made(SPECS["angled corner on a toe kick"])
+    frame = asset.part("face_frame").mesh
+    pairs = [(asset.part(i).mesh, frame) for i in ("side_panel_left", "side_panel_right", "bottom_panel")]
+    assert [touching_pairs(list(pair), [(0, 1)], 0.0005) for pair in pairs] == [[(0, 1)]] * 3
 
 
 def test_a_rack_s_shelves_lie_between_its_uprights():

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import atan2, hypot
+from math import atan2, cos, hypot, sin
 from typing import final
 
 from grafu.asset.part import Asset
@@ -13,12 +13,14 @@ from grafu.synth.assembly import Piece, assemble
 from grafu.synth.finish import PLAIN, Finish, surface_of
 from grafu.synth.fronts import front_pieces
 from grafu.synth.layout import Cell, Door, Edges, Rect
-from grafu.synth.planks import plank
+from grafu.synth.planks import plank, solid
 from grafu.synth.setting import Mount, Setting
-from grafu.synth.shapes import board, framed_opening, prism
+from grafu.synth.shapes import framed_opening, prism
 from grafu.vocabulary import PartLabel
 
 ONE_DOOR = Door()
+SHELF_ROOM = 0.02  # metres between the face frame and the shelves: an inset door may be thicker than the frame
+Outline = tuple[tuple[float, float], ...]
 
 
 @final
@@ -95,22 +97,31 @@ def _base(spec: CornerCabinet) -> Iterator[Piece]:
 
 
 def _case(spec: CornerCabinet) -> Iterator[Piece]:
-    x, y, d, t, h, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.height, spec.finish.case
-    floor = spec.base
-    nook = t / max(abs(vec3(x - d, y - d, 0.0)) / spec.front_width)  # how far ends stand back behind the frame
-    boards = {
-        "side_panel_left": ((t, 0.0, floor), (d - nook, t, h)),
-        "side_panel_right": ((x - t, y - d + nook, floor), (x, y - t, h)),
+    x, y, t, h, floor = spec.along_x, spec.along_y, spec.panel, spec.height, spec.base
+    flat: dict[str, tuple[PartLabel, Outline]] = {
+        "side_panel_left": (PartLabel.SIDE_PANEL, ((t, 0.0), _across(spec, 0.0), _across(spec, t), (t, t))),
+        "side_panel_right": (PartLabel.SIDE_PANEL, (_along(spec, x), (x, y - t), (x - t, y - t), _along(spec, x - t))),
+        "back_panel_left": (PartLabel.BACK_PANEL, ((0.0, 0.0), (t, 0.0), (t, y - t), (0.0, y - t))),
+        "back_panel_right": (PartLabel.BACK_PANEL, ((0.0, y - t), (x, y - t), (x, y), (0.0, y))),
     }
-    for stem, (low, high) in boards.items():
-        yield Piece(PartLabel.SIDE_PANEL, stem, (surface_of(board(low, high), wood),))
-    yield Piece(PartLabel.BACK_PANEL, "back_panel_left", (surface_of(board((0.0, 0.0, floor), (t, y - t, h)), wood),))
-    yield Piece(PartLabel.BACK_PANEL, "back_panel_right", (surface_of(board((0.0, y - t, floor), (x, y, h)), wood),))
-    outline = ((t, t), (d - nook, t), (x - t, y - d + nook), (x - t, y - t), (t, y - t))
+    for stem, (label, outline) in flat.items():
+        yield solid(label, stem, spec.finish.case, [prism(outline, floor, h)])
     pitch = (h - floor) / (spec.shelves + 1)
     levels = [(PartLabel.BOTTOM_PANEL, "bottom_panel", floor)]
     levels += [(PartLabel.SHELF, "shelf", floor + pitch * (k + 1) - t / 2) for k in range(spec.shelves)]
     if spec.topped:
         levels.append((PartLabel.TOP_PANEL, "top_panel", h - t))
     for label, stem, z in levels:
-        yield Piece(label, stem, (surface_of(prism(outline, z, z + t), wood),))
+        back = SHELF_ROOM if label is PartLabel.SHELF else 0.0
+        outline = (_across(spec, t, back), _along(spec, x - t, back), (x - t, y - t), (t, y - t), (t, t))
+        yield solid(label, stem, spec.finish.case, [prism(outline, z, z + t)])
+
+
+def _across(spec: CornerCabinet, y: float, back: float = 0.0) -> tuple[float, float]:
+    """Returns the point at this y on the face frame's inner face, or `back` behind it."""
+    return spec.depth + (y * cos(spec.yaw) - spec.panel - back) / sin(spec.yaw), y
+
+
+def _along(spec: CornerCabinet, x: float, back: float = 0.0) -> tuple[float, float]:
+    """Returns the point at this x on the face frame's inner face, or `back` behind it."""
+    return x, ((x - spec.depth) * sin(spec.yaw) + spec.panel + back) / cos(spec.yaw)
