@@ -1,0 +1,67 @@
+"""The sizes and choices of the network: the paper's numbers by default, each departure named with its reason."""
+
+from dataclasses import dataclass
+from typing import Literal, final
+
+from grafu.vocabulary import EdgeKind, PartLabel
+
+LABEL_COUNT = len(PartLabel)  # 13 categories and `unknown`, coded in the order of `PartLabel`
+EDGE_COUNT = len(EdgeKind) + 1  # contact, hinge, rail, attached, null (official codes)
+
+PointsFrame = Literal["object", "part"]
+PairFeatures = Literal["signed", "unsigned"]
+PairBoxes = Literal["input", "predicted"]
+
+
+@final
+@dataclass(frozen=True)
+class GraFuConfig:
+    """What the network is built of; the defaults have the sizes of the paper (supplement, GraFu Architecture).
+
+    `hidden` is the width of nodes and slots, `edge` that of pairs; `category`, `points` and `geometry` are the widths
+    of the three parts of a node's latent. `free_slots` (K) recover what is missing; padding exists in batches only.
+
+    Departures:
+        points_frame: the authors encode points where they stand in the object. "part" takes each part about its own
+            middle, in the object's scale: the same leaf is the same shape wherever it hangs, the box says where.
+        pair_features: "signed" gives the pair heads the direction from one part to the other, "unsigned" only how far
+            apart they are; both are switches of the authors' code, and a pin's side needs the direction.
+        pair_boxes: pair heads see, for slots of input nodes, the box that was given ("input") or the one predicted
+            again: a given box is exact, and gaps of a millimetre decide about contact. No gradient runs through them.
+        pair_edges: pair heads also see the encoder's last feature of the edge between two input nodes. The paper gives
+            them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
+        geometry_dropout: in training, the share of graphs whose parts' points are hidden (authors: .3, of whole
+            batches): real surfaces differ more from synthetic ones than boxes and contacts do.
+
+    Raises:
+        ValueError: if a size is below 1, a share is not in [0, 1), or the heads do not divide `hidden`.
+    """
+
+    hidden: int = 256
+    heads: int = 8
+    encoder_layers: int = 4
+    decoder_layers: int = 4
+    edge: int = 128
+    category: int = 128
+    points: int = 64
+    geometry: int = 32
+    free_slots: int = 4
+    dropout: float = 0.1  # authors' code
+    geometry_dropout: float = 0.3
+    points_frame: PointsFrame = "part"
+    pair_features: PairFeatures = "signed"
+    pair_boxes: PairBoxes = "input"
+    pair_edges: bool = True
+
+    def __post_init__(self) -> None:
+        sizes = ("hidden", "heads", "encoder_layers", "decoder_layers", "edge", "category", "points", "geometry")
+        for name in sizes:
+            if getattr(self, name) < 1:
+                raise ValueError(f"`{name}` must be at least 1: got {getattr(self, name)}")
+        if self.hidden % self.heads:
+            raise ValueError(f"`hidden` must be a multiple of `heads`: got {self.hidden} and {self.heads}")
+        if self.free_slots < 0:
+            raise ValueError(f"`free_slots` must not be negative: got {self.free_slots}")
+        for name in ("dropout", "geometry_dropout"):
+            if not 0.0 <= getattr(self, name) < 1.0:
+                raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
