@@ -136,6 +136,14 @@ TABLES = {
     "glass table": Table(glass=True, top=0.01, overhang=0.05),
     "connectors": Table(width=2.3, depth=0.9, two_sided=True, layout=Row((Drawer(),) * 4)),
     "keyboard tray": Table(layout=Row((Drawer(), Drawer("tray"), Blank()))),
+    "long table": Table(
+        width=2.3, depth=0.9, two_sided=True, layout=Row((Drawer(),) * 5), spine=True, rails=0.02, moulding=0.05
+    ),
+    "long table, one side": Table(
+        width=2.2, layout=Row((Drawer(),) * 4), spine=True, overhang=0.04, moulding=0.04, has_aprons=False
+    ),
+    "modesty": Table(modesty=0.5, stretcher="box", rails=0.02, layout=Drawer()),
+    "hairpin table": Table(leg_shape="hairpin", leg=0.06, apron=0.08),
     "vanity": Table(mirror=0.6, edge="rounded"),
     "table with a hutch": Table(hutch=HUTCH),
 }

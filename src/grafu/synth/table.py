@@ -17,13 +17,15 @@ from grafu.synth.finish import PLAIN, Finish
 from grafu.synth.fronts import front_pieces
 from grafu.synth.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Row, divide
 from grafu.synth.legs import Leg, LegShape, lean
-from grafu.synth.planks import both_sides, plank, solid
+from grafu.synth.planks import Span, both_sides, plank, solid
 from grafu.synth.setting import Setting
 from grafu.synth.shapes import arched_rail
 from grafu.synth.table_parts import WITHIN_ROUND, Outline, mirror_pieces, on_top, table_legs, table_top
 from grafu.vocabulary import PartLabel
 
 TWO_DRAWERS = Row((Drawer(), Drawer()), between="nothing")
+SPINE = 0.03  # metres: the thickness of the board that runs lengthwise (26608: 41 mm)
+MOULDING = 0.015  # metres that a moulding around a top juts out
 APRON = 0.02  # metres: the thickness of aprons
 APRON_SETBACK = 0.01  # metres that aprons stand back behind the legs' outer faces
 
@@ -37,10 +39,12 @@ class Table:
     faces on either side; with `two_sided`, the back has the same drawers. The top is `top` thick and juts out by
     `overhang` beyond the legs. Legs are `leg` wide and of any shape; `stretcher` bars join them at `stretcher_at` of
     the height. `arch` is the height of an arched rail below the drawers. `guides` run along the drawers' sides.
-    A hutch stands on the top at its back, or a mirror of that height.
+    A hutch stands on the top at its back, or a mirror of that height. `rails` is the height of bars above and below the
+    drawers, a `spine` a board that runs lengthwise in the middle behind them. A straight top has a `moulding` of that
+    height around it, which ends above the drawers. The back apron covers the share `modesty` of the room below it.
 
     Raises:
-        ValueError: if the legs leave no room between them or below the top.
+        ValueError: if the legs leave no room between them or below the top, or the rails none for drawers.
     """
 
     name: str = "table"
@@ -67,14 +71,20 @@ class Table:
     guides: bool = False
     hutch: Cabinet | None = None
     mirror: float = 0.0
+    rails: float = 0.0
+    spine: bool = False
+    moulding: float = 0.0
+    modesty: float = 0.0
     front: float = 0.018
     gap: float = 0.003
 
     def __post_init__(self) -> None:
         x, y = self.half
-        if min(x, y) <= self.leg or self.under - self.apron - self.arch <= 0:
+        if min(x, y) <= self.leg or self.under - self.apron - self.arch <= 0 or 3 * self.rails >= self.apron:
             size = f"{self.width} x {self.depth} x {self.height} m with legs of {self.leg} m"
-            raise ValueError(f"`Table` needs room between its legs and below its drawers: got {size}")
+            raise ValueError(
+                f"`Table` needs room between its legs and rails, and below its drawers: got {size}"
+            )
 
     @property
     def half(self) -> tuple[float, float]:
@@ -105,18 +115,25 @@ def _all_fronts(spec: Table) -> Iterator[Piece]:
 
 
 def _fronts(spec: Table) -> Iterator[Piece]:
-    (x, y), z = spec.half, spec.under
+    (x, y), z, low = spec.half, spec.under, spec.under - spec.apron
     x -= spec.leg
-    back = -0.005 if spec.two_sided else y - spec.leg
+    back = -SPINE / 2 if spec.spine else -0.005 if spec.two_sided else y - spec.leg
+    near = spec.front - y if spec.rails else -y
     setting = Setting(-y, back, "inset", spec.front, spec.gap, slide_gap=spec.slide_gap, finish=spec.finish)
-    edges = Edges(bottom=Edge.SEAM, top=Edge.STOP)
-    for item in divide(spec.layout, Rect(-x, x, z - spec.apron, z), edges, 0.018):
+    edges = Edges() if spec.rails else Edges(bottom=Edge.SEAM, top=Edge.STOP)
+    if spec.rails:
+        for z0 in (low, z - spec.rails):
+            span = ((-x, -y, z0), (x, near, z0 + spec.rails))
+            yield plank(PartLabel.BAR, "apron_rail", spec.finish.case, span)
+    for item in divide(spec.layout, Rect(-x, x, low + spec.rails, z - spec.rails), edges, 0.018):
         if isinstance(item, Cell):
             yield from front_pieces(item, setting)
             continue
         r = item.rect
-        span = ((r.x0, -y, r.z0), (r.x1, back, r.z1))
-        yield plank(PartLabel.MISC, "tabletop_connector", spec.finish.case, span)
+        spans: list[Span] = [((r.x0, near, low), (r.x1, back, z))]
+        if spec.rails:  # its front end stands between the bars
+            spans.append(((r.x0, -y, r.z0), (r.x1, near, r.z1)))
+        yield plank(PartLabel.MISC, "tabletop_connector", spec.finish.case, *spans)
 
 
 def _frame(spec: Table) -> Iterator[Piece]:
@@ -125,13 +142,22 @@ def _frame(spec: Table) -> Iterator[Piece]:
     yield table_top(spec.outline, box, spec.edge, spec.glass, spec.finish)
     shape = Leg(spec.leg_shape, leg, spec.leg_foot)
     yield from table_legs(shape, (x - leg / 2, y - leg / 2), z, spec.apron, spec.finish)
+    if spec.moulding and spec.outline == "straight":
+        yield _moulding(spec, box)
+    if spec.spine:
+        end = x - min(APRON_SETBACK, leg / 4) - APRON if spec.has_aprons else x
+        span = ((-end, -SPINE / 2, z - spec.apron), (end, SPINE / 2, z))
+        yield plank(PartLabel.MISC, "tabletop_connector", wood, span)
     if not spec.has_aprons:
         return
     out = x - min(APRON_SETBACK, leg / 4)
     for side, at in both_sides(((out - APRON, leg - y, z - spec.apron), (out, y - leg, z))):
         yield plank(PartLabel.SIDE_PANEL, f"apron_{side}", wood, at)
     if not spec.two_sided:
-        span = ((leg - x, y - leg, z - spec.apron), (x - leg, y - leg + APRON, z))
+        low = (z - spec.apron) * (1 - spec.modesty)
+        if spec.stretcher != "none":
+            low = max(low, min(_stretcher_at(spec) + 0.03, z - spec.apron))
+        span = ((leg - x, y - leg, low), (x - leg, y - leg + APRON, z))
         yield plank(PartLabel.BACK_PANEL, "apron_back", wood, span)
     if spec.guides:
         yield from _guides(spec, out - APRON)
@@ -149,11 +175,28 @@ def _guides(spec: Table, out: float) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, "drawer_guide", spec.finish.case, at)
 
 
+def _moulding(spec: Table, top: Box) -> Piece:
+    """Returns four boards around a straight top: as one part, above the drawers' way."""
+    (x0, y0, _), (x1, y1, high) = top.low.tolist(), top.high.tolist()
+    low, t = max(high - spec.moulding, spec.under - spec.rails), MOULDING
+    spans: tuple[Span, ...] = (
+        ((x0 - t, y0 - t, low), (x1 + t, y0, high)),
+        ((x0 - t, y1, low), (x1 + t, y1 + t, high)),
+        ((x0 - t, y0, low), (x0, y1, high)),
+        ((x1, y0, low), (x1 + t, y1, high)),
+    )
+    return plank(PartLabel.BAR, "moulding", spec.finish.case, *spans)
+
+
+def _stretcher_at(spec: Table) -> float:
+    return max(spec.stretcher_at * (spec.under - spec.apron), min(0.03, 0.7 * spec.leg))
+
+
 def _below(spec: Table) -> Iterator[Piece]:
     """Yields the stretchers and the arched rail."""
     (x, y), leg = spec.half, spec.leg
     bar = min(0.03, 0.7 * leg)
-    z = max(spec.stretcher_at * (spec.under - spec.apron), bar)
+    z = _stretcher_at(spec)
     shape = Leg(spec.leg_shape, leg, spec.leg_foot)
     out = lean(shape, z, spec.under - spec.apron) - leg / 2
     yield from stretcher_pieces(spec.stretcher, (x + out, y + out), bar, z, spec.finish, waist(shape))

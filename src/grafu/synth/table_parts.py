@@ -48,7 +48,7 @@ def table_leg(
     leg: Leg, at: tuple[float, float], outward: tuple[float, float], high: float, apron: float
 ) -> list[TriangleMesh]:
     """Returns the solids of one leg."""
-    if leg.shape == "square" or leg.shape in METAL or not apron:
+    if leg.shape in ("square", "caster") or not apron:
         return leg_meshes(leg, at, outward, high)
     h, low = leg.thick / 2, high - apron
     block = board((at[0] - h, at[1] - h, low), (at[0] + h, at[1] + h, high))
