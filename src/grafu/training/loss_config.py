@@ -1,0 +1,78 @@
+"""The weights and choices of the losses, with the paper's numbers (supplement, Loss Function). It computes nothing."""
+
+from dataclasses import dataclass, replace
+from typing import Literal, final
+
+ClassCost = Literal["cross-entropy", "probability"]
+BoxError = Literal["squared", "absolute"]
+
+
+@final
+@dataclass(frozen=True)
+class LossConfig:
+    """What each term weighs; a weight of 0 holds a term out (supplement, Loss Ablation).
+
+    Departures from the paper, each with its reason:
+
+    - `pinned`: input nodes are matched to the nodes that they are, as in the authors' code, and only free slots are
+      assigned. The paper matches all slots and leaves the identity to the anchor loss to learn; that the answer is
+      known makes every gradient right from the first step and the assignment small.
+    - `exists_balanced` (the authors' code, not the paper): slots that should exist weigh all slots / such slots.
+    - `box_error="absolute"`: the sum of absolute instead of squared differences. Boxes are in units of the object's
+      largest side, where squares of the last few per cent hardly count.
+    - `count_smoothing`: the paper's square root has an endless slope where the count is right. With c for it the term
+      is sqrt(x + c) - sqrt(c); with 0.01 its slope stays below 5.
+    - The paper's count is of the nodes that free slots should add, however many; a graph may lack more than there are
+      free slots, which are then asked again, so here it is at most the number of free slots.
+    - Padding is not a slot that must not exist, but nothing at all.
+
+    Raises:
+        ValueError: if a weight is negative, or there are not five weights of edge kinds.
+    """
+
+    match_category: float = 1.0
+    """Weight of a wrong category in the assignment (lambda_cls)."""
+    match_centre: float = 2.0
+    """Weight of the distance of centres in the assignment (lambda_pos)."""
+    match_cost: ClassCost = "cross-entropy"
+    """The cost of a category: the paper's cross-entropy, or minus its probability, as the authors' code has it."""
+    pinned: bool = True
+    """Whether input nodes are matched to what they are."""
+
+    category: float = 1.0
+    centre: float = 1.0
+    half: float = 0.5
+    box_error: BoxError = "squared"
+    exists: float = 1.0
+    exists_balanced: bool = False
+    free_exists: float = 3.0
+    free_positive: float = 10.0
+    """How much more a free slot that should exist weighs than one that should not."""
+    count: float = 1.0
+    count_smoothing: float = 0.01
+    anchor_centre: float = 0.3
+    anchor_half: float = 0.3
+
+    edge: float = 1.0
+    edge_kinds: tuple[float, ...] = (1.0, 5.0, 5.0, 3.0, 0.2)
+    """Weights of contact, hinge, rail, attached and null."""
+    parent: float = 0.5
+    hinge_target: float = 0.5
+
+    border: float = 1.0
+    sign: float = 1.0
+    slide: float = 1.0
+
+    def __post_init__(self) -> None:
+        numbers = {name: value for name, value in vars(self).items() if isinstance(value, float)}
+        negative = {name: value for name, value in numbers.items() if value < 0}
+        if negative or min(self.edge_kinds, default=-1.0) < 0:
+            raise ValueError(f"weights of losses must not be negative: got {negative or self.edge_kinds}")
+        if len(self.edge_kinds) != 5:
+            raise ValueError(f"`edge_kinds` must be five weights: got {self.edge_kinds}")
+
+
+PAPER = LossConfig(pinned=False)
+OFFICIAL = replace(
+    LossConfig(), match_cost="probability", exists_balanced=True, border=0.3, sign=0.3, slide=0.3
+)  # as in the authors' code (official.md 5)

@@ -1,0 +1,35 @@
+"""The weights of the losses are the paper's, and nonsense is refused."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.training.loss_config import OFFICIAL, PAPER, LossConfig
+
+
+def test_the_weights_are_the_papers() -> None:
+    assert (PAPER.match_category, PAPER.match_centre, PAPER.pinned) == (1.0, 2.0, False)
+    assert (PAPER.category, PAPER.centre, PAPER.half) == (1.0, 1.0, 0.5)
+    assert (PAPER.exists, PAPER.free_exists, PAPER.count, PAPER.free_positive) == (1.0, 3.0, 1.0, 10.0)
+    assert (PAPER.anchor_centre, PAPER.anchor_half) == (0.3, 0.3)
+    assert (PAPER.edge, PAPER.parent, PAPER.hinge_target) == (1.0, 0.5, 0.5)
+    assert PAPER.edge_kinds == (1.0, 5.0, 5.0, 3.0, 0.2)
+    assert (PAPER.border, PAPER.sign, PAPER.slide) == (1.0, 1.0, 1.0)
+
+
+def test_the_authors_code_weighs_motions_less_and_pins_anchors() -> None:
+    assert (OFFICIAL.border, OFFICIAL.sign, OFFICIAL.slide) == (0.3, 0.3, 0.3)
+    assert OFFICIAL.pinned
+    assert OFFICIAL.match_cost == "probability"
+
+
+def test_a_negative_weight_is_an_error() -> None:
+    with pytest.raises(ValueError, match="must not be negative: got .*parent"):
+        LossConfig(parent=-1.0)
+    with pytest.raises(ValueError, match="must not be negative"):
+        replace(PAPER, edge_kinds=(1.0, 1.0, 1.0, 1.0, -1.0))
+
+
+def test_every_kind_of_edge_has_a_weight() -> None:
+    with pytest.raises(ValueError, match="five weights"):
+        LossConfig(edge_kinds=(1.0, 1.0))
