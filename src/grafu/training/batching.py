@@ -1,0 +1,115 @@
+"""A hand of lessons as one padded batch: what is seen, and the answers. Copies of one model share rows of points."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from grafu.network.batch import NULL, GraphBatch
+from grafu.training.lesson import Copy, Lesson
+from grafu.training.targets import TargetBatch, mirrored_targets, stack_targets
+
+
+@final
+@dataclass(frozen=True)
+class TrainingBatch:
+    """What the network is shown, what it is to answer, and how each graph came about."""
+
+    graphs: GraphBatch
+    targets: TargetBatch
+    strategies: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.strategies)
+
+    def to(self, device: torch.device | str) -> "TrainingBatch":
+        """Returns the same batch on a device."""
+        return replace(self, graphs=self.graphs.to(device), targets=self.targets.to(device))
+
+
+@final
+@dataclass(frozen=True)
+class Showing:
+    """Some copies of one lesson, all as they are, or all as their mirror images across axis `across` (0: X, 1: Y)."""
+
+    lesson: Lesson
+    copies: Sequence[Copy]
+    across: int | None = None
+
+
+def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> TrainingBatch:
+    """Returns the showings as one batch, copy by copy.
+
+    Copies share rows of points where their frames have one scale, if `shares_shifted`, as a network may do that takes
+    each part about its own middle; else where their frames are the same.
+
+    Raises:
+        ValueError: if there is no copy.
+    """
+    views = [_view(showing, copy) for showing in showings for copy in showing.copies]
+    if not views:
+        raise ValueError("a batch must hold at least one graph: got none")
+    anchors, groups, index = _point_table(showings, shares_shifted)
+    n = max(len(view.labels) for view in views)
+    graphs = GraphBatch(
+        labels=_filled([v.labels for v in views], (n,), 0),
+        boxes=_filled([v.boxes for v in views], (n, 6), 0),
+        edges=_filled([v.edges for v in views], (n, n), NULL),
+        mask=_filled([np.ones(len(v.labels), dtype=bool) for v in views], (n,), 0),
+        point_index=_filled(index, (n,), 0),
+        anchors=torch.from_numpy(anchors),
+        groups=torch.from_numpy(groups),
+    )
+    return TrainingBatch(graphs, stack_targets([v.targets for v in views]), tuple(v.strategy for v in views))
+
+
+def _view(showing: Showing, copy: Copy) -> Copy:
+    if showing.across is None:
+        return copy
+    boxes = copy.boxes.copy()
+    boxes[:, showing.across] *= -1
+    return replace(copy, boxes=boxes, targets=mirrored_targets(copy.targets, showing.across))
+
+
+def _point_table(showings: Sequence[Showing], shares_shifted: bool) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+    """Returns the rows of points that are needed, each once, and for each copy the rows of its nodes."""
+    anchors: list[np.ndarray] = []
+    groups: list[np.ndarray] = []
+    index: list[np.ndarray] = []
+    start = 0
+    for showing in showings:
+        frames: dict[tuple[float, ...], list[int]] = {}
+        for place, copy in enumerate(showing.copies):
+            shift = () if shares_shifted else tuple(copy.shift.tolist())
+            frames.setdefault((copy.stretch, *shift), []).append(place)
+        own: dict[int, np.ndarray] = {}
+        for places in frames.values():
+            copies = [showing.copies[place] for place in places]
+            rows = np.unique(np.concatenate([copy.rows for copy in copies]))
+            new_anchors, new_groups = _in_frame(showing, rows, copies[0])
+            anchors.append(new_anchors)
+            groups.append(new_groups)
+            own |= {p: start + np.searchsorted(rows, c.rows) for p, c in zip(places, copies, strict=True)}
+            start += len(rows)
+        index += [own[place] for place in range(len(showing.copies))]
+    return np.concatenate(anchors), np.concatenate(groups), index
+
+
+def _in_frame(showing: Showing, rows: np.ndarray, copy: Copy) -> tuple[np.ndarray, np.ndarray]:
+    """Returns rows of points in the frame of a copy, mirrored if that is shown."""
+    signs = np.ones(3)
+    if showing.across is not None:
+        signs[showing.across] = -1.0
+    stretch = (signs * copy.stretch).astype(np.float32)
+    shift = (signs * copy.shift).astype(np.float32)
+    return showing.lesson.anchors[rows] * stretch + shift, showing.lesson.groups[rows] * stretch
+
+
+def _filled(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: int) -> Tensor:
+    stacked = np.full((len(arrays), *shape), fill, dtype=arrays[0].dtype)
+    for row, array in zip(stacked, arrays, strict=True):
+        row[tuple(slice(size) for size in array.shape)] = array
+    return torch.from_numpy(stacked)
