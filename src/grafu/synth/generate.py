@@ -6,16 +6,17 @@ import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.errors import GraphError
-from grafu.graph.edges import Contact
+from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.graph.touching import touching_pairs
 from grafu.synth.blueprint import draw_made
 from grafu.synth.check import faults_in, faults_of
 from grafu.synth.habits import draw_untidiness
 from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
-from grafu.synth.tessellation import STEPS, tessellated
+from grafu.synth.tessellation import CUT, STEPS, tessellated
 from grafu.synth.truth import carriers, pairs_apart, with_true_edges
 from grafu.synth.untidiness import Untidiness, apply_untidiness, as_given
 from grafu.vocabulary import PartLabel
@@ -80,13 +81,28 @@ def as_exported(specimen: Specimen, untidiness: Untidiness) -> Specimen:
         return specimen
     drawn = {part.id: part.surfaces for part in whole.parts}
     parts = tuple(replace(part, surfaces=drawn[part.id]) for part in specimen.asset.parts)
-    truth, apart = specimen.truth, specimen.apart
-    if untidiness.density in STEPS:
-        contacts = parse_graph(whole)
-        apart = pairs_apart(contacts, replace(truth, edges=tuple(e for e in truth.edges if not isinstance(e, Contact))))
-        parted = pairs_apart(contacts, truth)
-        truth = without_contacts(truth, parted)
-    return replace(specimen, asset=replace(specimen.asset, parts=parts), whole=whole, truth=truth, apart=apart)
+    given = replace(specimen.asset, parts=parts)
+    if untidiness.density not in STEPS:
+        return replace(specimen, asset=given, whole=whole)
+    parted = _parted(specimen, whole, CUT * untidiness.edge)
+    truth = without_contacts(specimen.truth, parted)
+    apart = parted & {frozenset(ends_of(edge)) for edge in truth.edges}  # what is left of them are rails and hinges
+    return replace(specimen, asset=given, whole=whole, truth=truth, apart=specimen.apart | apart)
+
+
+def _parted(plain: Specimen, fine: Asset, reach: float) -> frozenset[frozenset[str]]:
+    """Returns the pairs that touch in a plain specimen and not any more where each surface lies up to `reach` deeper.
+
+    Only those that are near enough to parting are looked at as they are drawn now.
+    """
+    places = {part.id: k for k, part in enumerate(fine.parts)}
+    ends = (ends_of(edge) for edge in plain.truth.edges if frozenset(ends_of(edge)) not in plain.apart)
+    pairs = [(places[a], places[b]) for a, b in ends]
+    tolerance = ParsingConfig().mesh_tolerance * fine.unit
+    sure = set(touching_pairs([p.mesh for p in plain.whole.parts], pairs, max(tolerance - 2 * reach, 0.0)))
+    doubtful = [pair for pair in pairs if pair not in sure]
+    left = set(touching_pairs([p.mesh for p in fine.parts], doubtful, tolerance))
+    return frozenset(frozenset((fine.parts[a].id, fine.parts[b].id)) for a, b in doubtful if (a, b) not in left)
 
 
 def _with_names_lost(whole: Asset, truth: FunctionalGraph, given: Asset) -> tuple[Asset, FunctionalGraph]:

@@ -111,7 +111,8 @@ DENSITY: Final[dict[Density, float]] = {
     "split": 0.03,
     "split twice": 0.02,
 }
-EDGE = (0.0005, 0.0025)  # metres: below, nobody sees it; above, contacts of boards set edge to edge would change
+EDGE = (0.0005, 0.0025)  # metres: below, nobody sees it; above, it is a profile
+WIDEST_EDGE = 0.0015  # of the largest side: more, and boards set edge to edge would hardly touch
 # Nailers behind or under backs stand in 8 of 17 models, corner plates in 6, edges as sheets in 2, runners in 2.
 CLUTTER_WEIGHT: Final[dict[str, float]] = {
     "nailers": 3.0,
@@ -175,7 +176,7 @@ def draw_untidiness(
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
         density=pick(rng, DENSITY),
-        edge=between(rng, EDGE),
+        edge=min(between(rng, EDGE), WIDEST_EDGE * tidy.unit),
         both_sides=chance(rng, BOTH_SIDES),
     )
 
