@@ -1,0 +1,84 @@
+"""Attention of several heads, plain and with edges. Padding is never attended to; with nothing to attend, it is 0."""
+
+import math
+from typing import final
+
+import torch
+from jaxtyping import Bool, Float
+from torch import Tensor, nn
+
+_UNSEEN = -1e4  # the score of padding: exp of it is 0 in every precision, and it is no infinity
+
+
+@final
+class Attention(nn.Module):
+    """Slots or nodes attend to slots or nodes."""
+
+    def __init__(self, hidden: int, heads: int) -> None:
+        super().__init__()
+        self.heads = heads
+        self.query = nn.Linear(hidden, hidden)
+        self.key = nn.Linear(hidden, hidden)
+        self.value = nn.Linear(hidden, hidden)
+        self.out = nn.Linear(hidden, hidden)
+
+    def forward(
+        self, x: Float[Tensor, "b q h"], memory: Float[Tensor, "b k h"], mask: Bool[Tensor, "b k"]
+    ) -> Float[Tensor, "b q h"]:
+        """Returns what each of x draws from the memory's elements that are in the mask."""
+        query, key, value = self.query(x), self.key(memory), self.value(memory)
+        query, key, value = (split_heads(part, self.heads) for part in (query, key, value))
+        shares = attention_shares(query, key, None, mask)
+        return self.out(join_heads(shares @ value))
+
+
+@final
+class EdgeAttention(nn.Module):
+    """Nodes attend to nodes; an edge adds W_b z_e to each head's score and W_E z_e to the value that is drawn.
+
+    (Supplement, Graph Encoder.) Edges are averaged by the heads' shares before W_E is applied to them, not after: the
+    same sum, without a value for every pair.
+    """
+
+    def __init__(self, hidden: int, heads: int, edge: int) -> None:
+        super().__init__()
+        self.heads = heads
+        self.query = nn.Linear(hidden, hidden)
+        self.key = nn.Linear(hidden, hidden)
+        self.value = nn.Linear(hidden, hidden)
+        self.out = nn.Linear(hidden, hidden)
+        self.bias_of_edge = nn.Linear(edge, heads, bias=False)  # a bias here would move all scores alike
+        self.value_of_edge = nn.Parameter(torch.empty(heads, edge, hidden // heads))
+        nn.init.uniform_(self.value_of_edge, -1 / math.sqrt(edge), 1 / math.sqrt(edge))  # as a linear layer's
+
+    def forward(
+        self, x: Float[Tensor, "b n h"], edges: Float[Tensor, "b n n e"], mask: Bool[Tensor, "b n"]
+    ) -> Float[Tensor, "b n h"]:
+        """Returns what each node draws from the nodes in the mask; `edges[i, j]` is that of i looking at j."""
+        query, key, value = (split_heads(part(x), self.heads) for part in (self.query, self.key, self.value))
+        shares = attention_shares(query, key, self.bias_of_edge(edges).permute(0, 3, 1, 2), mask)
+        drawn = (shares.transpose(1, 2) @ edges.to(shares.dtype)).transpose(1, 2)  # b heads n e
+        return self.out(join_heads(shares @ value + drawn @ self.value_of_edge))
+
+
+def split_heads(x: Float[Tensor, "b n h"], heads: int) -> Float[Tensor, "b heads n c"]:
+    """Returns the heads' shares of a width."""
+    return x.reshape(*x.shape[:2], heads, x.shape[2] // heads).transpose(1, 2)
+
+
+def join_heads(x: Float[Tensor, "b heads n c"]) -> Float[Tensor, "b n h"]:
+    """Returns the heads' parts side by side."""
+    return x.transpose(1, 2).flatten(2)
+
+
+def attention_shares(
+    query: Float[Tensor, "b heads q c"],
+    key: Float[Tensor, "b heads k c"],
+    bias: Float[Tensor, "b heads q k"] | None,
+    mask: Bool[Tensor, "b k"],
+) -> Float[Tensor, "b heads q k"]:
+    """Returns how much each query draws from each key: the shares add up to 1, or to 0 where all is padding."""
+    scores = (query / math.sqrt(query.shape[-1])) @ key.transpose(2, 3)
+    scores = scores if bias is None else scores + bias
+    seen = mask[:, None, None, :]
+    return scores.masked_fill(~seen, _UNSEEN).softmax(dim=-1).to(query.dtype) * seen
