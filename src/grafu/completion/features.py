@@ -13,18 +13,12 @@ from jaxtyping import Float32, Float64, Int64
 
 from grafu.completion.points_grouping import box_points, group_points, resampled
 from grafu.geometry.arrays import ArrayValue, Points, frozen_array
-from grafu.graph.edges import ends_of, kind_of
+from grafu.graph.arrays import graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.vocabulary import EdgeKind, PartLabel
+from grafu.vocabulary import PartLabel
 
-# The place in this list is a label's code; `unknown` is the last.
+# The place in this list is a label's code (`grafu.graph.arrays`); `unknown` is the last.
 LABELS: tuple[PartLabel, ...] = tuple(PartLabel)
-# The authors' codes (official.md 4); the code after them says that two parts have no edge.
-EDGE_KINDS = (EdgeKind.CONTACT, EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED)
-NO_EDGE = len(EDGE_KINDS)
-
-_LABEL_CODES = {label: code for code, label in enumerate(LABELS)}
-_EDGE_CODES = {kind: code for code, kind in enumerate(EDGE_KINDS)}
 
 
 @final
@@ -51,12 +45,12 @@ class FeatureConfig:
 @final
 @dataclass(frozen=True, eq=False, slots=True)
 class GraphFeatures(ArrayValue):
-    """What is seen of n nodes, in the order of the graph.
+    """What is seen of n nodes, in the order of the graph; codes are those of `grafu.graph.arrays`.
 
     `labels` are places in `LABELS`. `boxes` are centre and half size, `anchors` a part's points spread farthest apart,
     `groups` the nearest points of each anchor, relative to it; all in the normalised frame, in which an object point x
     (metres) is (x - origin) / scale: the object stands on z = 0, centred in x and y, its largest side 1. `edges` are
-    places in `EDGE_KINDS`, `NO_EDGE` where there is none and on the diagonal; symmetric.
+    symmetric, null where there is none and on the diagonal.
     """
 
     labels: Int64[np.ndarray, " n"]
@@ -78,13 +72,12 @@ class GraphFeatures(ArrayValue):
 def graph_features(graph: FunctionalGraph, config: FeatureConfig = FeatureConfig()) -> GraphFeatures:
     """Returns what the network sees of a graph; nodes without points are seen as the surface of their box."""
     origin, scale = object_frame(graph)
-    low = np.array([n.box.low for n in graph.nodes]).reshape(-1, 3)
-    high = np.array([n.box.high for n in graph.nodes]).reshape(-1, 3)
-    boxes = np.hstack([(low + high) / 2 - origin, (high - low) / 2]) / scale
-    clouds = (_clouds(graph, low, high, config.points) - origin) / scale
+    arrays = graph_arrays(graph)
+    centre, half = arrays.boxes[:, :3], arrays.boxes[:, 3:]
+    boxes = np.hstack([centre - origin, half]) / scale
+    clouds = (_clouds(graph, centre - half, centre + half, config.points) - origin) / scale
     anchors, groups = group_points(clouds.astype(np.float32), config.anchors, config.neighbours)
-    labels = np.array([_LABEL_CODES[n.label] for n in graph.nodes], dtype=np.int64)
-    return GraphFeatures(labels, boxes.astype(np.float32), anchors, groups, edge_codes(graph), origin, scale)
+    return GraphFeatures(arrays.labels, boxes.astype(np.float32), anchors, groups, arrays.edges, origin, scale)
 
 
 def object_frame(graph: FunctionalGraph) -> tuple[Float64[np.ndarray, "3"], float]:
@@ -95,13 +88,8 @@ def object_frame(graph: FunctionalGraph) -> tuple[Float64[np.ndarray, "3"], floa
 
 
 def edge_codes(graph: FunctionalGraph) -> Int64[np.ndarray, "n n"]:
-    """Returns the kinds of a graph's edges as a symmetric matrix of codes."""
-    place = {node.id: k for k, node in enumerate(graph.nodes)}
-    codes = np.full((len(place), len(place)), NO_EDGE, dtype=np.int64)
-    for edge in graph.edges:
-        a, b = (place[end] for end in ends_of(edge))
-        codes[a, b] = codes[b, a] = _EDGE_CODES[kind_of(edge)]
-    return codes
+    """Returns the kinds of a graph's edges as the features hold them."""
+    return graph_arrays(graph).edges
 
 
 def mirrored(features: GraphFeatures, across: int) -> GraphFeatures:

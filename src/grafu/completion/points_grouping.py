@@ -1,9 +1,7 @@
-"""Points of parts in groups, many parts at once: spread anchors and the nearest points of each, as PointNet++ wants them.
+"""Points of parts in groups, many parts at once: spread anchors, and the nearest points of each (PointNet++).
 
 Everything is the same for the same points, and for one part alone as for many. It knows no parts and no labels.
 """
-
-from typing import cast
 
 import numpy as np
 from jaxtyping import Float, Float32
@@ -62,12 +60,12 @@ def box_points(low: Points, high: Points, count: int) -> Float[np.ndarray, "n p 
     return low[:, None] + shares * size[:, None]
 
 
-def resampled(points: Points, count: int) -> Points:
+def resampled(points: Points, count: int) -> Float[np.ndarray, "p 3"]:
     """Returns exactly `count` of the points: evenly picked where there are more, repeated where there are fewer."""
     if len(points) == count:
         return points
     places = np.arange(count) * len(points) // count if len(points) > count else np.arange(count) % len(points)
-    return cast(Points, points[places])
+    return points[places]
 
 
 def _squared(across: Float32[np.ndarray, "3 n p"], centres: Float32[np.ndarray, "3 n"]) -> Float32[np.ndarray, "n p"]:
