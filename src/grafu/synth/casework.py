@@ -31,15 +31,19 @@ from grafu.synth.legs import Leg, LegShape
 from grafu.synth.style import Style
 
 # How backs are modelled: nearly all are full sheets; the half and split ones are cheap furniture's.
-BACKS: Mapping[BackKind, float] = {"full": 0.88, "split": 0.07, "half": 0.02, "none": 0.03}
+BACKS: Mapping[BackKind, float] = {"full": 0.86, "split": 0.09, "half": 0.02, "none": 0.03}
+WIDE_BACK = 0.7  # metres: wider hardboard backs of furniture sold in boxes come in two halves
 BOTTOMS: Mapping[BottomKind, float] = {"between": 0.74, "sheet": 0.1, "under": 0.14, "none": 0.02}
-SIDES: Mapping[SideKind, float] = {"panel": 0.95, "framed": 0.05}
-CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.7, "framed": 0.3}
+SIDES: Mapping[SideKind, float] = {"panel": 0.87, "framed": 0.05, "double": 0.08}
+CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.66, "framed": 0.27, "double": 0.07}
 # A face frame is one part in tidy models, its bars one by one in kitchen models (44781, 45001, 45463, 45940).
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
 BARE_STANDS, BARE_BACKLESS = 0.6, 0.3  # of bare pieces: on nothing, without a back
-STRIPS = 0.07  # frameless cases whose panels have edge strips of their own (41003, 41085)
+STRIPS = 0.16  # frameless cases whose panels have edge strips of their own (41003, 41085)
 BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces
+RAIL, RAIL_HEIGHTS = 0.12, (0.03, 0.09)  # tops with a bar below their front edge; metres
+SKIRT = 0.12  # pieces on square legs or posts whose room below is closed by boards (22692)
+NAILED = 0.24  # backs with rails: 8 of the 17 models have them
 EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.06}
 ORNATE_EDGES: Mapping[TopEdge, float] = {"square": 0.3, "chamfered": 0.15, "rounded": 0.2, "moulded": 0.35}
 STRETCHERS: Mapping[Stretcher, float] = {"none": 0.75, "sides": 0.05, "H": 0.07, "box": 0.06, "shelf": 0.07}
@@ -92,7 +96,7 @@ def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, 
         height=height,
         depth=depth,
         panel=style.panel,
-        back=_back(rng, style, build),
+        back=_back(rng, style, build, width),
         base=base,
         top=top,
         frame=_frame(rng, style) if framed else _strips(rng, style, build, base),
@@ -128,6 +132,7 @@ def draw_base(rng: np.random.Generator, style: Style, size: tuple[float, float, 
         stretcher_at=between(rng, (0.15, 0.6)),
         apron=apron,
         arched=chance(rng, 0.5),
+        skirt=chance(rng, SKIRT),
     )
 
 
@@ -139,9 +144,10 @@ def draw_leg(rng: np.random.Generator, style: Style, side: float) -> Leg:
 
 def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
     kind = pick(rng, only(style.rules.top, build.tops))
+    rail = between(rng, RAIL_HEIGHTS) if not style.bare and chance(rng, RAIL) else 0.0
     if kind != "over":
         thick = 0.0 if kind != "between" or chance(rng, 0.85) else between(rng, (0.9, 1.6)) * style.panel
-        return Top(kind, thick, width=between(rng, (0.05, 0.12)))
+        return Top(kind, thick, width=between(rng, (0.05, 0.12)), rail=rail)
     thick = between(rng, build.top_thickness or (style.panel, 1.8 * style.panel))
     ornate = style.tradition in ("ornate", "shaker")
     return Top(
@@ -150,14 +156,17 @@ def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
         overhang=between(rng, style.rules.overhang) if chance(rng, 0.75) else 0.0,
         edge=pick(rng, ORNATE_EDGES if ornate else EDGES),
         rim=between(rng, (0.02, 0.1)) if chance(rng, 0.04) else 0.0,
+        rail=rail,
     )
 
 
-def _back(rng: np.random.Generator, style: Style, build: Build) -> Back:
+def _back(rng: np.random.Generator, style: Style, build: Build, width: float) -> Back:
     if style.bare:
         return Back("none" if chance(rng, BARE_BACKLESS) else "full", style.back, planted=chance(rng, 0.3))
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
-    rails = count(rng, 2, 3) if chance(rng, 0.14) else 0
+    if kind == "full" and width > WIDE_BACK and style.tradition == "flat-pack" and chance(rng, 0.5):
+        kind = "split"
+    rails = count(rng, 2, 3) if chance(rng, NAILED) else 0
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
 
 

@@ -34,7 +34,7 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
     style = draw_style(rng, BEDROOM)
     size = draw_size(rng, (0.6, 2.4), (0.45, 0.65), (1.6, 2.35))
     doors = _hung(rng, doors_across(rng, size[0]))
-    kind = pick(rng, {"doors": 0.5, "drawers below": 0.27, "above": 0.13, "open": 0.1})
+    kind = pick(rng, {"doors": 0.56, "drawers below": 0.22, "above": 0.13, "open": 0.09})
     if kind == "drawers below":
         number = max(1, round(size[0] / between(rng, (0.5, 0.9))))
         row = drawer_row(rng, number)
@@ -52,10 +52,11 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
 
 def dresser(rng: np.random.Generator) -> Cabinet:
     """Returns a dresser: drawers in rows and columns, sometimes with a door beside them."""
-    style = pushed(rng, draw_style(rng, BEDROOM), 0.3)
-    size = draw_size(rng, (0.4, 1.7), (0.38, 0.55), (0.6, 1.35))
+    style = pushed(rng, draw_style(rng, BEDROOM), 0.38)
+    style = chunky(rng, style, 0.07)
+    size = draw_size(rng, (0.4, 1.7), (0.38, 0.55), (0.45, 1.35))
     width, _, height = size
-    columns = 1 if width < 0.75 else 2 if width < 1.3 or chance(rng, 0.7) else 3
+    columns = 1 if width < 0.75 or (width < 1.15 and chance(rng, 0.4)) else 2 if width < 1.3 or chance(rng, 0.7) else 3
     rows = max(2, round(height / between(rng, (0.15, 0.28))))
     layout = drawer_grid(rng, style, columns, min(rows, 4 if columns == 3 else 6))
     if columns == 1 and width > 0.6 and chance(rng, 0.35):
@@ -68,7 +69,7 @@ def dresser(rng: np.random.Generator) -> Cabinet:
 
 def nightstand(rng: np.random.Generator) -> Cabinet:
     """Returns a nightstand: one to three drawers, an open bay, a door."""
-    style = chunky(rng, pushed(rng, draw_style(rng, BEDROOM)), 0.2)
+    style = chunky(rng, pushed(rng, draw_style(rng, BEDROOM), 0.25), 0.28)
     size = draw_size(rng, (0.35, 0.8), (0.3, 0.48), (0.32, 0.75))
     kind = pick(rng, {"drawers": 0.45, "drawer over bay": 0.3, "drawer over door": 0.17, "door": 0.08})
     layouts: dict[str, Layout] = {

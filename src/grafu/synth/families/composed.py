@@ -22,6 +22,7 @@ from grafu.vocabulary import PartLabel
 
 UNIT_WIDTHS = {0.3: 1.0, 0.4: 1.5, 0.45: 1.0, 0.5: 1.5, 0.6: 3.0, 0.8: 1.5, 0.9: 1.0}  # metres: the trade's modules
 
+PLAIN_UNITS = 0.75  # of kitchens: with all that single cabinets have, many would have more parts than a model may have
 WALL_PANEL = 0.85  # of kitchens with wall units: what hangs on a wall is mostly drawn with a piece of it
 FILLER = 0.05  # metres between base units and a tall one: a door beside it opens square, its handle has room
 
@@ -70,7 +71,12 @@ def _island_front(rng: np.random.Generator, style: Style, width: float, height: 
 def kitchen_units(rng: np.random.Generator) -> Ensemble:
     """Returns kitchen units side by side under one worktop, mostly wall units above, now and then a tall one."""
     style = replace(
-        draw_style(rng, KITCHEN), moulding=0.0, reveal=None, runners=False, opening=pi / 2
+        draw_style(rng, KITCHEN),
+        moulding=0.0,
+        reveal=None,
+        runners=False,
+        bare=chance(rng, PLAIN_UNITS),
+        opening=pi / 2,
     )  # further doors would strike neighbours
     height, depth = between(rng, (0.72, 0.88)), between(rng, (0.52, 0.62))
     widths = [pick(rng, UNIT_WIDTHS) for _ in range(3 if chance(rng, 0.3) else 2)]

@@ -49,7 +49,7 @@ def sideboard(rng: np.random.Generator) -> Cabinet:
 def tv_stand(rng: np.random.Generator) -> Cabinet:
     """Returns a low TV stand: open bays between drawers and doors."""
     style = draw_style(rng, LIVING)
-    size = draw_size(rng, (0.9, 2.8), (0.33, 0.5), (0.3, 0.65))
+    size = draw_size(rng, (1.0, 2.9), (0.33, 0.5), (0.3, 0.65))
     low = style.between
     fronts: Mapping[Layout, float] = {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25}
     closed = pick(rng, fronts)
@@ -68,7 +68,7 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
 def lowboard(rng: np.random.Generator) -> Cabinet:
     """Returns a lowboard: flaps that drop down (mostly) or lift up, drawers or bays beside them."""
     style = draw_style(rng, {"minimal": 0.35, "frameless": 0.25, "mid-century": 0.25, "flat-pack": 0.15})
-    size = draw_size(rng, (1.0, 2.8), (0.35, 0.5), (0.25, 0.6))
+    size = draw_size(rng, (1.0, 2.9), (0.35, 0.5), (0.25, 0.6))
     flap = Door("bottom" if chance(rng, 0.8) else "top")
     columns = max(1, round(size[0] / between(rng, (0.6, 0.95))))
     cells: list[Layout] = [flap] * columns
