@@ -24,7 +24,7 @@ def test_the_authors_code_weighs_motions_less_and_pins_anchors() -> None:
 
 
 def test_a_negative_weight_is_an_error() -> None:
-    with pytest.raises(ValueError, match="must not be negative: got .*parent"):
+    with pytest.raises(ValueError, match=r"must not be negative: got .*parent"):
         LossConfig(parent=-1.0)
     with pytest.raises(ValueError, match="must not be negative"):
         replace(PAPER, edge_kinds=(1.0, 1.0, 1.0, 1.0, -1.0))
