@@ -58,6 +58,7 @@ CASES = {
     "top rail": Case(top=Top("over", overhang=0.02, rail=0.05)),
     "top rail behind strips": Case(frame=FaceFrame(kind="strips"), top=Top(rail=0.04)),
     "posts with a skirt": Case(0.86, 0.6, 0.6, base=Base("posts", 0.08, Leg("square", 0.036), skirt=True)),
+    "cornice": Case(top=Top("over", 0.05, 0.03, edge="cornice")),
     "legs with a skirt": Case(base=Base("legs", 0.1, Leg("square", 0.04), skirt=True)),
 }
 CABINETS = {
@@ -121,6 +122,10 @@ CABINETS |= {
     "fronts wider than the case": Cabinet(
         case=Case(base=Base("posts", 0.05, Leg("square", 0.036))), layout=THREE, reveal=-0.01
     ),
+    "top and bottom that follow swept doors": Cabinet(
+        case=Case(0.8, 1.3, 0.3, top=Top("over", 0.04, 0.02), bottom=Bottom("under", 0.04, 0.02)),
+        layout=Pair("swept", "none", shelves=2, inside=Inside(setback=0.0)),
+    ),
     "doors wider than the case": Cabinet(layout=Row((Door("left"), Door("right"))), reveal=-0.02),
 }
 HUTCH = Cabinet(case=Case(1.1, 0.45, 0.25), layout=Row((Bay(1), Drawer(), Bay(1))))
@@ -154,6 +159,7 @@ DESKS = {
     "desk with a return": Desk(wing=0.9, hutch=HUTCH),
 }
 CHESTS = {
+    "domed lid": Chest(dome=0.12, lid=0.03),
     "lid within": Chest(within=True, edge="rounded"),
     "chest with drawers": Chest(box=Case(1.0, 0.6, 0.5), drawers=Row((Drawer(), Drawer()))),
     "chest on posts": Chest(box=Case(1.0, 0.6, 0.5, base=Base("posts", 0.1, Leg("square", 0.05))), within=True),

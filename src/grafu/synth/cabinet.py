@@ -15,6 +15,7 @@ from grafu.synth.construction import Back
 from grafu.synth.finish import PLAIN, Finish
 from grafu.synth.fronts import front_pieces, partition_pieces
 from grafu.synth.layout import Layout, Pair, Partition, Rect, divide
+from grafu.synth.leaf_relief import swept_depth
 from grafu.synth.planks import plank
 from grafu.synth.setting import Mount, Setting
 from grafu.vocabulary import PartLabel
@@ -29,7 +30,8 @@ class Cabinet:
     """A cabinet, metres. `lap` is the most that an overlay front covers of a panel; `gap` parts neighbouring fronts.
 
     Overlay fronts end `reveal` within the case's outer faces (none: by the gap; 0: flush; below 0: beyond them to the
-    sides, as free-standing pieces may).
+    sides, as free-standing pieces may). Before a pair bowed as one, a square top over the sides and a bottom under them
+    that jut out follow its curve.
     Drawer boxes keep `slide_gap` from the walls on either side, 12.5 mm as real slides need. A two-sided cabinet has a
     second layout, `rear`, that faces +Y; a wall in place of the back then parts the two, `share` of the depth for the
     front one.
@@ -97,12 +99,23 @@ def make_cabinet(spec: Cabinet) -> Asset:
 
 def cabinet_pieces(spec: Cabinet) -> list[Piece]:
     """Returns the pieces of a cabinet: its case is centred in x and y and stands on z = 0."""
-    case = spec.case if spec.rear is None else replace(spec.case, back=Back("none", 0.0))
+    case = _following(spec.layout, spec.case)
+    case = case if spec.rear is None else replace(case, back=Back("none", 0.0))
     setting = spec.setting
     pieces = [*case_pieces(case, spec.finish, setting.front), *_filling(spec.layout, spec, setting)]
     if spec.rear is not None:
         pieces += _rear(spec.rear, spec, setting)
     return pieces
+
+
+def _following(layout: Layout, case: Case) -> Case:
+    """Returns the case with its top and bottom bulging as far as a pair of swept leaves that fills its front."""
+    if not isinstance(layout, Pair) or layout.leaf not in ("swept", "swept frame") or layout.muntin:
+        return case
+    belly = swept_depth(case.width / 2)
+    top = replace(case.top, belly=belly) if case.top.overhang > 0 else case.top
+    bottom = replace(case.bottom, belly=belly) if case.bottom.overhang > 0 else case.bottom
+    return replace(case, top=top, bottom=bottom)
 
 
 def _filling(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[Piece]:

@@ -18,6 +18,7 @@ from grafu.synth.fronts import front_pieces, partition_pieces
 from grafu.synth.layout import Cell, Edges, Layout, Rect, divide
 from grafu.synth.planks import plank
 from grafu.synth.setting import Setting
+from grafu.synth.shapes import domed_board
 from grafu.synth.tops import top_meshes
 from grafu.vocabulary import JointType, PartLabel
 
@@ -30,7 +31,8 @@ class Chest:
     """A chest, metres: a box that a front board and a lid close.
 
     The lid lies `seat` above the box and juts out by `overhang` at the front and the sides; with `within`, it lies
-    flush between the box's walls, `gap` from them. Inset `drawers` fill the lower `drawers_share` of the front.
+    flush between the box's walls, `gap` from them. One above the box may be a dome, `dome` higher in the middle. Inset
+    `drawers` fill the lower `drawers_share` of the front.
 
     Raises:
         ValueError: if the box is not deep enough for a lid between its walls.
@@ -48,6 +50,7 @@ class Chest:
     edge: TopEdge = "square"
     drawers: Layout | None = None
     drawers_share: float = 0.4
+    dome: float = 0.0
 
     def __post_init__(self) -> None:
         if min(self.box.depth, self.box.width) <= 2 * self.box.panel + 4 * self.gap + 0.05:
@@ -93,6 +96,7 @@ def _lid(box: Case, spec: Chest) -> Piece:
         low = z + spec.seat
         shape = Box(vec3(-x - o, -y - o, low), vec3(x + o, y, low + spec.lid))
         pin = vec3(0.0, y, low)
-    meshes = top_meshes(Top("over", edge=spec.edge), shape)
+    domed = spec.dome > 0 and not spec.within
+    meshes = [domed_board(shape, spec.dome)] if domed else top_meshes(Top("over", edge=spec.edge), shape)
     motion = Motion(JointType.REVOLUTE, Axis(pin, vec3(-1.0, 0.0, 0.0)), spec.opening)
     return Piece(PartLabel.DOOR, "lid", tuple(surface_of(mesh, spec.finish.front) for mesh in meshes), motion)

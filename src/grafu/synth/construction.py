@@ -11,7 +11,7 @@ from grafu.synth.legs import Leg
 BaseKind = Literal["none", "plinth", "toe kick", "legs", "posts", "sled"]
 Stretcher = Literal["none", "sides", "H", "box", "shelf"]
 TopKind = Literal["between", "over", "none", "stretchers", "corner blocks"]
-TopEdge = Literal["square", "chamfered", "rounded", "moulded"]
+TopEdge = Literal["square", "chamfered", "rounded", "moulded", "cornice"]
 SideKind = Literal["panel", "double", "framed", "slats", "metal", "none"]
 BackKind = Literal["full", "half", "split", "none"]
 BottomKind = Literal["between", "under", "sheet", "none"]
@@ -56,7 +56,8 @@ class Top:
     """The top: between the sides, over them, missing, or replaced by flat bars or blocks in the corners (`width` wide).
 
     `thickness` 0 means the case's panel. A top over the sides juts out by `overhang` beyond the front and the sides,
-    by `front` and `sides` more, and by `back` behind. A moulded edge is two stacked boards, the lower one smaller. A
+    by `front` and `sides` more, and by `back` behind. A moulded edge is two stacked boards, the lower one smaller; of
+    a cornice, the lower one is a part of its own. The front edge bulges by `belly` in the middle where it is square. A
     raised edge of height `rim` stands at the back. With `sink`, a basin hangs in a cut-out. Below a top between or
     over the sides of a case without a face frame, a bar of height `rail` spans the front.
     """
@@ -73,6 +74,7 @@ class Top:
     glass: bool = False
     width: float = 0.07  # of stretchers: the usual flat bar of kitchen cabinets
     rail: float = 0.0
+    belly: float = 0.0
 
 
 @final
@@ -113,12 +115,14 @@ class Back:
 class Bottom:
     """The bottom: between the sides, under them, a sheet without thickness, or none.
 
-    `thickness` 0 means the case's panel; one under the sides juts out by `overhang` to the front and the sides.
+    `thickness` 0 means the case's panel; one under the sides juts out by `overhang` to the front and the sides, its
+    front edge by `belly` more in the middle.
     """
 
     kind: BottomKind = "between"
     thickness: float = 0.0
     overhang: float = 0.0
+    belly: float = 0.0
 
 
 @final

@@ -74,8 +74,13 @@ def _curved(relief: Relief, leaf: LeafShape) -> Relief:
         out = min(BOW, leaf.rect.width / 12) * (1 - (2 * u - 1) ** 2)
     else:
         v = u if leaf.free == "right" else 1 - u
-        out = min(SWEEP, leaf.rect.width / 7) * (1 - (1 - v) ** 2)
+        out = swept_depth(leaf.rect.width) * (1 - (1 - v) ** 2)
     return Relief(relief.x, relief.z, relief.front - out[:, None], relief.back - out)
+
+
+def swept_depth(width: float) -> float:
+    """Returns how far the free side of a swept leaf of this width comes forward, metres."""
+    return min(SWEEP, width / 7)
 
 
 def _bent(leaf: LeafShape) -> Relief:

@@ -2,11 +2,15 @@
 
 from collections.abc import Iterator
 
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.assembly import Piece
 from grafu.synth.case import Case
 from grafu.synth.construction import Sides
 from grafu.synth.finish import Finish
-from grafu.synth.planks import Corner, Span, both_sides, plank
+from grafu.synth.planks import Corner, Span, both_sides, plank, solid
+from grafu.synth.shapes import bow_fronted_board
 from grafu.vocabulary import PartLabel
 
 UPRIGHT = 0.03  # metres: the depth of a metal upright's tube
@@ -55,8 +59,9 @@ def bottom_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
         return
     if case.lies_under:
         x, o = case.width / 2 + bottom.overhang, bottom.overhang
-        high = (x, case.depth / 2, low + case.bottom_thickness)
-        yield plank(PartLabel.BOTTOM_PANEL, "bottom_panel", finish.case, ((-x, case.front - o, low), high))
+        box = Box(vec3(-x, case.front - o, low), vec3(x, case.depth / 2, low + case.bottom_thickness))
+        mesh = bow_fronted_board(box, bottom.belly) if bottom.belly else TriangleMesh.box_mesh(box)
+        yield solid(PartLabel.BOTTOM_PANEL, "bottom_panel", finish.case, [mesh])
         return
     spans = level_spans(case, low, low + case.bottom_thickness)
     yield plank(PartLabel.BOTTOM_PANEL, "bottom_panel", finish.case, *spans)

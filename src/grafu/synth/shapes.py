@@ -49,6 +49,23 @@ def table_board(box: Box, edge: float, rounded: bool, steps: int = 4) -> Triangl
     return loft(np.stack(rings))
 
 
+def bow_fronted_board(box: Box, belly: float, steps: int = 12) -> TriangleMesh:
+    """Returns a level board whose front edge bulges by `belly` before the box, in the middle."""
+    (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
+    shares = np.linspace(0.0, 1.0, steps + 1)
+    front = zip((x0 + shares * (x1 - x0)).tolist(), (y0 - 4 * belly * shares * (1 - shares)).tolist(), strict=True)
+    return prism([*front, (x1, y1), (x0, y1)], z0, z1)
+
+
+def domed_board(box: Box, rise: float, steps: int = 12) -> TriangleMesh:
+    """Returns a level board whose upper face is an arch from front to back, `rise` above the box in the middle."""
+    (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
+    shares = np.linspace(1.0, 0.0, steps + 1)
+    y, z = y0 + shares * (y1 - y0), z1 + 4 * rise * shares * (1 - shares)
+    outline = np.vstack([[(y0, z0), (y1, z0)], np.column_stack([y, z])])
+    return loft(np.stack([np.column_stack([np.full(len(outline), x), outline]) for x in (x0, x1)]))
+
+
 def turned(start: Vec3, end: Vec3, profile: Sequence[tuple[float, float]], sides: int = 12) -> TriangleMesh:
     """Returns a turned solid from `start` to `end`; `profile` lists (share of the way, radius), radii above 0."""
     direction = (end - start) / np.linalg.norm(end - start)

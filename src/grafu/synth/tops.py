@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -11,7 +12,7 @@ from grafu.synth.construction import Top
 from grafu.synth.finish import Finish
 from grafu.synth.panels import level_spans
 from grafu.synth.planks import Span, both_sides, plank, solid
-from grafu.synth.shapes import board, table_board
+from grafu.synth.shapes import board, bow_fronted_board, table_board
 from grafu.vocabulary import PartLabel
 
 BASIN_WALL = 0.003  # metres
@@ -26,7 +27,7 @@ def top_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
         spans = level_spans(case, case.height - case.top_thickness, case.height)
         yield plank(PartLabel.TOP_PANEL, "top_panel", wood, *spans)
     elif kind == "over":
-        yield solid(PartLabel.TOP_PANEL, "top_panel", wood, top_meshes(case.top, over_box(case)))
+        yield from _over(case.top, over_box(case), wood, finish)
         yield from _rim(case, finish)
         if case.top.sink:
             yield _basin(sink_hole(over_box(case)), case.height, finish)
@@ -47,17 +48,26 @@ def over_box(case: Case) -> Box:
     return Box(vec3(-x, y0, case.crown), vec3(x, case.depth / 2 + top.back, case.height))
 
 
+def _over(top: Top, box: Box, wood: Material, finish: Finish) -> Iterator[Piece]:
+    """Yields the top that lies over the sides, a cornice in two parts."""
+    meshes = top_meshes(top, box)
+    if top.edge == "cornice" and len(meshes) == 2:
+        yield solid(PartLabel.BAR, "cornice", finish.case, meshes[:1])
+        meshes = meshes[1:]
+    yield solid(PartLabel.TOP_PANEL, "top_panel", wood, meshes)
+
+
 def top_meshes(top: Top, box: Box) -> list[TriangleMesh]:
     """Returns the solids of a straight top that fills the box."""
     if top.sink:
         return _around(box, sink_hole(box))
-    if top.edge == "moulded":
+    if top.edge in ("moulded", "cornice"):
         middle, step = float(box.center[2]), MOULDED_STEP
         lower = Box(box.low + vec3(step, step, 0.0), vec3(box.high[0] - step, box.high[1], middle))
         upper = Box(vec3(box.low[0], box.low[1], middle), box.high)
         return [TriangleMesh.box_mesh(lower), TriangleMesh.box_mesh(upper)]
     if top.edge == "square":
-        return [TriangleMesh.box_mesh(box)]
+        return [bow_fronted_board(box, top.belly) if top.belly else TriangleMesh.box_mesh(box)]
     return [table_board(box, 0.45 * float(box.size[2]), top.edge == "rounded")]
 
 
