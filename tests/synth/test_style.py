@@ -3,7 +3,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from grafu.synth.style import draw_style
+from grafu.synth.style import LIGHT, LIGHT_FRONT, chunky, draw_style, pushed
 from grafu.synth.traditions import TRADITIONS, mixed
 
 
@@ -27,10 +27,28 @@ def test_the_face_frame_is_what_american_kitchens_have():
     assert not any(style.frame for style in styles("frameless"))
 
 
-def test_about_one_barred_piece_in_six_carries_handles_that_say_nothing_about_the_hinge():
-    carries = Counter(style.carry for name in ("frameless", "face frame", "office") for style in styles(name))
-    share = carries["top line"] / sum(carries.values())
-    assert 0.1 < share < 0.24
+@pytest.mark.parametrize(("names", "low", "high"), [(("frameless", "face frame"), 0.2, 0.33), (("office",), 0.1, 0.25)])
+def test_bars_that_say_nothing_about_the_hinge_are_commonest_in_kitchens(names, low, high):
+    carries = Counter(style.carry for name in names for style in styles(name))
+    assert low < carries["top line"] / sum(carries.values()) < high
+
+
+def test_pieces_without_handles_are_pushed_as_often_as_asked():
+    rng = np.random.default_rng(7)
+    drawn = [pushed(rng, style, 0.5) for style in styles("shaker", 200) if style.handle != "none"]
+    assert 0.35 < np.mean([style.drawer_handle == "none" for style in drawn]) < 0.65
+
+
+def test_thin_boards_have_thin_fronts_and_chunky_ones_are_thick():
+    assert all(style.front <= LIGHT_FRONT for style in styles("face frame") if style.panel < LIGHT)
+    rng = np.random.default_rng(8)
+    assert all(chunky(rng, style, 1.0).panel >= 0.028 for style in styles("flat-pack", 20))
+
+
+def test_bare_pieces_have_neither_frames_nor_mouldings():
+    bare = [style for name in TRADITIONS for style in styles(name, 100) if style.bare]
+    assert len(bare) > 50
+    assert not any(style.frame or style.moulding or style.muntin or style.runners for style in bare)
 
 
 def test_grips_are_cut_into_slabs_alone():

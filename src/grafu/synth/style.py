@@ -54,7 +54,7 @@ LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fr
 THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
 PUSHED = 0.25  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
 # Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones.
-FLUSH, BEYOND, JUT = 0.5, 0.1, (-0.015, -0.002)  # shares of pieces, metres
+FLUSH, BEYOND, JUT = 0.55, 0.12, (-0.015, -0.002)  # shares of pieces, metres
 # Metres from the fronts to the shelves behind them: touching (41003), as is usual, and well behind (half of the real).
 SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.4, (0.003, 0.015): 0.25, (0.015, 0.07): 0.35}
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars

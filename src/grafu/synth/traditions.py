@@ -42,7 +42,7 @@ class Tradition:
     base: Mapping[BaseKind, float]
     leg: Mapping[LegShape, float]
     top: Mapping[TopKind, float]
-    bare: float = 0.12
+    bare: float = 0.16
     plain_drawers: float = 0.3
     framed: float = 0.0
     moulded: float = 0.0
@@ -106,7 +106,7 @@ def mixed(*shares: tuple[float, Handles]) -> dict[HandleStyle, float]:
 TRADITIONS: dict[TraditionName, Tradition] = {
     "frameless": Tradition(
         panel=MELAMINE,
-        bare=0.28,
+        bare=0.33,
         front={0.013: 1.0, 0.016: 3.0, 0.018: 4.0, 0.019: 3.0, 0.022: 1.0},
         back=THIN_BACK,
         mount={"overlay": 0.96, "inset": 0.04},
@@ -163,7 +163,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
             "planks": 0.06,
             "louvred": 0.05,
             "raised panel": 0.04,
-            "swept frame": 0.015,
+            "swept frame": 0.035,
         },
         handle=mixed((0.55, KNOBS), (0.15, CLASSIC_BARS), (0.15, CUPS), (0.05, DROPS), (0.1, NONE)),
         box=BOXES,
@@ -182,7 +182,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
         back=ANY_BACK,
         mount={"inset": 0.62, "overlay": 0.38},
         gap=(0.001, 0.004),
-        leaf={"slab": 0.72, "rounded": 0.1, "chamfered": 0.08, "bowed": 0.03, "louvred": 0.05, "swept": 0.02},
+        leaf={"slab": 0.72, "rounded": 0.1, "chamfered": 0.08, "bowed": 0.04, "louvred": 0.05, "swept": 0.03},
         handle=mixed((0.4, KNOBS), (0.3, BARS), (0.05, DROPS), (0.25, NONE)),
         box=BOXES,
         between={"nothing": 0.42, "panel": 0.33, "rail": 0.17, "frame": 0.08},
@@ -244,7 +244,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
             "arched rail": 0.06,
             "half arched": 0.02,
             "arched": 0.02,
-            "swept frame": 0.03,
+            "swept frame": 0.06,
         },
         handle=mixed((0.45, OLD_KNOBS), (0.38, DROPS), (0.12, CLASSIC_BARS), (0.05, NONE)),
         box=BOXES,

@@ -56,7 +56,7 @@ def dresser(rng: np.random.Generator) -> Cabinet:
     style = chunky(rng, style, 0.07)
     size = draw_size(rng, (0.4, 1.7), (0.38, 0.55), (0.45, 1.35))
     width, _, height = size
-    columns = 1 if width < 0.75 or (width < 1.15 and chance(rng, 0.4)) else 2 if width < 1.3 or chance(rng, 0.7) else 3
+    columns = 1 if width < 0.75 or (width < 1.15 and chance(rng, 0.25)) else 2 if width < 1.3 or chance(rng, 0.7) else 3
     rows = max(2, round(height / between(rng, (0.15, 0.28))))
     layout = drawer_grid(rng, style, columns, min(rows, 4 if columns == 3 else 6))
     if columns == 1 and width > 0.6 and chance(rng, 0.35):

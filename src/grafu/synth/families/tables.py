@@ -113,7 +113,7 @@ def drawer_table(rng: np.random.Generator) -> Table:
     style = draw_style(rng, HOME)
     kind = pick(rng, KINDS)
     *spans, numbers = TABLES[kind]
-    two_sided = kind in ("dining", "coffee", "long") and chance(rng, 0.4)
+    two_sided = kind in ("dining", "coffee", "long") and chance(rng, 0.5)
     size = draw_size(rng, *spans)
     return _table(rng, "drawer_table", style, size, count(rng, *numbers), APRONS[kind], two_sided=two_sided)
 
