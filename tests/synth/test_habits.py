@@ -71,7 +71,7 @@ def test_tops_are_missing_where_nobody_sees_them(family: str) -> None:
 
 
 def test_faces_are_drawn_as_exporters_do() -> None:
-    assert share([u.both_sides for u in draws()]) == pytest.approx(BOTH_SIDES, abs=0.04)
+    assert share([u.both_sides for u in draws()]) == pytest.approx(BOTH_SIDES, abs=0.07)
     assert share([u.density == "plain" for u in draws()]) == pytest.approx(DENSITY["plain"], abs=0.03)
 
 

@@ -20,7 +20,7 @@ TIDY = make_cabinet(Cabinet(layout=Stack((Door(shelves=1), Drawer()))))
 BOARD = "side_panel_left"
 
 
-@pytest.mark.parametrize(("steps", "faces"), [(1, 44), (4, 236), (8, 716)])
+@pytest.mark.parametrize(("steps", "faces"), [(1, 44), (4, 236), (10, 1052)])
 def test_rounded_boards_are_closed_and_fill_their_box_but_for_their_edges(steps: int, faces: int) -> None:
     box = Box(vec3(0.1, 0.2, 0.0), vec3(0.118, 0.7, 0.9))
     vertices, triangles = rounded_board(box.low[None], box.high[None], 0.002, steps)

@@ -76,7 +76,8 @@ def as_exported(specimen: Specimen, untidiness: Untidiness) -> Specimen:
     Nothing moves by more than an edge is broken, so that motions stay true; contacts are looked at again where edges
     were broken: what barely touched may not touch any more.
     """
-    whole = tessellated(specimen.whole, untidiness.density, untidiness.edge, untidiness.both_sides)
+    fine = tessellated(specimen.whole, untidiness.density, untidiness.edge)
+    whole = tessellated(fine, both_sides=untidiness.both_sides)
     if whole is specimen.whole:
         return specimen
     drawn = {part.id: part.surfaces for part in whole.parts}
@@ -84,7 +85,7 @@ def as_exported(specimen: Specimen, untidiness: Untidiness) -> Specimen:
     given = replace(specimen.asset, parts=parts)
     if untidiness.density not in STEPS:
         return replace(specimen, asset=given, whole=whole)
-    parted = _parted(specimen, whole, CUT * untidiness.edge)
+    parted = _parted(specimen, fine, CUT * untidiness.edge)
     truth = without_contacts(specimen.truth, parted)
     apart = parted & {frozenset(ends_of(edge)) for edge in truth.edges}  # what is left of them are rails and hinges
     return replace(specimen, asset=given, whole=whole, truth=truth, apart=specimen.apart | apart)

@@ -101,16 +101,18 @@ THICKEST_SHEET = 0.023  # metres: a thicker panel's outer face alone would stand
 FACES: Final[dict[Faces, float]] = {"doubled": 0.3, "inverted": 0.2, "loose": 0.2, "open back": 0.2, "shells": 0.1}
 # All development models draw every face from both sides, as PartNet's exports do; artists' files and scans do not.
 BOTH_SIDES = 0.4
-# Faces of the median part: 16 to 1600 in the development models, of which half are drawn from both sides. Chamfers are
-# what modelling programs break edges with by default; finer rounding and splitting are for renderers and come seldom.
+# Faces of the median part: 16 to 1750 in the development models, all drawn from both sides; three of 17 lie above 280.
+# Chamfers are what modelling programs break edges with by default. Fine rounding comes with exports for renderers
+# (26608, 46896), which draw both sides.
 DENSITY: Final[dict[Density, float]] = {
-    "plain": 0.85,
-    "broken edges": 0.055,
-    "rounded edges": 0.03,
-    "finely rounded": 0.015,
+    "plain": 0.825,
+    "broken edges": 0.04,
+    "rounded edges": 0.025,
+    "finely rounded": 0.06,
     "split": 0.03,
     "split twice": 0.02,
 }
+FINE_BOTH_SIDES = 0.9
 EDGE = (0.0005, 0.0025)  # metres: below, nobody sees it; above, it is a profile
 WIDEST_EDGE = 0.0015  # of the largest side: more, and boards set edge to edge would hardly touch
 # Nailers behind or under backs stand in 8 of 17 models, corner plates in 6, edges as sheets in 2, runners in 2.
@@ -121,7 +123,7 @@ CLUTTER_WEIGHT: Final[dict[str, float]] = {
     "runners": 1.5,
     "posts": 0.8,
     "pads": 0.6,
-    "plates": 0.6,
+    "plates": 1.0,
     "things on top": 0.4,
     "things on shelves": 0.5,
     "basket": 0.4,
@@ -158,6 +160,7 @@ def draw_untidiness(
     tops = JOINED_TOP if is_storage(tidy) and NO_TOP.get(family, 1.0) > NO_TABLE_TOP else 0.0
     joined = draw_joined(rng, tidy, kept, habit.joined, habit.handles_joined, tops)
     free = [p for p in kept if not any(p.id in group.ids for group in joined)]
+    density = pick(rng, DENSITY)
     return Untidiness(
         name,
         int(rng.integers(2**62)),
@@ -175,9 +178,9 @@ def draw_untidiness(
         masked=between(rng, LOST[int(rng.choice(4, p=habit.masking))]),
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
-        density=pick(rng, DENSITY),
+        density=density,
         edge=min(between(rng, EDGE), WIDEST_EDGE * tidy.unit),
-        both_sides=chance(rng, BOTH_SIDES),
+        both_sides=chance(rng, FINE_BOTH_SIDES if density == "finely rounded" else BOTH_SIDES),
     )
 
 

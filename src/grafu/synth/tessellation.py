@@ -22,8 +22,8 @@ from grafu.geometry.mesh import TriangleMesh
 
 Density = Literal["plain", "broken edges", "rounded edges", "finely rounded", "split", "split twice"]
 
-# Faces of a plain board: 12 as made; 44, 236 and 716 with edges broken in 1, 4 and 8 steps; 48 and 192 split.
-STEPS: Final[dict[Density, int]] = {"broken edges": 1, "rounded edges": 4, "finely rounded": 8}
+# Faces of a plain board: 12 as made; 44, 236 and 1052 with edges broken in 1, 4 and 10 steps; 48 and 192 split.
+STEPS: Final[dict[Density, int]] = {"broken edges": 1, "rounded edges": 4, "finely rounded": 10}
 SPLITS: Final[dict[Density, int]] = {"split": 1, "split twice": 2}
 WIDEST = 0.3  # share of a board's thickness that one broken edge takes at most
 THINNEST = 0.002  # metres: thinner boards keep their edges
