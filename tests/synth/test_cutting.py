@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.cutting import GROUPS, NAMELESS, ODD, draw_cuts, draw_joined
+from grafu.synth.cutting import GROUPS, LEVEL, NAMELESS, ODD, draw_cuts, draw_joined
 from grafu.synth.layout import Door, Drawer, Row, Stack
 from grafu.vocabulary import PartLabel
 from sketches import board, sketch
@@ -31,7 +31,7 @@ def test_what_is_joined_is_called_after_its_largest_wall_or_not_at_all() -> None
 
     assert sum(g.label is PartLabel.MISC for g in mixed) / len(mixed) == pytest.approx(ODD, abs=0.06)
     assert sum(not g.named for g in mixed) / len(mixed) == pytest.approx(NAMELESS, abs=0.06)
-    assert not {g.label for g in mixed} & {PartLabel.TOP_PANEL, PartLabel.SHELF}
+    assert not {g.label for g in mixed} & set(LEVEL)
     assert all(g.named for g in groups if g not in mixed)
 
 

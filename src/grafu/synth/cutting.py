@@ -27,6 +27,7 @@ GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...]]]] = {
 }
 # What is joined of several kinds is called after its largest wall; now and then it is an odd part, or has no label.
 ODD, NAMELESS = 0.15, 0.12
+LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  # nobody calls a case after these
 
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
 FRAME_IN_BARS = 0.6
@@ -63,7 +64,7 @@ def draw_joined(
 
 
 def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:
-    walls = [p for p in parts if p.label not in (PartLabel.TOP_PANEL, PartLabel.SHELF)] or parts
+    walls = [p for p in parts if p.label not in LEVEL] or parts
     largest = max(walls, key=lambda p: float(p.box.volume)).label
     alike = all(p.label is largest for p in parts)
     odd, nameless = chance(rng, ODD), chance(rng, NAMELESS)
