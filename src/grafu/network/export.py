@@ -1,0 +1,152 @@
+"""The network as one ONNX file, for any number of parts, so that it runs without torch. It writes no files.
+
+Inputs are the arrays of one graph's features, by their names, without a batch: labels [n], boxes [n,6],
+anchors [n,G,3], groups [n,G,S,3], edges [n,n]. Outputs are the fields of `Predictions` but `mask`, without a batch.
+"""
+
+import json
+import warnings
+from dataclasses import asdict, replace
+from typing import final
+
+import numpy as np
+import onnx
+import torch
+from jaxtyping import Float32, Int64
+from torch import Tensor, nn
+from torch.nn.functional import pad
+
+from grafu.network.batch import one_graph
+from grafu.network.config import LABEL_COUNT
+from grafu.network.grafu import GraFu
+from grafu.vocabulary import PartLabel
+
+OPSET = 18  # ONNX Runtime reads it since 1.14
+INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
+OUTPUTS = (
+    "exists",
+    "category",
+    "centre",
+    "half",
+    "edge",
+    "parent",
+    "parent_abstain",
+    "hinge_target",
+    "hinge_abstain",
+    "border",
+    "sign",
+    "slide",
+)
+PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
+_SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
+
+
+def onnx_bytes(model: GraFu, anchors: int, neighbours: int, *, half_weights: bool) -> bytes:
+    """Returns an ONNX file of the network; its metadata hold the configuration and the labels in their order.
+
+    `anchors` and `neighbours` are the numbers of groups and of their points. With `half_weights` the weights are stored
+    in 16 bits and widened when the file is loaded: half the size, and all is computed in 32 bits as before.
+    """
+    training = model.training
+    model.eval()
+    try:
+        proto = _exported(model, anchors, neighbours)
+    finally:
+        model.train(training)
+    _without_traces(proto)
+    if half_weights:
+        _halve_weights(proto)
+    facts = asdict(model.config) | {"anchors": anchors, "neighbours": neighbours}
+    onnx.helper.set_model_props(
+        proto, {"config": json.dumps(facts), "labels": json.dumps([label.value for label in PartLabel])}
+    )
+    onnx.checker.check_model(proto)
+    return proto.SerializeToString()
+
+
+@final
+class _OneGraph(nn.Module):
+    """The network on the arrays of one graph.
+
+    A padding node is put after the graph's own, and its slot taken out again: it changes no answer, and spares ONNX
+    Runtime the arrays without elements of an empty graph, of which it cannot take products.
+    """
+
+    def __init__(self, model: GraFu) -> None:
+        super().__init__()
+        self.model = model
+
+    def forward(
+        self,
+        labels: Int64[Tensor, " n"],
+        boxes: Float32[Tensor, "n 6"],
+        anchors: Float32[Tensor, "n g 3"],
+        groups: Float32[Tensor, "n g k 3"],
+        edges: Int64[Tensor, "n n"],
+    ) -> tuple[Tensor, ...]:
+        n = labels.shape[0]
+        labels, boxes, edges = pad(labels, (0, 1)), pad(boxes, (0, 0, 0, 1)), pad(edges, (0, 1, 0, 1))
+        anchors, groups = pad(anchors, (0, 0, 0, 0, 0, 1)), pad(groups, (0, 0, 0, 0, 0, 0, 0, 1))
+        mask = torch.arange(n + 1)[None] < n
+        answers = self.model(replace(one_graph(labels, boxes, anchors, groups, edges), mask=mask))
+        slots = torch.arange(n + self.model.config.free_slots)
+        kept = slots + (slots >= n)
+        scores = {name: getattr(answers, name) for name in OUTPUTS}
+        return tuple(_without(score, kept, pairs=name in PAIR_OUTPUTS) for name, score in scores.items())
+
+
+def _without(score: Tensor, kept: Int64[Tensor, " s"], *, pairs: bool) -> Tensor:
+    if score.ndim == 0:
+        return score * 1.0  # an output of its own, not the weight itself
+    return score[0, kept][:, kept] if pairs else score[0, kept]
+
+
+def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:
+    parts = 7  # any number that is no other size of the network
+    example = (
+        torch.arange(parts) % LABEL_COUNT,
+        torch.rand(parts, 6),
+        torch.rand(parts, anchors, 3),
+        torch.rand(parts, anchors, neighbours, 3),
+        torch.zeros(parts, parts, dtype=torch.int64),
+    )
+    n = torch.export.Dim("parts", min=1, max=4096)
+    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the exporter's own, about itself
+        program = torch.onnx.export(
+            _OneGraph(model).eval(),
+            example,
+            input_names=INPUTS,
+            output_names=OUTPUTS,
+            dynamic_shapes=shapes,
+            opset_version=OPSET,
+            dynamo=True,
+            external_data=False,
+            verbose=False,
+        )
+    assert program is not None
+    return program.model_proto
+
+
+def _without_traces(proto: onnx.ModelProto) -> None:
+    """Takes out what the exporter notes about where each node comes from: a megabyte, and paths of this machine."""
+    for noted in (proto.graph, *proto.graph.node, *proto.graph.value_info, *proto.graph.initializer):
+        del noted.metadata_props[:]
+        noted.doc_string = ""
+    del proto.graph.value_info[:]
+
+
+def _halve_weights(proto: onnx.ModelProto) -> None:
+    """Stores large 32-bit weights in 16 bits, each widened by a cast in front of what uses it."""
+    casts = []
+    for weight in proto.graph.initializer:
+        if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < _SMALLEST:
+            continue
+        wide, stored = weight.name, f"{weight.name}.half"
+        values = onnx.numpy_helper.to_array(weight).astype(np.float16)
+        weight.CopyFrom(onnx.numpy_helper.from_array(values, stored))
+        casts.append(onnx.helper.make_node("Cast", [stored], [wide], to=onnx.TensorProto.FLOAT))
+    kept = list(proto.graph.node)
+    del proto.graph.node[:]
+    proto.graph.node.extend(casts + kept)
