@@ -1,6 +1,6 @@
 """The batches of a run: from a source's models to tensors, a function of the config and the batch's number alone."""
 
-from collections.abc import Iterator
+from collections.abc import Generator
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from grafu.training.source import Source
 
 def stream_batches(
     source: Source, config: TrainingConfig, start: int = 0, jobs: int = 1, part: tuple[int, int] = (0, 1)
-) -> Iterator[TrainingBatch]:
+) -> Generator[TrainingBatch, None, None]:
     """Yields the batches from number `start` on, without end; `jobs` and `part` as in `stream_hands`."""
     hands = stream_hands(source, config.mix, config.features, config.deal, config.seed, start, jobs, part)
     try:

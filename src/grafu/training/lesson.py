@@ -12,10 +12,11 @@ from typing import Literal, final
 import numpy as np
 from jaxtyping import Float32, Float64, Int64
 
-from grafu.completion.features import LABELS, FeatureConfig, edge_codes, graph_features, object_frame
+from grafu.completion.features import FeatureConfig, graph_features, object_frame
 from grafu.data.corruption.config import CorruptionConfig
 from grafu.data.fold import fold
 from grafu.data.pair import GraphPair
+from grafu.graph.arrays import graph_arrays
 from grafu.graph.edit import as_contacts, relabelled
 from grafu.training.targets import GraphTargets, graph_targets
 from grafu.vocabulary import PartLabel
@@ -121,15 +122,16 @@ def _pair(natural: GraphPair, kind: CopyKind, mix: CopyMix, rng: np.random.Gener
 
 def _copy(pair: GraphPair, origin: np.ndarray, scale: float) -> Copy:
     given = pair.input
+    seen = graph_arrays(given)
     new_origin, new_scale = object_frame(given)
     rows = {node.id: k for k, node in enumerate(pair.target.nodes)}
     names = [node.id for node in given.nodes]
     targets = graph_targets(pair.target, names, new_origin, new_scale)
     places = np.array([rows[name] for name in names], dtype=np.int64)
     return Copy(
-        np.array([LABELS.index(node.label) for node in given.nodes], dtype=np.int64),
+        seen.labels,
         targets.boxes[places],
-        edge_codes(given),
+        seen.edges,
         places,
         scale / new_scale,
         (origin - new_origin) / new_scale,

@@ -1,0 +1,215 @@
+"""The training loop, flat: a batch, a forward and a backward pass, a step; now and then a line, a look, a file.
+
+DIR/config.json            what was asked for
+DIR/last.pt, DIR/best.pt   see `grafu.training.checkpoint`
+DIR/train.csv, DIR/validation.csv, DIR/tensorboard/   see `grafu.training.logbook`
+"""
+
+import json
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from time import monotonic
+from typing import final
+
+import torch
+from torch import nn
+
+from grafu.errors import ExportError
+from grafu.network.grafu import GraFu
+from grafu.training.averaging import AveragedWeights
+from grafu.training.batching import TrainingBatch
+from grafu.training.checkpoint import Progress, has_progress, load_progress, save_best, save_progress
+from grafu.training.config import OptimiserConfig, TrainingConfig
+from grafu.training.criterion import criterion
+from grafu.training.data import stream_batches
+from grafu.training.logbook import Logbook
+from grafu.training.meter import Meter
+from grafu.training.schedule import rate_at
+from grafu.training.source import Source
+from grafu.training.stopping import stop_requests
+from grafu.training.validation import validate, validation_batches, validation_source
+from grafu.training.workers import Workers
+
+_MOST_LOST = 50  # steps in a row with a loss or gradient that is no number: the run is beyond help
+
+
+@final
+@dataclass(frozen=True)
+class RunOptions:
+    """How a run is run; nothing of it changes the result but for rounding."""
+
+    jobs: int = 1
+    """Processes that make models; 1: this one makes them itself."""
+    resume: bool = False
+    save_every: float = 180.0
+    """Seconds between two checkpoints: that much is lost at worst."""
+    log_every: int = 20
+    """Steps between two lines of the log."""
+
+
+@final
+@dataclass(frozen=True)
+class StepReport:
+    """Told after each step: how many are done; the means of the log and the figures of a validation where due."""
+
+    step: int
+    means: dict[str, float] = field(default_factory=dict)
+    figures: dict[str, float] = field(default_factory=dict)
+
+
+@final
+@dataclass(frozen=True)
+class TrainingResult:
+    """How a run ended: after `step` steps, `is_done` with all of them, the best score in validation."""
+
+    step: int
+    is_done: bool
+    best: float
+
+
+def train(
+    config: TrainingConfig,
+    source: Source,
+    folder: Path,
+    workers: Workers,
+    options: RunOptions = RunOptions(),
+    watch: Callable[[StepReport], None] = lambda _: None,
+) -> TrainingResult:
+    """Trains until all steps are done or a signal comes, and leaves the files of the run in the folder.
+
+    Raises:
+        ExportError: if the folder holds a run that is not to be resumed, or cannot be written.
+        UnreadableAsset: if what is to be resumed, or a model, cannot be read.
+        ArithmeticError: if losses stay no numbers.
+    """
+    torch.manual_seed(config.seed)
+    progress = _begin(config, folder, workers, options.resume)
+    network, parameters = progress.network, list(progress.network.parameters())
+    judged_by = (
+        validation_batches(validation_source(source, config.features.points), config) if workers.is_first else []
+    )
+    torch.manual_seed(config.seed + 1000 * workers.rank + progress.step)  # dropout differs between processes
+    batches = stream_batches(source, config, progress.step, options.jobs, (workers.rank, workers.count))
+    book = Logbook(folder, progress.step) if workers.is_first else None
+    meter, saved, lost, is_stopping = Meter(), monotonic(), 0, False
+    with stop_requests() as asked, closing(batches):
+        while progress.step < config.steps and not is_stopping:
+            with meter.timed("data"):
+                batch = next(batches).to(workers.device)
+            with meter.timed("forward"), _precise(config, workers.device):
+                predictions = network(batch.graphs)
+            with meter.timed("loss"):
+                terms = criterion(predictions, batch.targets, config.loss)
+            with meter.timed("backward"):
+                progress.optimiser.zero_grad()
+                terms.total.backward()  # type: ignore[no-untyped-call]
+            with meter.timed("step"):
+                is_stopping = workers.average_gradients(parameters, asked.is_made)
+                norm = nn.utils.clip_grad_norm_(parameters, config.optimiser.clip)
+                lost = 0 if _step(progress, config, bool(norm.isfinite())) else lost + 1
+            if lost > _MOST_LOST:
+                raise ArithmeticError(f"{lost} steps in a row had gradients that are no numbers: lower the rate")
+            meter.add(terms.by_name() | {"gradient": norm, "lost": float(lost > 0)})
+            report = StepReport(progress.step)
+            if book is not None:
+                report = _look(progress, config, judged_by, book, meter, options, folder)
+                if is_stopping or progress.step == config.steps or monotonic() - saved > options.save_every:
+                    save_progress(progress, config, folder)
+                    saved = monotonic()
+            watch(report)
+    if book is not None:
+        book.close()
+    workers.wait()
+    return TrainingResult(progress.step, progress.step >= config.steps, progress.best)
+
+
+def use_threads(count: int | None) -> None:
+    """Sets how many threads compute on a CPU (None: one for each core)."""
+    if count is not None:
+        torch.set_num_threads(count)
+
+
+def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool) -> Progress:
+    """Returns a run at its beginning, or where it was cut."""
+    network = GraFu(config.network).to(workers.device)
+    average = AveragedWeights(network, config.optimiser.average)
+    progress = Progress(network, _optimiser(network, config.optimiser), average)
+    if has_progress(folder):
+        if not resume:
+            raise ExportError(f"`{folder}` holds a run already: choose another --out, or give --resume")
+        load_progress(progress, config, folder)
+    elif workers.is_first:
+        _write_config(config, folder)
+    workers.share_weights(network)
+    return progress
+
+
+def _optimiser(network: nn.Module, config: OptimiserConfig) -> torch.optim.Optimizer:
+    """Returns the optimiser; biases, norms and single numbers do not decay."""
+    decayed = [p for p in network.parameters() if p.ndim >= 2]
+    others = [p for p in network.parameters() if p.ndim < 2]
+    groups = [{"params": decayed, "weight_decay": config.weight_decay}, {"params": others, "weight_decay": 0.0}]
+    kind = torch.optim.AdamW if config.decoupled else torch.optim.Adam
+    return kind(groups, lr=config.rate, betas=config.betas, fused=True)
+
+
+def _step(progress: Progress, config: TrainingConfig, is_sound: bool) -> bool:
+    """Moves the weights, unless the gradient is no number; returns whether it did."""
+    asked = config.optimiser
+    for group in progress.optimiser.param_groups:
+        group["lr"] = asked.rate * rate_at(progress.step, config.steps, asked.warmup, asked.period)
+    if is_sound:
+        progress.optimiser.step()
+        progress.average.update(progress.network)
+    progress.step += 1
+    return is_sound
+
+
+def _look(
+    progress: Progress,
+    config: TrainingConfig,
+    judged_by: list[TrainingBatch],
+    book: Logbook,
+    meter: Meter,
+    options: RunOptions,
+    folder: Path,
+) -> StepReport:
+    """Writes what is due after a step, judges the averaged weights where that is due, and keeps the best."""
+    step, is_last = progress.step, progress.step == config.steps
+    means: dict[str, float] = {}
+    figures: dict[str, float] = {}
+    if step % options.log_every == 0 or is_last:
+        means = meter.take() | {"rate": progress.optimiser.param_groups[0]["lr"]}
+        book.step(step, means)
+    if step % config.validation.every == 0 or is_last:
+        judge = GraFu(config.network).to(next(progress.network.parameters()).device)
+        judge.load_state_dict(progress.average.weights)
+        figures = validate(judge, judged_by, config.loss)
+        book.validation(step, figures)
+        if figures["score"] > progress.best:
+            progress.best = figures["score"]
+            save_best(config, progress.average.weights, step, figures, folder)
+    return StepReport(step, means, figures)
+
+
+def _precise(config: TrainingConfig, device: torch.device) -> torch.autocast:
+    """Returns the arithmetic of a forward pass."""
+    wanted = config.precision == "bf16" or (config.precision == "auto" and multiplies_bfloat16(device))
+    return torch.autocast(device.type, torch.bfloat16, enabled=wanted)
+
+
+def multiplies_bfloat16(device: torch.device) -> bool:
+    """Whether a device multiplies matrices of bfloat16 faster than those of float32."""
+    if device.type == "cuda":
+        return torch.cuda.is_bf16_supported()
+    return device.type == "cpu" and torch.cpu._is_amx_tile_supported()
+
+
+def _write_config(config: TrainingConfig, folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "config.json").write_text(json.dumps(asdict(config), indent=1) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise ExportError(f"cannot write the output `{folder}`: {error.strerror}; nothing was trained") from error

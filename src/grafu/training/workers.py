@@ -1,0 +1,81 @@
+"""Several processes that train one network (torchrun), each on its own models: who is who, and what they agree on.
+
+Gradients are averaged here in one message, not by torch's wrapper for modules: that wrapper stumbles over a head that
+no graph of a batch needs (a batch without drawers). The same message says whether somebody was asked to stop.
+"""
+
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import final
+
+import torch
+from torch import Tensor, distributed, nn
+
+
+@final
+@dataclass(frozen=True)
+class Workers:
+    """This process, `rank` (0, 1, ...) of `count`, and the device that it computes on."""
+
+    rank: int
+    count: int
+    device: torch.device
+
+    @property
+    def is_first(self) -> bool:
+        """Whether this process writes and judges for all."""
+        return self.rank == 0
+
+    def share_weights(self, module: nn.Module) -> None:
+        """Gives every process the first one's weights."""
+        if self.count > 1:
+            for value in module.state_dict().values():
+                distributed.broadcast(value, 0)
+
+    def average_gradients(self, parameters: Iterable[nn.Parameter], is_stopping: bool) -> bool:
+        """Gives every process the mean of all gradients; returns whether any of them is to stop."""
+        if self.count == 1:
+            return is_stopping
+        known = list(parameters)
+        for parameter in known:
+            if parameter.grad is None:
+                parameter.grad = torch.zeros_like(parameter)
+        gradients: list[Tensor] = [p.grad for p in known if p.grad is not None]
+        flag = torch.tensor([float(is_stopping)], device=self.device)
+        message = torch.cat([flag, *(g.reshape(-1) for g in gradients)])
+        distributed.all_reduce(message)
+        start = 1
+        for gradient in gradients:
+            gradient.copy_(message[start : start + gradient.numel()].view_as(gradient) / self.count)
+            start += gradient.numel()
+        return bool(message[0] > 0)
+
+    def wait(self) -> None:
+        """Waits for all."""
+        if self.count > 1:
+            distributed.barrier()
+
+
+@contextmanager
+def joined_workers(device: str = "auto") -> Iterator[Workers]:
+    """Yields this process among those that torchrun started, or alone; `device` "auto" is a GPU where there is one."""
+    count, rank, local = (int(os.environ.get(n, d)) for n, d in (("WORLD_SIZE", 1), ("RANK", 0), ("LOCAL_RANK", 0)))
+    chosen = _device(device, local)
+    if count > 1:
+        distributed.init_process_group("nccl" if chosen.type == "cuda" else "gloo")
+    try:
+        yield Workers(rank, count, chosen)
+    finally:
+        if count > 1:
+            distributed.destroy_process_group()
+
+
+def _device(name: str, local: int) -> torch.device:
+    if name == "auto":
+        name = "cuda" if torch.cuda.is_available() else "cpu"
+    if name != "cuda":
+        return torch.device(name)
+    torch.cuda.set_device(local)
+    return torch.device("cuda", local)
