@@ -1,5 +1,6 @@
 """Cabinets, tables, desks and chests of every construction, one of each: what several tests go through."""
 
+from grafu.synth.bureau import Bureau
 from grafu.synth.cabinet import Cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import Chest
@@ -128,6 +129,15 @@ CABINETS |= {
     ),
     "doors wider than the case": Cabinet(layout=Row((Door("left"), Door("right"))), reveal=-0.02),
 }
+BUREAUS = {
+    "bureau": Bureau(),
+    "steep bureau": Bureau(
+        lower=Cabinet(case=Case(0.7, 0.7, 0.42, base=Base("legs", 0.15)), layout=Pair(), mount="inset"),
+        shelf=0.3,
+        flap=Door("bottom", "raised panel"),
+        holes=0,
+    ),
+}
 HUTCH = Cabinet(case=Case(1.1, 0.45, 0.25), layout=Row((Bay(1), Drawer(), Bay(1))))
 TABLES = {
     **{f"{s} table legs": Table(leg_shape=s, overhang=0.03) for s in ("square", "tapered", "turned", "cabriole")},
@@ -174,4 +184,4 @@ CORNERS = {
     "inner corner": InnerCorner(),
     "inner corner with two doors": InnerCorner(second=Door(), topped=False, shelves=2),
 }
-SPECS = {**RACKS, **CORNERS, **CABINETS, **TABLES, **DESKS, **CHESTS}
+SPECS = {**BUREAUS, **RACKS, **CORNERS, **CABINETS, **TABLES, **DESKS, **CHESTS}

@@ -1,8 +1,10 @@
+import numpy as np
 import pytest
 
 from constructions import CHESTS, SPECS
 from grafu.graph.touching import touching_pairs
 from grafu.synth.bases import base_pieces
+from grafu.synth.bureau import Bureau, make_bureau
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.chest import make_chest
@@ -17,9 +19,9 @@ from grafu.synth.rack import Rack, make_rack
 from grafu.synth.table import Table
 from grafu.vocabulary import PartLabel
 from strategies import made as made_of_strategies
-from sweeping import collisions
+from sweeping import collisions, joint_motion
 
-MAKERS = {Rack: make_rack, InnerCorner: make_inner_corner}
+MAKERS = {Rack: make_rack, InnerCorner: make_inner_corner, Bureau: make_bureau}
 TOUCHING = 0.0035  # metres: fronts keep a gap of 3 mm
 
 
@@ -164,6 +166,15 @@ def test_the_ends_of_an_angled_corner_meet_its_frame():
     assert [touching_pairs(list(pair), [(0, 1)], 0.0005) for pair in pairs] == [[(0, 1)]] * 3
 
 
+def test_a_bureau_s_flap_falls_level():
+    asset = make_bureau(Bureau(flap=Door("bottom", handle="none")))
+    joint, flap = asset.joints[0] if asset.joints[0].part == "door" else asset.joints[-1], asset.part("door")
+    opened = joint_motion(joint, joint.upper)
+    points = flap.mesh.vertices @ opened[:3, :3].T + opened[:3, 3]
+    assert np.ptp(points[:, 2]) == pytest.approx(0.018)
+    assert np.ptp(flap.mesh.vertices[:, 2]) > 0.2
+
+
 def test_a_rack_s_shelves_lie_between_its_uprights():
     asset = make_rack(Rack(shelves=3))
     shelf, upright = asset.part("shelf_3").box, asset.part("upright_1").box
@@ -223,6 +234,9 @@ def test_no_base_has_no_pieces():
         lambda: Desk(left=Drawer(), wing=0.8),
         lambda: Desk(width=0.7, left=Drawer()),
         lambda: Rack(height=0.7),
+        lambda: Bureau(shelf=0.6),
+        lambda: Bureau(flap=Door()),
+        lambda: Table(rails=0.05),
         lambda: InnerCorner(along_x=0.6),
     ],
 )

@@ -62,8 +62,7 @@ def domed_board(box: Box, rise: float, steps: int = 12) -> TriangleMesh:
     (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
     shares = np.linspace(1.0, 0.0, steps + 1)
     y, z = y0 + shares * (y1 - y0), z1 + 4 * rise * shares * (1 - shares)
-    outline = np.vstack([[(y0, z0), (y1, z0)], np.column_stack([y, z])])
-    return loft(np.stack([np.column_stack([np.full(len(outline), x), outline]) for x in (x0, x1)]))
+    return prism_along_x([(y0, z0), (y1, z0), *zip(y.tolist(), z.tolist(), strict=True)], x0, x1)
 
 
 def turned(start: Vec3, end: Vec3, profile: Sequence[tuple[float, float]], sides: int = 12) -> TriangleMesh:
@@ -101,6 +100,12 @@ def prism(outline: Sequence[tuple[float, float]], low: float, high: float) -> Tr
     """Returns the upright prism over a convex outline in XY, given counter-clockwise."""
     flat = np.array(outline, dtype=np.float64)
     return loft(np.stack([np.column_stack([flat, np.full(len(flat), z)]) for z in (low, high)]))
+
+
+def prism_along_x(outline: Sequence[tuple[float, float]], x0: float, x1: float) -> TriangleMesh:
+    """Returns the prism along x over a convex outline in (y, z), given counter-clockwise about +X."""
+    flat = np.array(outline, dtype=np.float64)
+    return loft(np.stack([np.column_stack([np.full(len(flat), x), flat]) for x in (x0, x1)]))
 
 
 def framed_opening(box: Box, width: float) -> tuple[TriangleMesh, ...]:

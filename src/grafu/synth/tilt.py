@@ -6,11 +6,9 @@ that reaches the opening's top clears it at every angle.
 
 from math import sqrt
 
-import numpy as np
-
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.sweep import loft
 from grafu.synth.layout import Rect
+from grafu.synth.shapes import prism_along_x
 
 WALL = 0.006  # metres
 REACH = 0.28  # metres: as deep as a shoe needs
@@ -33,13 +31,7 @@ def tray_meshes(inner: Rect, pin: tuple[float, float], behind: float, back: floa
     cheek = ((behind, low), (end, low + rise), (end, low + rise + WALL), (behind, high))
     floor = ((behind, low), (end, low + rise), (end, low + rise + WALL), (behind, low + WALL))
     return (
-        _along_x(cheek, inner.x0, inner.x0 + WALL),
-        _along_x(cheek, inner.x1 - WALL, inner.x1),
-        _along_x(floor, inner.x0 + WALL, inner.x1 - WALL),
+        prism_along_x(cheek, inner.x0, inner.x0 + WALL),
+        prism_along_x(cheek, inner.x1 - WALL, inner.x1),
+        prism_along_x(floor, inner.x0 + WALL, inner.x1 - WALL),
     )
-
-
-def _along_x(outline: tuple[tuple[float, float], ...], x0: float, x1: float) -> TriangleMesh:
-    """Returns the prism over a convex outline in (y, z), counter-clockwise about +X."""
-    flat = np.array(outline)
-    return loft(np.stack([np.column_stack([np.full(len(flat), x), flat]) for x in (x0, x1)]))
