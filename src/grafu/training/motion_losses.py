@@ -9,7 +9,6 @@ from torch.nn import functional
 
 from grafu.graph.arrays import HINGE, NONE, RAIL
 from grafu.network.predictions import Predictions
-from grafu.training.averages import mean_where
 from grafu.training.slot_truth import SlotTruth
 
 
@@ -37,6 +36,6 @@ def code_loss(
     logits: Float[Tensor, "b s s c"], codes: Int64[Tensor, "b s"], edges: Bool[Tensor, "b s s"]
 ) -> Float[Tensor, ""]:
     """Returns the mean cross-entropy over the edges of parts whose code is known."""
-    known = edges & (codes != NONE)[:, :, None]
-    wanted = codes.clamp(min=0)[:, :, None].expand(edges.shape)
-    return mean_where(functional.cross_entropy(logits.permute(0, 3, 1, 2), wanted, reduction="none"), known)
+    graph, child, carrier = (edges & (codes != NONE)[:, :, None]).nonzero(as_tuple=True)  # few of all pairs
+    wrong = functional.cross_entropy(logits[graph, child, carrier], codes[graph, child], reduction="sum")
+    return wrong / max(len(graph), 1)

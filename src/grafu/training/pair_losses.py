@@ -6,11 +6,10 @@ from typing import final
 import torch
 from jaxtyping import Bool, Float
 from torch import Tensor
-from torch.nn import functional
 
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE
 from grafu.network.predictions import Predictions
-from grafu.training.averages import mean_where, weighted_mean
+from grafu.training.averages import weighted_mean
 from grafu.training.slot_truth import SlotTruth
 
 
@@ -36,8 +35,8 @@ def pair_losses(predictions: Predictions, truth: SlotTruth, edge_kinds: tuple[fl
 def edge_loss(logits: Float[Tensor, "b s s k"], truth: SlotTruth, edge_kinds: tuple[float, ...]) -> Float[Tensor, ""]:
     """Returns the cross-entropy of the kinds of edges over real pairs, a mean by the weight of the true kinds."""
     weights = torch.tensor(edge_kinds, device=logits.device)[truth.edges] * truth.real_pairs
-    wrong = functional.cross_entropy(logits.permute(0, 3, 1, 2), truth.edges, reduction="none")
-    return weighted_mean(wrong, weights)
+    right = logits.log_softmax(dim=-1).gather(-1, truth.edges[..., None])[..., 0]
+    return weighted_mean(-right, weights)
 
 
 def parent_loss(scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth) -> Float[Tensor, ""]:
@@ -70,9 +69,12 @@ def choice_loss(
 
     It is the mean over the slots that choose.
     """
-    nowhere = torch.full_like(scores[..., :1], -torch.inf)
+    graph, slot = chooses.nonzero(as_tuple=True)
+    scores, right = scores[graph, slot], right[graph, slot]
+    nowhere = torch.full_like(scores[:, :1], -torch.inf)
     abstains = abstain.expand(nowhere.shape)
-    all_scores = torch.cat([scores.masked_fill(~(candidates | right), -torch.inf), abstains], dim=-1)
+    others = scores.masked_fill(~(candidates[graph, slot] | right), -torch.inf)
     right_abstains = torch.where(right.any(dim=-1, keepdim=True), nowhere, abstains)
     right_scores = torch.cat([scores.masked_fill(~right, -torch.inf), right_abstains], dim=-1)
-    return mean_where(all_scores.logsumexp(dim=-1) - right_scores.logsumexp(dim=-1), chooses)
+    all_scores = torch.cat([others, abstains], dim=-1)
+    return (all_scores.logsumexp(dim=-1) - right_scores.logsumexp(dim=-1)).sum() / max(len(slot), 1)
