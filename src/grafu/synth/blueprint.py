@@ -10,6 +10,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.synth.bureau import Bureau, make_bureau
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.chance import pick
 from grafu.synth.chest import Chest, make_chest
@@ -32,6 +33,7 @@ MAKERS: dict[type, Callable[[Any], Asset]] = {
     InnerCorner: make_inner_corner,
     Rack: make_rack,
     Ensemble: make_ensemble,
+    Bureau: make_bureau,
 }
 
 

@@ -19,8 +19,8 @@ from grafu.synth.setting import Setting
 from grafu.synth.shapes import prism_along_x
 from grafu.vocabulary import PartLabel
 
-SILL = 0.03  # metres between the lower cabinet's top and the flap's pin: a leaning flap's inner edge lies lower
-SILL_RAIL = 0.018  # metres: the height of the rail below the flap
+SILL_RAIL = 0.012  # metres: the height of the rail below the flap
+SILL_ROOM = 0.005  # metres between it and the flap
 HOLE_ROOM = 0.02  # metres between the flap and the pigeonholes
 BACK = 0.006  # metres: a sheet
 LEAST_SHELF = 0.12  # metres: the top's depth, where letters still fit below it
@@ -55,6 +55,11 @@ class Bureau:
             raise ValueError(f"a `Bureau` needs room behind its flap and a flap that leans: got a top {size}")
 
     @property
+    def sill(self) -> float:
+        """The height of the flap's pin above the cabinet: the inner edge of a leaning flap lies lower."""
+        return SILL_RAIL + SILL_ROOM + self.lower.front
+
+    @property
     def run(self) -> float:
         """How far behind the cabinet's front the top begins."""
         return self.lower.case.depth / 2 - self.shelf - self.lower.case.front
@@ -62,12 +67,16 @@ class Bureau:
     @property
     def slope(self) -> float:
         """The angle between the flap and the floor, radians, below a right one."""
-        return atan2(self.rise - SILL, self.run)
+        return atan2(self.rise - self.sill, self.run)
 
     @property
     def length(self) -> float:
         """The length of the flap's opening along the slope: it ends below the top."""
-        return hypot(self.rise - SILL, self.run) * (self.rise - SILL - self.lower.case.panel) / (self.rise - SILL)
+        return (
+            hypot(self.rise - self.sill, self.run)
+            * (self.rise - self.sill - self.lower.case.panel)
+            / (self.rise - self.sill)
+        )
 
 
 def make_bureau(spec: Bureau) -> Asset:
@@ -86,12 +95,12 @@ def _room(spec: Bureau) -> Iterator[Piece]:
     case, wood, z = spec.lower.case, spec.lower.finish.case, spec.rise
     y0, y1, t = case.front, case.depth / 2, case.panel
     x, near = case.width / 2, y1 - spec.shelf
-    outline = ((y0, 0.0), (y1, 0.0), (y1, z), (near, z), (y0, SILL))
+    outline = ((y0, 0.0), (y1, 0.0), (y1, z), (near, z), (y0, spec.sill))
     for stem, low in (("upper_side_left", -x), ("upper_side_right", x - t)):
         yield solid(PartLabel.SIDE_PANEL, stem, wood, [prism_along_x(outline, low, low + t)])
     yield plank(PartLabel.TOP_PANEL, "upper_top", wood, ((t - x, near, z - t), (x - t, y1, z)))
     yield plank(PartLabel.BACK_PANEL, "upper_back", wood, ((t - x, y1 - BACK, 0.0), (x - t, y1, z - t)))
-    yield plank(PartLabel.BAR, "sill", wood, ((t - x, y0, 0.0), (x - t, y0 + SILL, SILL_RAIL)))
+    yield plank(PartLabel.BAR, "sill", wood, ((t - x, y0, 0.0), (x - t, y0 + 2 * SILL_RAIL, SILL_RAIL)))
 
 
 def _holes(spec: Bureau) -> Iterator[Piece]:
@@ -112,7 +121,7 @@ def _flap(spec: Bureau) -> Iterator[Piece]:
     case = spec.lower.case
     x = case.width / 2 - case.panel
     setting = Setting(0.0, 0.1, "inset", spec.lower.front, spec.lower.gap, finish=spec.lower.finish)
-    lean = from_rotation(rotation_matrix(vec3(1.0, 0.0, 0.0), spec.slope - pi / 2), vec3(0.0, case.front, SILL))
+    lean = from_rotation(rotation_matrix(vec3(1.0, 0.0, 0.0), spec.slope - pi / 2), vec3(0.0, case.front, spec.sill))
     flap = Door("bottom", spec.flap.leaf, spec.flap.handle, pi - spec.slope, hold=spec.flap.hold, grip=spec.flap.grip)
     for piece in front_pieces(Cell(flap, Rect(-x, x, 0.0, spec.length), Edges()), setting):
         yield piece.transformed(lean)

@@ -9,24 +9,25 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from grafu.synth.bureau import Bureau
 from grafu.synth.cabinet import Cabinet
 from grafu.synth.chest import Chest
 from grafu.synth.corner import CornerCabinet
 from grafu.synth.desk import Desk
 from grafu.synth.ensemble import Ensemble
-from grafu.synth.families import bedroom, composed, corners, kitchen, living, office, racks, tables
+from grafu.synth.families import bedroom, bureaus, composed, corners, kitchen, living, office, racks, tables
 from grafu.synth.inner_corner import InnerCorner
 from grafu.synth.rack import Rack
 from grafu.synth.table import Table
 
-Spec = Cabinet | Table | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble
+Spec = Cabinet | Table | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble | Bureau
 Draw = Callable[[np.random.Generator], Spec]
 
 FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "base cabinet": (15.0, kitchen.base_cabinet),
     "wall cabinet": (11.0, kitchen.wall_cabinet),
     "sink cabinet": (3.0, kitchen.sink_cabinet),
-    "corner cabinet": (1.5, corners.corner_cabinet),
+    "corner cabinet": (1.8, corners.corner_cabinet),
     "kitchen island": (1.0, composed.island),
     "kitchen units": (1.5, composed.kitchen_units),
     "tall cabinet": (6.0, kitchen.tall_cabinet),
@@ -50,6 +51,7 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "desk": (4.0, tables.desk),
     "writing desk": (3.5, tables.writing_desk),
     "table with drawers": (5.5, tables.drawer_table),
+    "bureau": (1.0, bureaus.bureau),
     "vanity": (1.2, tables.vanity),
     "fridge": (0.6, office.fridge),
     "oven": (0.8, office.oven),
