@@ -39,13 +39,21 @@ CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.66, "framed": 0.27, "doubl
 # A face frame is one part in tidy models, its bars one by one in kitchen models (44781, 45001, 45463, 45940).
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
 BARE_STANDS, BARE_BACKLESS = 0.6, 0.3  # of bare pieces: on nothing, without a back
+# Makers whose shelves touch the fronts also give edges strips and backs nailers (41003, 41085), others less often.
+THOROUGH, LOOSE, TOUCH = 1.7, 0.5, 0.003  # factors; metres
 STRIPS = 0.16  # frameless cases whose panels have edge strips of their own (41003, 41085)
 BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces
 RAIL, RAIL_HEIGHTS = 0.12, (0.03, 0.09)  # tops with a bar below their front edge; metres
 SKIRT = 0.12  # pieces on square legs or posts whose room below is closed by boards (22692)
 NAILED = 0.24  # backs with rails: 8 of the 17 models have them
-EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.06}
-ORNATE_EDGES: Mapping[TopEdge, float] = {"square": 0.3, "chamfered": 0.15, "rounded": 0.2, "moulded": 0.35}
+EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.05, "cornice": 0.02}
+ORNATE_EDGES: Mapping[TopEdge, float] = {
+    "square": 0.3,
+    "chamfered": 0.15,
+    "rounded": 0.2,
+    "moulded": 0.25,
+    "cornice": 0.1,
+}
 STRETCHERS: Mapping[Stretcher, float] = {"none": 0.75, "sides": 0.05, "H": 0.07, "box": 0.06, "shelf": 0.07}
 HEIGHTS: Mapping[BaseKind, Span] = {  # metres: what a floor is swept under, and what a foot is tall
     "none": (0.0, 0.0),
@@ -166,8 +174,13 @@ def _back(rng: np.random.Generator, style: Style, build: Build, width: float) ->
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
     if kind == "full" and width > WIDE_BACK and style.tradition == "flat-pack" and chance(rng, 0.5):
         kind = "split"
-    rails = count(rng, 2, 3) if chance(rng, NAILED) else 0
+    rails = count(rng, 2, 3) if chance(rng, NAILED * _care(style)) else 0
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
+
+
+def _care(style: Style) -> float:
+    """Returns how much likelier than on average the maker adds strips and nailers."""
+    return THOROUGH if style.setback <= TOUCH else LOOSE
 
 
 def _bottom(rng: np.random.Generator, base: Base) -> Bottom:
@@ -178,7 +191,7 @@ def _bottom(rng: np.random.Generator, base: Base) -> Bottom:
 
 def _strips(rng: np.random.Generator, style: Style, build: Build, base: Base) -> FaceFrame | None:
     """Returns edge strips on the panels of a frameless case, as some kitchen models have them; mostly none."""
-    if not build.framed or base.kind == "posts" or style.mount == "inset" or not chance(rng, STRIPS):
+    if not build.framed or base.kind == "posts" or style.mount == "inset" or not chance(rng, STRIPS * _care(style)):
         return None
     return FaceFrame(style.panel, "strips", 0.001 if chance(rng, 0.5) else 0.0)
 

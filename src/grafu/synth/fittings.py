@@ -27,8 +27,8 @@ INSIDES = {
     Inside(basket="wire"): 0.015,
     Inside(basket="rack"): 0.01,
     Inside(runners=2): 0.015,
-    Inside(cleats=True): 0.06,
-    Inside(blocks=True): 0.04,
+    Inside(cleats=True): 0.1,
+    Inside(blocks=True): 0.06,
     Inside(lip=0.02): 0.02,
 }
 FLUSH_BAYS = 0.6  # open shelves mostly end with the case's front

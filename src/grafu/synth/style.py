@@ -52,9 +52,9 @@ CLOSE_SHELVES = 0.42  # of pieces: 46456 and 49182 have three and five shelves i
 BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
 LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
 THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
-PUSHED = 0.25  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
+PUSHED = 0.3  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
 # Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones.
-FLUSH, BEYOND, JUT = 0.55, 0.12, (-0.015, -0.002)  # shares of pieces, metres
+FLUSH, BEYOND, JUT = 0.6, 0.14, (-0.015, -0.002)  # shares of pieces, metres
 # Metres from the fronts to the shelves behind them: touching (41003), as is usual, and well behind (half of the real).
 SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.4, (0.003, 0.015): 0.25, (0.015, 0.07): 0.35}
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
@@ -162,7 +162,7 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         between="nothing" if bare and chance(rng, 0.5) else pick(rng, rules.between),
         opening=radians(between(rng, rules.opening)),
         travel=between(rng, (0.55, 0.95)),
-        runners=chance(rng, 0.0 if bare else 0.13),
+        runners=chance(rng, 0.0 if bare else 0.17),
         # slides need 12.5 mm; models are drawn tighter and looser
         slide_gap=pick(rng, {0.0125: 5.0, 0.005: 2.0, 0.002: 1.0, 0.02: 1.0}),
         pitch=between(rng, PITCHES[chance(rng, CLOSE_SHELVES)]),

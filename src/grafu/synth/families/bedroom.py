@@ -24,6 +24,7 @@ BEDROOM: Mapping[TraditionName, float] = {
 OVER = Build(tops=("over", "between"), legs=(0.06, 0.25))
 LOW_LEGS = Build(tops=("between", "over"), legs=(0.05, 0.16), bases=("none", "plinth", "legs"))
 HANGING = Inside(rod=True)
+DOMED = 0.2  # lids of chests, as of old travelling chests
 MIRRORS = 0.06  # wardrobe doors with a mirror
 # nightstands and dressers are a little below the hand of someone who stands before them
 STAND = Site(hand=0.9)
@@ -128,6 +129,7 @@ def chest(rng: np.random.Generator) -> Chest:
         opening=between(rng, (1.4, 1.75)),
         finish=style.finish,
         within=within,
+        dome=between(rng, (0.03, 0.15)) if chance(rng, DOMED) else 0.0,
         edge="square" if within else pick(rng, ORNATE_EDGES if style.tradition == "ornate" else EDGES),
         drawers=drawers,
         drawers_share=between(rng, (0.35, 0.5)),

@@ -37,12 +37,16 @@ TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
     "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 5)),
 }
+LOW_APRON = 0.06  # metres: a lower one has no room for bars and drawers
 KINDS: Mapping[str, float] = {"side": 0.36, "console": 0.2, "coffee": 0.14, "dining": 0.1, "long": 0.25}
 # metres: the height of a table's apron, from a pencil drawer's to a drawer's for cutlery or linen
 APRONS: Mapping[str, Span] = {
     "side": (0.07, 0.22), "console": (0.042, 0.2), "coffee": (0.05, 0.18), "dining": (0.055, 0.16),
     "long": (0.055, 0.11),
 }  # fmt: skip
+# Of tables: bars above and below the drawers, a board lengthwise behind them (of those with drawers in a row), panels
+# between drawers, a moulding around the top, a back that reaches further down (26608 has most of these)
+RAILED, SPINED, PARTED, MOULDED, MODEST = 0.22, 0.45, 0.45, 0.12, 0.1
 THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
 
@@ -144,7 +148,8 @@ def _table(
     if thick:
         leg = replace(leg, thick=between(rng, (0.045, 0.08)))
     zone = min(spread(rng, apron), 0.35 * height)
-    gaps: Between = "panel" if chance(rng, 0.3) else "nothing"
+    rails = between(rng, (0.1, 0.22)) * zone if chance(rng, RAILED) and zone > LOW_APRON else 0.0
+    gaps: Between = "panel" if chance(rng, PARTED) else "nothing"
     drawers: Layout = Row((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
         drawers = Drawer()
@@ -170,7 +175,11 @@ def _table(
         glass=chance(rng, 0.03),
         stretcher=pick(rng, STRETCHERS) if height > 0.4 else "none",
         stretcher_at=between(rng, (0.08, 0.35)),
-        arch=between(rng, (0.02, 0.05)) if chance(rng, 0.1) else 0.0,
+        arch=between(rng, (0.02, 0.05)) if chance(rng, 0.1) and not rails else 0.0,
+        rails=rails,
+        spine=number > 1 and chance(rng, SPINED),
+        moulding=between(rng, (0.01, 0.03)) if chance(rng, MOULDED) else 0.0,
+        modesty=between(rng, (0.2, 0.7)) if chance(rng, MODEST) else 0.0,
         guides=low and chance(rng, 0.5),
         hutch=hutch,
         mirror=mirror,
