@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from grafu.training.loss_config import OFFICIAL, PAPER, LossConfig
+from grafu.training.loss_config import HOLD_OUTS, OFFICIAL, PAPER, LossConfig, held_out
 
 
 def test_the_weights_are_the_papers() -> None:
@@ -33,3 +33,11 @@ def test_a_negative_weight_is_an_error() -> None:
 def test_every_kind_of_edge_has_a_weight() -> None:
     with pytest.raises(ValueError, match="five weights"):
         LossConfig(edge_kinds=(1.0, 1.0))
+
+
+def test_an_experiment_holds_its_terms_out_and_no_others() -> None:
+    assert held_out(PAPER, "firing") == replace(PAPER, free_exists=0.0, count=0.0)
+    assert len(HOLD_OUTS) == 6
+    assert all(held_out(PAPER, name) != PAPER for name in HOLD_OUTS)
+    with pytest.raises(KeyError, match="everything"):
+        held_out(PAPER, "everything")
