@@ -9,6 +9,7 @@
       GraphError              a functional graph breaks an invariant
       ArticulationError       an articulated object is not a tree, or a limit is upside down
       TemplateError           a mechanism template is at fault
+      WeightsError            the network's trained weights are missing or do not fit
       ExportError             a format cannot say this, or the output cannot be written
 
 A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.realization.report`).
@@ -50,6 +51,10 @@ class ArticulationError(FunctionalizationError):
 
 class TemplateError(FunctionalizationError):
     """A mechanism template is damaged or incomplete."""
+
+
+class WeightsError(FunctionalizationError):
+    """The trained weights of the network are missing, damaged, or made for another network."""
 
 
 class ExportError(FunctionalizationError):

@@ -1,0 +1,107 @@
+"""The network's scores as probabilities, and the mean of two looks at one graph, as it is and in the mirror.
+
+Border and sign of a hinge stand in one table: in the mirror the sign turns or stays by the border. It decides nothing.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any, final
+
+import numpy as np
+from jaxtyping import Float, Int64
+
+from grafu.completion.scores import Scores
+from grafu.geometry.arrays import ArrayValue, frozen_array
+from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
+from grafu.graph.motion import mirror_face, mirror_hinge
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Beliefs(ArrayValue):
+    """Probabilities for s slots, the first n of them nodes that were seen.
+
+    `centre` and `half` stand in the normalised frame. `hinge[i, j]` is a table of border and sign. `parent` and
+    `mount` stay logits, beside the logit of none, because what they choose among depends on the labels.
+    """
+
+    exists: Float[np.ndarray, " s"]
+    label: Float[np.ndarray, "s labels"]
+    centre: Float[np.ndarray, "s 3"]
+    half: Float[np.ndarray, "s 3"]
+    edge: Float[np.ndarray, "s s kinds"]
+    parent: Float[np.ndarray, "s s"]
+    no_parent: float
+    mount: Float[np.ndarray, "s s"]
+    no_mount: float
+    hinge: Float[np.ndarray, "s s 4 2"]
+    slide: Float[np.ndarray, "s s 6"]
+
+    def __post_init__(self) -> None:
+        for name in ("exists", "label", "centre", "half", "edge", "parent", "mount", "hinge", "slide"):
+            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+
+
+def beliefs_of(scores: Scores) -> Beliefs:
+    """Returns the scores of one look as probabilities."""
+    border, sign = softmax(scores.border), softmax(scores.sign)
+    return Beliefs(
+        exists=1.0 / (1.0 + np.exp(-np.clip(scores.exists.astype(np.float64), -60.0, 60.0))),
+        label=softmax(scores.category),
+        centre=scores.centre.astype(np.float64),
+        half=scores.half.astype(np.float64),
+        edge=softmax(scores.edge),
+        parent=scores.parent.astype(np.float64),
+        no_parent=scores.parent_abstain,
+        mount=scores.hinge_target.astype(np.float64),
+        no_mount=scores.hinge_abstain,
+        hinge=border[..., :, None] * sign[..., None, :],
+        slide=softmax(scores.slide),
+    )
+
+
+def mirrored_back(beliefs: Beliefs, thin: Int64[np.ndarray, " n"], across: int) -> Beliefs:
+    """Returns what was believed of the mirror image across an axis, said of the graph itself.
+
+    `thin` are the thin axes of the boxes of the seen nodes; free slots, which are none's, keep their hinges.
+    """
+    signs = np.ones(3)
+    signs[across] = -1.0
+    faces = [mirror_face(code, across) for code in SIGNED_AXES]
+    hinge = beliefs.hinge.reshape(*beliefs.hinge.shape[:2], -1).copy()
+    for axis in range(3):
+        images = [mirror_hinge(axis, border, sign, across) for border in BORDERS for sign in SIGNS]
+        rows = np.flatnonzero(thin == axis)
+        hinge[rows] = hinge[rows][:, :, [2 * border + sign for border, sign in images]]
+    return replace(
+        beliefs,
+        centre=beliefs.centre * signs,
+        hinge=hinge.reshape(beliefs.hinge.shape),
+        slide=beliefs.slide[..., faces],
+    )
+
+
+def averaged(first: Beliefs, second: Beliefs, seen: int) -> Beliefs:
+    """Returns the mean of two looks for the first `seen` slots and pairs of them; free slots are the first look's.
+
+    In each look the free slots may stand for other parts.
+    """
+
+    def mean(name: str, *, pairs: bool) -> np.ndarray:
+        a, b = getattr(first, name), getattr(second, name)
+        found = np.array(a)
+        where = (slice(seen), slice(seen)) if pairs else slice(seen)
+        found[where] = (a[where] + b[where]) / 2
+        return found
+
+    by_slot: dict[str, Any] = {name: mean(name, pairs=False) for name in ("label", "centre", "half")}
+    by_pair: dict[str, Any] = {name: mean(name, pairs=True) for name in ("edge", "parent", "mount", "hinge", "slide")}
+    return replace(first, **by_slot, **by_pair)
+
+
+def softmax(logits: np.ndarray) -> np.ndarray:
+    """Returns the shares that logits stand for, along the last axis; of no logits none."""
+    if not logits.shape[-1]:
+        return np.zeros(logits.shape)
+    weights = np.exp(logits.astype(np.float64) - logits.max(axis=-1, keepdims=True))
+    shares: np.ndarray = weights / weights.sum(axis=-1, keepdims=True)
+    return shares

@@ -1,0 +1,93 @@
+"""What the network believes about a graph becomes a completed graph: exclusive, consistent, and answered for all.
+
+The order is that of a carpenter: what each part is, whose handle is whose, then how doors and drawers move. Edges that
+the input states are kept as they are.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import final
+
+from grafu.completion.beliefs import Beliefs
+from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.labelling import choose_labels
+from grafu.completion.scene import Scene
+from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
+from grafu.completion.slots import NewPart
+from grafu.completion.view import View
+from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.edges import Attached, Edge
+from grafu.graph.edit import relabelled, with_edges
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import PartLabel
+
+
+@final
+@dataclass(frozen=True)
+class Reading:
+    """A graph whose parts have labels and whose handles have parents, beside what is believed about it."""
+
+    view: View
+    decisions: tuple[Decision, ...]
+    refused: tuple[RefusedMotion, ...]
+
+    @property
+    def held(self) -> frozenset[str]:
+        """The doors and drawers that have a handle."""
+        return frozenset(edge.parent for edge in self.view.graph.attachments)
+
+
+def read_graph(
+    graph: FunctionalGraph,
+    beliefs: Beliefs,
+    given: frozenset[str],
+    parents: Mapping[str, str],
+    config: DecodeConfig = DecodeConfig(),
+) -> Reading:
+    """Returns the graph with its labels and handles settled.
+
+    `given` are the ids of the input's own parts; `parents` says for which door or drawer a handle was added.
+    """
+    labels, decisions = choose_labels(graph, beliefs, config)
+    view = View(relabelled(graph, labels), beliefs, given, config)
+    known = {edge.child for edge in view.graph.attachments}
+    found: list[Attached] = []
+    refused: list[RefusedMotion] = []
+    for handle in view.graph.labelled(PartLabel.HANDLE):
+        if handle.id in known:
+            continue
+        if handle.id in parents and view.graph.node(parents[handle.id]).label.is_movable:
+            found.append(Attached(parents[handle.id], handle.id))
+            continue
+        answer = choose_parent(handle, view)
+        if isinstance(answer, RefusedMotion):
+            refused.append(answer)
+        else:
+            found.append(answer[0])
+            decisions += (answer[1],)
+    held = View(with_edges(view.graph, found), beliefs, given, config)
+    return Reading(held, decisions, tuple(refused))
+
+
+def complete_reading(graph: FunctionalGraph, reading: Reading, added: Sequence[NewPart]) -> GraphCompletion:
+    """Returns the completion of `graph`: every door and drawer moves, or there is a reason why not."""
+    view = reading.view
+    edges: list[Edge] = []
+    decisions = [*(d for part in added for d in part.decisions), *reading.decisions]
+    refused = list(reading.refused)
+    scene = Scene(view.graph)
+    stated = {hinge.child for hinge in view.graph.hinges} | {rail.child for rail in view.graph.rails}
+    for node in view.graph.labelled(PartLabel.DOOR, PartLabel.DRAWER):
+        if node.id in stated:
+            continue
+        is_door = node.label is PartLabel.DOOR
+        answer = choose_hinge(node, view, scene) if is_door else choose_rails(node, view)
+        if isinstance(answer, RefusedMotion):
+            refused.append(answer)
+            continue
+        found, why = answer
+        edges += found if isinstance(found, tuple) else (found,)
+        decisions += why
+    completed = with_edges(view.graph, edges)
+    names = tuple(part.node.id for part in added)
+    return GraphCompletion(graph, completed, "network", names, tuple(decisions), tuple(refused))

@@ -1,0 +1,66 @@
+"""The thresholds of the decode, each with its reason. It decodes nothing."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.vocabulary import PartLabel
+
+# The parts that a completion may invent: a door or a side that is not there is not missing.
+ADDABLE: tuple[PartLabel, ...] = (
+    PartLabel.HANDLE,
+    PartLabel.SHELF,
+    PartLabel.TOP_PANEL,
+    PartLabel.DIVIDER,
+    PartLabel.BOTTOM_PANEL,
+    PartLabel.BACK_PANEL,
+)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class DecodeConfig:
+    """How scores become a graph. Lengths are shares of the object's largest side, probabilities in 0..1.
+
+    Raises:
+        ValueError: if a number is negative, or a probability above 1.
+    """
+
+    fires: float = 0.5
+    """A free slot adds a part from this probability of existence on (the authors' threshold)."""
+
+    addable: float = 0.5
+    """... and where the labels that may be added have at least this probability together."""
+
+    rounds: int = 8
+    """How often free slots are asked again, and once more for every four doors and drawers."""
+
+    overlap: float = 0.3
+    """A new part that shares this much of the union with a part of its own label is that part again."""
+
+    reach: float = 0.15
+    """A mount or parent farther away is not asked where nearer ones are: no hinge bridges that."""
+
+    least_edge: float = 0.02
+    """Below this probability of every hinge (or rail), a part moves on nothing: it is refused with the reason."""
+
+    second_rail: float = 0.3
+    """The rail on a drawer's other flank is taken from this probability on."""
+
+    outward: float = 0.5
+    """Power of the carpenter's view of which face is the front, against the network's sign: 0 leaves it out."""
+
+    edge_for_label: float = 0.2
+    """What remains of the probability that an unlabelled part is a door, drawer or handle if no part can carry it."""
+
+    no_parent: float = 0.8
+    """A handle is decoration from this probability of no parent on, if no edge says otherwise."""
+
+    mirror: bool = False
+    """Whether the mirror image across X is looked at too, and both answers averaged: twice the time."""
+
+    def __post_init__(self) -> None:
+        shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
+        if not all(0.0 <= share <= 1.0 for share in (*shares, self.no_parent)):
+            raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
+        if min(self.rounds, self.reach, self.outward) < 0:
+            raise ValueError(f"`rounds`, `reach` and `outward` must not be negative: got {self}")

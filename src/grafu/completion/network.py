@@ -1,0 +1,64 @@
+"""Completes a graph by the trained network: look, add what is missing, look again, then decide.
+
+Free slots are asked again, with what they added now seen as parts, until none fires: there is no most of handles.
+"""
+
+import numpy as np
+
+from grafu.completion.beliefs import Beliefs, averaged, beliefs_of, mirrored_back
+from grafu.completion.decode import complete_reading, read_graph
+from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.features import FeatureConfig, graph_features, mirrored
+from grafu.completion.session import GraphNetwork, open_network
+from grafu.completion.slots import NewPart, new_parts, with_parts
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.functional_graph import FunctionalGraph
+
+_ACROSS = 0  # furniture is alike on its left and right, not in front and behind
+_MOVERS_PER_ROUND = 4  # handles that one look can add: the paper's free slots
+
+
+def complete_by_network(
+    graph: FunctionalGraph,
+    network: GraphNetwork | None = None,
+    features: FeatureConfig | None = None,
+    config: DecodeConfig = DecodeConfig(),
+) -> GraphCompletion:
+    """Returns the graph with labels, handles, missing parts, and a motion or a refusal for each door and drawer.
+
+    `network` and the `features` that it wants are those that came with the package, unless given. Nodes should have
+    points; those without are seen as their boxes. Scores of decisions are the network's probabilities, renormalised
+    over what could be chosen.
+
+    Raises:
+        WeightsError: if no network is given and none came with the package.
+    """
+    if not graph.nodes:
+        return GraphCompletion(graph, graph, "network")
+    if network is None:
+        shipped = open_network()
+        network, features = shipped, features or shipped.features
+    seen, added = graph, list[NewPart]()
+    given = frozenset(node.id for node in graph.nodes)
+    rounds = 0
+    while True:
+        beliefs = look(seen, network, features or FeatureConfig(), config.mirror)
+        parents = {part.node.id: part.parent for part in added if part.parent is not None}
+        reading = read_graph(seen, beliefs, given, parents, config)
+        most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND
+        found = new_parts(reading.view, reading.held) if rounds < most else ()
+        if not found:
+            return complete_reading(graph, reading, added)
+        seen, rounds = with_parts(seen, found), rounds + 1
+        added += found
+
+
+def look(graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, mirror: bool = False) -> Beliefs:
+    """Returns what a network believes about a graph; with `mirror`, the mean of its beliefs about it and its image."""
+    seen = graph_features(graph, features)
+    beliefs = beliefs_of(network(seen))
+    if not mirror:
+        return beliefs
+    image = beliefs_of(network(mirrored(seen, _ACROSS)))
+    thin = np.array([node.box.thin_axis for node in graph.nodes], dtype=np.int64)
+    return averaged(beliefs, mirrored_back(image, thin, _ACROSS), len(graph.nodes))

@@ -1,0 +1,138 @@
+"""Exclusive choices out of the network's beliefs: a mount for a door, two rails for a drawer, a parent for a handle.
+
+A motion is a property of the part, while the network answers for each pair: answers are averaged over the parts that
+may carry it, each by how likely it does. What moves ends with its edges or with the reason why not.
+"""
+
+from typing import cast
+
+import numpy as np
+
+from grafu.completion.beliefs import softmax
+from grafu.completion.doors import vote_front
+from grafu.completion.rows import slides_past
+from grafu.completion.scene import Scene
+from grafu.completion.view import View, decision_of, verdict_of
+from grafu.geometry.arrays import Indices, Scalars
+from grafu.graph.arrays import ATTACHED, HINGE, RAIL
+from grafu.graph.completion import Decision, RefusedMotion
+from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, AxisSign, Hinge, HingeBorder, Rail, SignedAxis
+from grafu.graph.functional_graph import PartNode
+from grafu.graph.motion import opening_face
+
+_NO_SUPPORT = "there is no static part that could carry it: label the parts that stand still"
+_NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
+
+
+def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | RefusedMotion:
+    """Returns the door or drawer that a handle is fixed to, or why there is none."""
+    if not len(view.movers):
+        return RefusedMotion(handle.id, _NO_PARENT)
+    slots = view.within_reach(handle, view.movers)
+    shares, none = parent_shares(view.place[handle.id], slots, view)
+    attached = view.beliefs.edge[view.place[handle.id], slots, ATTACHED]
+    if none >= view.config.no_parent and attached.max() < 0.5:
+        return RefusedMotion(handle.id, f"the network takes it for decoration ({none:.2f}): it is on no door or drawer")
+    verdict = verdict_of(view.ids(slots), shares)
+    return Attached(verdict.choice, handle.id), decision_of(handle.id, "parent", verdict)
+
+
+def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float]:
+    """Returns how likely each of some doors and drawers is the parent of the handle in a slot, and none of them is.
+
+    The choice among all is weighed by the edge of each pair, of which some chance always remains.
+    """
+    logits = np.append(view.beliefs.parent[slot, slots], view.beliefs.no_parent)
+    chosen = softmax(logits)
+    return chosen[:-1] * (0.05 + view.beliefs.edge[slot, slots, ATTACHED]), float(chosen[-1])
+
+
+def choose_hinge(door: PartNode, view: View, scene: Scene) -> tuple[Hinge, tuple[Decision, ...]] | RefusedMotion:
+    """Returns the hinge of a door with how sure each choice is, or why it gets none.
+
+    `scene` is the same graph with its handles attached: where they sit says which face is the front.
+    """
+    other = slides_past(door, scene)
+    if other is not None:
+        return RefusedMotion(
+            door.id, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built"
+        )
+    if not len(view.supports):
+        return RefusedMotion(door.id, _NO_SUPPORT)
+    slot, slots = view.place[door.id], view.within_reach(door, view.supports)
+    hinged = view.beliefs.edge[slot, slots, HINGE]
+    if hinged.max() < view.config.least_edge:
+        return RefusedMotion(door.id, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}")
+    mounts = softmax(view.beliefs.mount[slot, slots]) * hinged
+    motions = view.beliefs.hinge[slot, slots] * _outward(door, view, scene)
+    motion = np.einsum("k,kbs->bs", mounts, motions)
+    border = verdict_of(BORDERS, motion.sum(axis=1))
+    sign = verdict_of(SIGNS, motion[border.choice])
+    mount = verdict_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
+    edge = Hinge(mount.choice, door.id, cast(HingeBorder, border.choice), cast(AxisSign, sign.choice))
+    decisions = (
+        decision_of(door.id, "border", border),
+        decision_of(door.id, "sign", sign),
+        decision_of(door.id, "mount", mount),
+    )
+    return edge, decisions
+
+
+def choose_rails(drawer: PartNode, view: View) -> tuple[tuple[Rail, ...], tuple[Decision, ...]] | RefusedMotion:
+    """Returns the rails of a drawer, on two flanks where two parts carry it, or why it gets none."""
+    if not len(view.supports):
+        return RefusedMotion(drawer.id, _NO_SUPPORT)
+    slot, slots = view.place[drawer.id], view.within_reach(drawer, view.supports)
+    railed = view.beliefs.edge[slot, slots, RAIL]
+    if railed.max() < view.config.least_edge:
+        return RefusedMotion(drawer.id, f"the network sees no part that carries it: rails at most {railed.max():.2f}")
+    shares = railed @ view.beliefs.slide[slot, slots] / railed.sum()
+    slide = verdict_of(SIGNED_AXES, shares)
+    axis = cast(SignedAxis, slide.choice)
+    groups = _by_flank(drawer, axis, slots, railed, view)
+    rails = tuple(Rail(view.ids(group)[0], drawer.id, axis) for group in groups)
+    mounts = (
+        decision_of(drawer.id, "mount", verdict_of(view.ids(group), view.beliefs.edge[slot, group, RAIL]))
+        for group in groups
+    )
+    return rails, (decision_of(drawer.id, "slide", slide), *mounts)
+
+
+def _outward(door: PartNode, view: View, scene: Scene) -> np.ndarray:
+    """Returns for each border and sign how plausible it is that the door opens to that side (4, 2).
+
+    The carpenter's front is an opinion, not a rule: the network may overrule it.
+    """
+    front = vote_front(door, scene)
+    shares = {front.choice: front.score, front.runner_up: front.runner_up_score}
+    thin = door.box.thin_axis
+    faces = [[opening_face(thin, border, sign) for sign in SIGNS] for border in BORDERS]
+    return np.array([[max(shares[face], 1e-3) ** view.config.outward for face in row] for row in faces])
+
+
+def _by_flank(drawer: PartNode, axis: SignedAxis, slots: Indices, railed: Scalars, view: View) -> list[np.ndarray]:
+    """Returns the slots in one or two groups, the chosen rail of each first, the rest as runners-up.
+
+    The likeliest part comes first; beside it stands the likeliest one on another flank, if it is likely enough.
+    """
+    order = np.argsort(-railed, kind="stable")
+    flanks = _flanks(drawer, axis, slots, view)
+    first = order[0]
+    beyond = flanks != flanks[first]
+    likely = railed >= view.config.second_rail
+    if not (beyond & likely).any():
+        return [slots[order]]
+    same, other = order[~beyond[order]], order[beyond[order]]
+    return [slots[same], slots[other]]
+
+
+def _flanks(drawer: PartNode, axis: SignedAxis, slots: Indices, view: View) -> Indices:
+    """Returns for each slot the side of the drawer that it stands on: -1 low, 1 high, 0 on both or on neither."""
+    across = 0 if axis // 2 == 1 else 1
+    box = drawer.box
+    slack = 0.25 * float(box.size[across])  # an overlaid front is wider than the drawer's own box
+    middle = float(box.center[across])
+    low, high = view.low[slots, across], view.high[slots, across]
+    is_low = (high <= middle) & (low <= float(box.low[across]) + slack)
+    is_high = (low >= middle) & (high >= float(box.high[across]) - slack)
+    return is_high.astype(np.int64) - is_low.astype(np.int64)

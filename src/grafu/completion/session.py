@@ -1,0 +1,78 @@
+"""The trained network as a function of features, run by ONNX Runtime on the CPU. It decides nothing.
+
+ONNX Runtime is imported when a file of weights is opened, so that whoever needs no network does not wait for it.
+"""
+
+import json
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+
+from grafu.completion.features import LABELS, FeatureConfig, GraphFeatures
+from grafu.completion.scores import SCORE_NAMES, Scores
+from grafu.errors import WeightsError
+
+GraphNetwork = Callable[[GraphFeatures], Scores]
+
+SHIPPED_WEIGHTS = Path(__file__).parent / "weights" / "grafu.onnx"
+_INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
+
+
+@final
+class NetworkSession:
+    """A network that is ready to be asked.
+
+    `features` says how many points it wants to see; one thread by default, because inputs run in parallel.
+
+    Raises:
+        WeightsError: if the file is missing, damaged, or made for other inputs, outputs or labels.
+    """
+
+    def __init__(self, path: Path, threads: int = 1) -> None:
+        import onnxruntime as ort  # local: it takes 0.2 s to import, and rules need none
+
+        if not path.is_file():
+            raise WeightsError(f"there are no trained weights at `{path}`: use another motion source, such as rule")
+        options = ort.SessionOptions()
+        options.intra_op_num_threads = threads
+        options.inter_op_num_threads = 1
+        options.log_severity_level = 3  # errors alone
+        try:
+            self._session: Any = ort.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+        except Exception as error:  # the runtime raises a class of its own for each kind of damage
+            raise WeightsError(f"`{path}` must be a network in ONNX form: {error}") from error
+        self.features = self._checked(path)
+
+    def __call__(self, features: GraphFeatures) -> Scores:
+        """Returns what the network says about a graph of at least one node."""
+        found: list[Any] = self._session.run(list(SCORE_NAMES), {name: getattr(features, name) for name in _INPUTS})
+        values: list[Any] = [array if array.ndim else float(array) for array in map(np.asarray, found)]
+        return Scores(*values)
+
+    def _checked(self, path: Path) -> FeatureConfig:
+        names = {item.name for item in self._session.get_inputs()}, {item.name for item in self._session.get_outputs()}
+        if names[0] != set(_INPUTS) or not set(SCORE_NAMES) <= names[1]:
+            raise WeightsError(f"`{path}` must read {_INPUTS} and say {SCORE_NAMES}: got {names[0]} and {names[1]}")
+        facts: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
+        if json.loads(facts.get("labels", "[]")) != [label.value for label in LABELS]:
+            raise WeightsError(f"`{path}` was trained on other labels: train it again")
+        config = json.loads(facts.get("config", "{}"))
+        return FeatureConfig(anchors=config["anchors"], neighbours=config["neighbours"])
+
+
+def has_shipped_weights() -> bool:
+    """Whether trained weights came with the package."""
+    return SHIPPED_WEIGHTS.is_file()
+
+
+@lru_cache(maxsize=2)
+def open_network(path: Path = SHIPPED_WEIGHTS, threads: int = 1) -> NetworkSession:
+    """Returns the network in a file, opened once for each process.
+
+    Raises:
+        WeightsError: if it cannot be used.
+    """
+    return NetworkSession(path, threads)

@@ -1,0 +1,116 @@
+"""Free slots that fire become new parts: which label and box, and whether they are truly new. No edges yet."""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.completion.decode_config import ADDABLE
+from grafu.completion.features import LABELS, object_frame
+from grafu.completion.selection import parent_shares
+from grafu.completion.view import View, decision_of, verdict_of
+from grafu.geometry.box import Box
+from grafu.graph.completion import Decision
+from grafu.graph.edges import Contact
+from grafu.graph.edit import with_edges
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.parse import ParsingConfig, near_pairs
+from grafu.vocabulary import PartLabel
+
+_ADDABLE = [LABELS.index(label) for label in ADDABLE]
+# Thinner boxes are errors of the regression (the authors': half sizes of at least 0.005 of the object).
+_LEAST_HALF = 0.005
+# Both boxes are grown by this share of the object before they are compared: thin boards seldom overlap exactly.
+_SLACK = 0.01
+
+
+@final
+@dataclass(frozen=True)
+class NewPart:
+    """A part that a free slot adds, why, and, of a handle, the door or drawer that it is for."""
+
+    node: PartNode
+    decisions: tuple[Decision, ...]
+    parent: str | None = None
+
+
+def new_parts(view: View, held: frozenset[str]) -> tuple[NewPart, ...]:
+    """Returns what the free slots add, the surest first; `held` are the doors and drawers that have a handle.
+
+    A handle comes only to a door or drawer that has none, no part where one of its label is already, and only labels
+    that may be added.
+    """
+    found: list[NewPart] = []
+    seen = len(view.graph.nodes)
+    fired = [k for k in range(seen, len(view.beliefs.exists)) if view.beliefs.exists[k] >= view.config.fires]
+    for slot in sorted(fired, key=lambda k: -float(view.beliefs.exists[k])):
+        others = (*view.graph.nodes, *(part.node for part in found))
+        part = _part_of(slot, view, others)
+        if part is None or _is_there(part.node, others, view):
+            continue
+        if part.node.label is not PartLabel.HANDLE:
+            found.append(part)
+        elif part.parent is not None and part.parent not in held:
+            held |= {part.parent}
+            found.append(part)
+    return tuple(found)
+
+
+def with_parts(graph: FunctionalGraph, parts: tuple[NewPart, ...]) -> FunctionalGraph:
+    """Returns the graph with new parts, in contact with what their boxes touch (official.md 2.2)."""
+    nodes = (*graph.nodes, *(part.node for part in parts))
+    larger = FunctionalGraph(graph.model_id, nodes, graph.edges)
+    margin = ParsingConfig().box_tolerance * float(graph.box.size.max())
+    pairs = near_pairs([node.box for node in nodes], margin)
+    return with_edges(larger, [Contact(nodes[a].id, nodes[b].id) for a, b in pairs if b >= len(graph.nodes)])
+
+
+def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | None:
+    """Returns the part that a slot stands for, or None where its label may not be added or it is nobody's handle."""
+    beliefs = view.beliefs
+    shares = beliefs.label[slot, _ADDABLE]
+    if shares.sum() < view.config.addable:
+        return None
+    verdict = verdict_of([label.value for label in ADDABLE], shares)
+    label = PartLabel(verdict.choice)
+    origin, scale = object_frame(view.graph)
+    half = np.maximum(beliefs.half[slot], _LEAST_HALF)
+    box = Box.from_center(beliefs.centre[slot] * scale + origin, half * scale)
+    name = _new_id(label, others)
+    exists = float(beliefs.exists[slot])
+    decisions = (
+        Decision(name, "exists", "yes", exists, "no", max(1.0 - exists, 0.0)),
+        decision_of(name, "label", verdict),
+    )
+    node = PartNode(name, label, box)
+    if label is not PartLabel.HANDLE:
+        return NewPart(node, decisions)
+    parent = _parent_of(slot, node, view)
+    return None if parent is None else NewPart(node, decisions, parent)
+
+
+def _parent_of(slot: int, handle: PartNode, view: View) -> str | None:
+    near = view.movers[view.gaps(handle, view.movers) <= view.config.reach * view.unit]
+    if not len(near):
+        return None
+    shares, _ = parent_shares(slot, near, view)
+    return verdict_of(view.ids(near), shares).choice
+
+
+def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:
+    taken = {node.id for node in others}
+    stem = f"{label.value.replace(' ', '_')}_added_"
+    return next(name for name in (f"{stem}{k}" for k in range(1, len(taken) + 2)) if name not in taken)
+
+
+def _is_there(node: PartNode, others: tuple[PartNode, ...], view: View) -> bool:
+    """Whether a part of this label stands in the same place already."""
+    grown = node.box.grown(_SLACK * view.unit)
+    alike = (other.box.grown(_SLACK * view.unit) for other in others if other.label is node.label)
+    return any(_shared(grown, box) > view.config.overlap for box in alike)
+
+
+def _shared(a: Box, b: Box) -> float:
+    """Returns the volume that two boxes share, as a share of that of their union."""
+    common = float(np.prod(np.maximum(np.minimum(a.high, b.high) - np.maximum(a.low, b.low), 0.0)))
+    return common / (a.volume + b.volume - common)

@@ -1,0 +1,97 @@
+"""A graph beside what the network believes about it, and what selecting among parts asks again and again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar, final
+
+import numpy as np
+from jaxtyping import Int64
+
+from grafu.completion.ballot import Verdict
+from grafu.completion.beliefs import Beliefs
+from grafu.completion.decode_config import DecodeConfig
+from grafu.geometry.arrays import Indices, Scalars
+from grafu.graph.completion import Decision, Question
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+
+Choice = TypeVar("Choice", str, int)
+
+
+@final
+@dataclass(frozen=True)
+class View:
+    """A graph whose labels are settled: node k is slot k of the beliefs, and slots beyond the nodes are free.
+
+    Only the nodes of `given` may carry a mechanism: they are there, while what was added may still be left out.
+    """
+
+    graph: FunctionalGraph
+    beliefs: Beliefs
+    given: frozenset[str]
+    config: DecodeConfig
+
+    @cached_property
+    def place(self) -> dict[str, int]:
+        """The slot of each node."""
+        return {node.id: k for k, node in enumerate(self.graph.nodes)}
+
+    @cached_property
+    def unit(self) -> float:
+        """The object's largest side, metres; never 0."""
+        return max(float(self.graph.box.size.max()), 1e-9)
+
+    @cached_property
+    def supports(self) -> Indices:
+        """The slots of the parts that may carry a mechanism."""
+        found = [k for k, n in enumerate(self.graph.nodes) if n.label.is_support and n.id in self.given]
+        return np.array(found, dtype=np.int64)
+
+    @cached_property
+    def movers(self) -> Indices:
+        """The slots of the doors and drawers."""
+        return np.array([k for k, n in enumerate(self.graph.nodes) if n.label.is_movable], dtype=np.int64)
+
+    @cached_property
+    def low(self) -> np.ndarray:
+        """The low corners of all boxes, metres."""
+        return np.array([n.box.low for n in self.graph.nodes]).reshape(-1, 3)
+
+    @cached_property
+    def high(self) -> np.ndarray:
+        """The high corners of all boxes, metres."""
+        return np.array([n.box.high for n in self.graph.nodes]).reshape(-1, 3)
+
+    def within_reach(self, node: PartNode, slots: Indices) -> Int64[np.ndarray, " near"]:
+        """Returns those of the slots whose boxes are near enough to the node's; all of them where none is."""
+        near = slots[self.gaps(node, slots) <= self.config.reach * self.unit]
+        return near if len(near) else slots
+
+    def gaps(self, node: PartNode, slots: Indices) -> Scalars:
+        """Returns the distance of each slot's box from the node's, metres."""
+        apart = np.maximum(np.maximum(self.low[slots] - node.box.high, node.box.low - self.high[slots]), 0.0)
+        return np.linalg.norm(apart, axis=1)
+
+    def ids(self, slots: Indices) -> tuple[str, ...]:
+        """Returns the ids of the nodes in these slots."""
+        return tuple(self.graph.nodes[k].id for k in slots.tolist())
+
+
+def verdict_of(choices: Sequence[Choice], weights: Scalars) -> Verdict[Choice]:
+    """Returns the choice of the largest weight and the next; scores are shares of all weights, ties fall to the first.
+
+    There is at least one choice, and no weight is negative.
+    """
+    total = float(weights.sum())
+    shares = weights / total if total > 0 else np.full(len(choices), 1.0 / len(choices))
+    order = np.argsort(-shares, kind="stable").tolist()
+    scores = np.minimum(shares, 1.0).tolist()
+    if len(order) == 1:
+        return Verdict(choices[0], scores[0])
+    return Verdict(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
+
+
+def decision_of(part: str, question: Question, verdict: Verdict[str] | Verdict[int]) -> Decision:
+    """Returns a verdict as the answer to a question about a part."""
+    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
+    return Decision(part, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)

@@ -1,0 +1,409 @@
+"""From what a network says to a completed graph: exclusive choices, labels, added parts, refusals. No weights."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grafu.completion.decode_config import ADDABLE, DecodeConfig
+from grafu.completion.features import LABELS, FeatureConfig, GraphFeatures
+from grafu.completion.network import complete_by_network
+from grafu.completion.scores import Scores
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.graph.arrays import KINDS
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.edges import Attached, Contact, Hinge, Rail
+from grafu.graph.edit import relabelled
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.vocabulary import EdgeKind, PartLabel
+from network_answers import FREE, SURE, Answers
+
+FEW = FeatureConfig(points=16, anchors=2, neighbours=2)
+HINGE, RAIL, ATTACHED = EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED
+LABEL_OF = {
+    "left": PartLabel.SIDE_PANEL,
+    "right": PartLabel.SIDE_PANEL,
+    "back": PartLabel.BACK_PANEL,
+    "top": PartLabel.TOP_PANEL,
+    "door": PartLabel.DOOR,
+    "drawer": PartLabel.DRAWER,
+    "knob": PartLabel.HANDLE,
+}
+BOXES = {
+    "left": ([0, 0, 0], [0.02, 0.5, 1]),
+    "right": ([0.98, 0, 0], [1, 0.5, 1]),
+    "back": ([0.02, 0.48, 0], [0.98, 0.5, 1]),
+    "top": ([0.02, 0, 0.98], [0.98, 0.48, 1]),
+    "door": ([0, -0.02, 0], [1, 0, 0.7]),
+    "drawer": ([0.04, -0.02, 0.72], [0.96, 0.46, 0.97]),
+    "knob": ([0.9, -0.05, 0.34], [0.92, -0.02, 0.36]),
+}
+KNOB = Box(np.array([0.49, -0.05, 0.84]), np.array([0.51, -0.02, 0.86]))
+SHELF = Box(np.array([0.02, 0.0, 0.7]), np.array([0.98, 0.48, 0.72]))
+
+
+def box_of(name: str) -> Box:
+    low, high = BOXES[name]
+    return Box(np.array(low, float), np.array(high, float))
+
+
+def moved(box: Box, by: np.ndarray) -> Box:
+    return Box(box.low + by, box.high + by)
+
+
+def cupboard(*names: str, edges: tuple = ()) -> FunctionalGraph:
+    wanted = names or tuple(BOXES)
+    return FunctionalGraph("cupboard", tuple(PartNode(n, LABEL_OF[n], box_of(n)) for n in wanted), edges)
+
+
+def told() -> Answers:
+    return Answers(
+        kinds={
+            ("door", "left"): HINGE,
+            ("drawer", "left"): RAIL,
+            ("drawer", "right"): RAIL,
+            ("knob", "door"): ATTACHED,
+        },
+        parents={("knob", "door"): SURE},
+        mounts={("door", "left"): SURE},
+        hinges={"door": (0, 0)},
+        slides={"drawer": 2},
+    )
+
+
+def complete(graph: FunctionalGraph, said: Answers, config: DecodeConfig = DecodeConfig()) -> GraphCompletion:
+    return complete_by_network(graph, said.about(graph), FEW, config)
+
+
+def test_what_is_said_is_done() -> None:
+    completion = complete(cupboard(), told())
+
+    assert completion.source == "network"
+    assert set(completion.completed.edges) == {
+        Hinge("left", "door", 0, 0),
+        Rail("left", "drawer", 2),
+        Rail("right", "drawer", 2),
+        Attached("door", "knob"),
+    }
+    assert (completion.added, completion.refused) == ((), ())
+
+
+def test_every_choice_has_its_score_and_runner_up() -> None:
+    completion = complete(cupboard(), told())
+
+    mount = completion.decision("door", "mount")
+    assert (mount.choice, mount.runner_up in BOXES) == ("left", True)
+    assert mount.score > 0.9 > mount.runner_up_score
+    assert completion.decision("door", "border").choice == "0"
+    assert completion.decision("door", "sign").choice == "0"
+    assert completion.decision("drawer", "slide").choice == "2"
+    assert completion.decision("knob", "parent").choice == "door"
+    assert [d.choice for d in completion.decisions if d.question == "mount"] == ["left", "left", "right"]
+
+
+def test_a_door_hangs_on_one_mount_though_two_edges_are_likely() -> None:
+    said = told()
+    said.kinds[("door", "right")] = HINGE
+    said.mounts = {("door", "right"): SURE}
+
+    assert complete(cupboard(), said).completed.hinges == (Hinge("right", "door", 0, 0),)
+
+
+def test_the_edge_decides_where_the_mount_is_open() -> None:
+    said = told()
+    said.mounts = {}
+
+    assert complete(cupboard(), said).completed.hinges[0].parent == "left"
+
+
+def test_a_motion_is_what_the_likely_mounts_say() -> None:
+    said = told()
+    said.hinges = {("door", name): (3, 1) for name in ("right", "back", "top")} | {("door", "left"): (0, 0)}
+
+    assert complete(cupboard(), said).completed.hinges == (Hinge("left", "door", 0, 0),)
+
+
+def test_a_mount_agrees_with_the_border() -> None:
+    said = told()
+    said.kinds[("door", "top")] = HINGE
+    said.kinds[("door", "right")] = HINGE
+    said.mounts = {("door", name): SURE for name in ("left", "right", "top")} | {("door", "top"): SURE + 0.3}
+    said.hinges = {("door", "left"): (0, 0), ("door", "right"): (0, 0), ("door", "top"): (3, 0)}
+    hinge = complete(cupboard(), said).completed.hinges[0]
+
+    assert (hinge.border, hinge.parent) in {(0, "left"), (0, "right")}
+
+
+@pytest.mark.parametrize(("outward", "sign"), [(0.5, 0), (0.0, 1)])
+def test_doors_rather_open_outwards(outward: float, sign: int) -> None:
+    said = told()
+    said.hinges = {}
+    graph = cupboard()
+    network = said.about(graph)
+
+    def leaning(features: GraphFeatures) -> Scores:
+        scores = network(features)
+        border, turn = scores.border.copy(), scores.sign.copy()
+        border[:, :, 0], turn[:, :, 1] = SURE, 0.4  # it leans a little towards the sign that opens into the case
+        return replace(scores, border=border, sign=turn)
+
+    found = complete_by_network(graph, leaning, FEW, DecodeConfig(outward=outward)).completed.hinges[0]
+    assert (found.border, found.sign) == (0, sign)
+
+
+def test_the_network_overrules_the_carpenter() -> None:
+    said = told()
+    said.hinges = {"door": (0, 1)}
+
+    assert complete(cupboard(), said).completed.hinges == (Hinge("left", "door", 0, 1),)
+
+
+def test_an_unlikely_edge_is_taken_where_no_better_one_is() -> None:
+    said = Answers(kinds={("door", "left"): {HINGE: 3.0}, ("drawer", "right"): {RAIL: 3.0}})
+    completion = complete(cupboard(), said)
+
+    assert [(h.parent, h.child) for h in completion.completed.hinges] == [("left", "door")]
+    assert [(r.parent, r.child) for r in completion.completed.rails] == [("right", "drawer")]
+
+
+def test_what_nothing_carries_is_refused_with_the_reason() -> None:
+    completion = complete(cupboard(), Answers())
+
+    assert [r.part for r in completion.refused] == ["door", "drawer"]
+    assert all("the network sees no part that carries it" in r.why for r in completion.refused)
+    assert [r.why for r in complete(cupboard("door", "drawer"), told_nothing()).refused] == [
+        "there is no static part that could carry it: label the parts that stand still"
+    ] * 2
+
+
+def told_nothing() -> Answers:
+    return Answers()
+
+
+def test_rails_are_on_two_different_flanks() -> None:
+    graph = cupboard()
+    beside = PartNode("slat", PartLabel.BAR, Box(np.array([0.0, 0.0, 0.72]), np.array([0.03, 0.5, 0.75])))
+    graph = replace(graph, nodes=(*graph.nodes, beside))
+    said = told()
+    said.kinds[("drawer", "slat")] = RAIL
+
+    assert {r.parent for r in complete(graph, said).completed.rails} in ({"left", "right"}, {"slat", "right"})
+
+
+def test_a_drawer_under_a_top_runs_on_it_alone() -> None:
+    said = told()
+    said.kinds = {("drawer", "top"): RAIL}
+
+    assert complete(cupboard(), said).completed.rails == (Rail("top", "drawer", 2),)
+
+
+def test_a_part_out_of_reach_carries_nothing() -> None:
+    far = PartNode("far", PartLabel.SIDE_PANEL, Box(np.array([3.0, 0.0, 0.0]), np.array([3.02, 0.5, 1.0])))
+    graph = replace(cupboard(), nodes=(*cupboard().nodes, far))
+    said = told()
+    said.mounts = {("door", "far"): 3 * SURE}
+    said.kinds[("door", "far")] = HINGE
+
+    assert complete(graph, said).completed.hinges[0].parent == "left"
+
+
+def test_sliding_doors_are_refused() -> None:
+    front = PartNode("front", PartLabel.DOOR, Box(np.array([0.0, -0.02, 0.0]), np.array([0.55, 0.0, 0.7])))
+    behind = PartNode("behind", PartLabel.DOOR, Box(np.array([0.5, 0.01, 0.0]), np.array([1.0, 0.03, 0.7])))
+    graph = replace(cupboard("left", "right"), nodes=(*cupboard("left", "right").nodes, front, behind))
+
+    assert {r.part for r in complete(graph, Answers()).refused} == {"front", "behind"}
+
+
+def test_a_handle_of_nothing_is_decoration() -> None:
+    said = told()
+    said.kinds.pop(("knob", "door"))
+    said.parents, said.no_parent = {}, SURE
+    completion = complete(cupboard(), said)
+
+    assert completion.completed.attachments == ()
+    assert "decoration" in next(r.why for r in completion.refused if r.part == "knob")
+    assert "sits on no door" in complete(cupboard("left", "knob"), Answers()).refused[0].why
+
+
+def test_unlabelled_parts_get_their_labels_and_others_keep_theirs() -> None:
+    graph = relabelled(cupboard(), dict.fromkeys(("door", "knob", "back"), PartLabel.UNKNOWN))
+    said = told()
+    said.labels = {
+        "door": PartLabel.DOOR,
+        "knob": PartLabel.HANDLE,
+        "back": PartLabel.BACK_PANEL,
+        "left": PartLabel.LEG,
+    }
+    completion = complete(graph, said)
+
+    assert {n.id: n.label for n in completion.completed.nodes} == LABEL_OF
+    assert set(completion.completed.edges) == set(complete(cupboard(), told()).completed.edges)
+    assert completion.decision("door", "label").score > 0.9
+    assert completion.decision("left", "label") is None
+
+
+def test_no_part_stays_unknown() -> None:
+    graph = relabelled(cupboard(), dict.fromkeys(BOXES, PartLabel.UNKNOWN))
+    said = Answers(labels={name: {PartLabel.UNKNOWN: 9.0, PartLabel.LEG: 2.0} for name in BOXES})
+
+    assert {n.label for n in complete(graph, said).completed.nodes} == {PartLabel.LEG}
+
+
+def test_an_edge_decides_between_door_and_drawer() -> None:
+    graph = relabelled(cupboard(), {"drawer": PartLabel.UNKNOWN})
+    said = told()
+    said.labels = {"drawer": {PartLabel.DOOR: 4.0, PartLabel.DRAWER: 3.8}}
+
+    assert complete(graph, said).completed.node("drawer").label is PartLabel.DRAWER
+
+
+def test_stated_edges_are_kept_and_bind_the_labels() -> None:
+    stated = (Hinge("right", "door", 1, 1), Contact("left", "top"))
+    graph = relabelled(cupboard(edges=stated), {"door": PartLabel.UNKNOWN, "right": PartLabel.UNKNOWN})
+    said = told()
+    said.labels = {"door": PartLabel.SHELF, "right": PartLabel.HANDLE}
+    completed = complete(graph, said).completed
+
+    assert set(stated) <= set(completed.edges)
+    assert completed.node("door").label is PartLabel.DOOR
+    assert completed.node("right").label.is_support
+    assert [h.parent for h in completed.hinges] == ["right"]
+
+
+def test_a_handle_is_added_where_one_is_missing() -> None:
+    said = told()
+    said.added = [[(PartLabel.HANDLE, KNOB, "drawer")]]
+    completion = complete(cupboard(), said)
+
+    assert completion.added == ("handle_added_1",)
+    assert Attached("drawer", "handle_added_1") in completion.completed.edges
+    assert np.allclose(completion.completed.node("handle_added_1").box.low, KNOB.low, atol=1e-6)
+    assert completion.decision("handle_added_1", "exists").score > 0.9
+    assert Contact("drawer", "handle_added_1") not in completion.completed.edges
+
+
+def test_no_second_handle_comes_to_a_door_that_has_one() -> None:
+    said = told()
+    said.added = [
+        [(PartLabel.HANDLE, KNOB, "door"), (PartLabel.HANDLE, KNOB, "drawer"), (PartLabel.HANDLE, KNOB, "drawer")]
+    ]
+
+    assert sorted(e.parent for e in complete(cupboard(), said).completed.attachments) == ["door", "drawer"]
+
+
+def test_free_slots_are_asked_until_none_fires() -> None:
+    rows = 11
+    drawers = [
+        PartNode(f"d{k}", PartLabel.DRAWER, Box(np.array([0.0, 0.0, 0.1 * k]), np.array([1.0, 0.5, 0.1 * k + 0.09])))
+        for k in range(rows)
+    ]
+    side = PartNode("side", PartLabel.SIDE_PANEL, Box(np.array([-0.02, 0.0, 0.0]), np.array([0.0, 0.5, 1.1])))
+    graph = FunctionalGraph("tower", (side, *drawers))
+    knobs = [(PartLabel.HANDLE, moved(KNOB, d.box.center - KNOB.center - vec3(0.0, 0.265, 0.0)), d.id) for d in drawers]
+    said = Answers(
+        kinds={(d.id, "side"): RAIL for d in drawers}, added=[knobs[k : k + FREE] for k in range(0, rows, FREE)]
+    )
+    completion = complete(graph, said)
+
+    assert len(completion.added) == rows
+    assert {e.parent: e.child for e in completion.completed.attachments}.keys() == {d.id for d in drawers}
+    assert said.looks == 4  # three that add, and one after which none fires
+
+
+def test_a_slot_that_never_rests_is_stopped() -> None:
+    said = told()
+    boxes = [moved(SHELF, vec3(0.0, 0.0, -0.05 * k)) for k in range(12)]
+    said.added = [[(PartLabel.SHELF, box, None)] for box in boxes]
+
+    assert len(complete(cupboard(), said, DecodeConfig(rounds=3)).added) == 3
+
+
+def test_a_part_is_added_once() -> None:
+    said = told()
+    near = moved(SHELF, vec3(0.0, 0.0, 0.004))
+    said.added = [[(PartLabel.SHELF, SHELF, None), (PartLabel.SHELF, near, None)], [(PartLabel.SHELF, SHELF, None)]]
+
+    assert complete(cupboard(), said).added == ("shelf_added_1",)
+
+
+def test_only_what_may_be_missing_is_added() -> None:
+    said = told()
+    said.added = [[(PartLabel.DOOR, SHELF, None), (PartLabel.SIDE_PANEL, SHELF, None), (PartLabel.DRAWER, SHELF, None)]]
+
+    assert complete(cupboard(), said).added == ()
+
+
+def test_what_is_added_touches_its_neighbours_and_carries_nothing() -> None:
+    said = told()
+    said.added = [[(PartLabel.DIVIDER, Box(np.array([0.02, 0, 0.7]), np.array([0.04, 0.48, 0.97])), None)]]
+    said.kinds[("drawer", "left")] = {}
+    said.kinds[("drawer", "right")] = {}
+    completion = complete(cupboard(), said)
+
+    assert Contact("divider_added_1", "left") in completion.completed.edges
+    assert all(rail.parent in BOXES for rail in completion.completed.rails)
+
+
+def test_a_graph_without_parts_is_complete() -> None:
+    completion = complete_by_network(FunctionalGraph("empty", ()))
+
+    assert (completion.completed.nodes, completion.source) == ((), "network")
+
+
+def test_a_single_part_is_complete() -> None:
+    assert complete(cupboard("left"), Answers()).completed == cupboard("left")
+    assert [r.part for r in complete(cupboard("door"), Answers()).refused] == ["door"]
+
+
+def test_the_order_of_parts_does_not_matter() -> None:
+    graph = cupboard()
+    turned = replace(graph, nodes=graph.nodes[::-1])
+
+    assert set(complete(turned, told()).completed.edges) == set(complete(graph, told()).completed.edges)
+
+
+def test_thresholds_are_shares() -> None:
+    with pytest.raises(ValueError, match=r"must be in 0\.\.1"):
+        DecodeConfig(fires=1.5)
+    with pytest.raises(ValueError, match="must not be negative"):
+        DecodeConfig(rounds=-1)
+
+
+corners = st.tuples(*[st.sampled_from([0.0, 0.02, 0.3, 0.5, 1.0])] * 3).map(np.array)
+drawn_parts = st.tuples(st.sampled_from(list(PartLabel)), corners, corners)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(drawn_parts, max_size=6), st.integers(0, 10_000))
+def test_whatever_is_said_every_part_is_answered(drawn: list, seed: int) -> None:
+    nodes = tuple(PartNode(f"p{k}", label, Box(low, low + size)) for k, (label, low, size) in enumerate(drawn))
+    graph = FunctionalGraph("drawn", nodes)
+    completion = complete_by_network(graph, lambda features: any_scores(features, seed), FEW, DecodeConfig(rounds=2))
+
+    assert completion == complete_by_network(graph, lambda f: any_scores(f, seed), FEW, DecodeConfig(rounds=2))
+    answered = {e.child for e in completion.completed.attachments} | {r.part for r in completion.refused}
+    assert {n.id for n in completion.completed.labelled(PartLabel.HANDLE)} <= answered
+    assert not completion.completed.labelled(PartLabel.UNKNOWN)
+    assert {completion.completed.node(i).label for i in completion.added} <= set(ADDABLE)
+    kept = {n.id: n.label for n in graph.nodes if n.label is not PartLabel.UNKNOWN}
+    assert {i: completion.completed.node(i).label for i in kept} == kept
+
+
+def any_scores(features: GraphFeatures, seed: int) -> Scores:
+    """Scores without sense: normal logits of some size, boxes anywhere."""
+    n, rng = len(features.labels), np.random.default_rng(seed)
+    s = n + FREE
+
+    def logits(*shape: int) -> np.ndarray:
+        return (4 * rng.standard_normal(shape)).astype(np.float32)
+
+    centre, half = rng.random((s, 3), np.float32), rng.random((s, 3), np.float32) - np.float32(0.2)
+    kinds, labels = len(KINDS) + 1, len(LABELS)
+    return Scores(
+        *(logits(s), logits(s, labels), centre, half, logits(s, s, kinds)),
+        *(logits(s, s), 1.0, logits(s, s), -1.0, logits(s, s, 4), logits(s, s, 2), logits(s, s, 6)),
+    )
