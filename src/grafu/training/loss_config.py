@@ -20,7 +20,7 @@ class LossConfig:
       graphs learnt by heart in 250 steps the loss was 0.0003 pinned and 1.1 not.
     - `exists_balanced` (the authors' code, not the paper): slots that should exist weigh all slots / such slots.
     - `free_positive` 10 is the paper's. By itself it makes free slots fire where the true chance is one in eleven (a
-      short trial fired 250 for 172 that were missing): the threshold must be chosen on what is measured.
+      short trial expected 250 nodes where 172 were missing): the threshold must be chosen on what is measured.
     - `box_error="absolute"`: the sum of absolute instead of squared differences. Boxes are in units of the object's
       largest side, where squares of the last few per cent hardly count.
     - `count_smoothing`: the paper's square root has an endless slope where the count is right. With c for it the term
