@@ -6,7 +6,8 @@ anchors [n,G,3], groups [n,G,S,3], edges [n,n]. Outputs are the fields of `Predi
 
 import json
 import warnings
-from dataclasses import asdict, replace
+from copy import deepcopy
+from dataclasses import asdict, fields, replace
 from typing import final
 
 import numpy as np
@@ -19,24 +20,12 @@ from torch.nn.functional import pad
 from grafu.network.batch import one_graph
 from grafu.network.config import LABEL_COUNT
 from grafu.network.grafu import GraFu
+from grafu.network.predictions import Predictions
 from grafu.vocabulary import PartLabel
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
-OUTPUTS = (
-    "exists",
-    "category",
-    "centre",
-    "half",
-    "edge",
-    "parent",
-    "parent_abstain",
-    "hinge_target",
-    "hinge_abstain",
-    "border",
-    "sign",
-    "slide",
-)
+OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name != "mask")
 PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
 
@@ -47,19 +36,31 @@ def onnx_bytes(model: GraFu, anchors: int, neighbours: int, *, half_weights: boo
     `anchors` and `neighbours` are the numbers of groups and of their points. With `half_weights` the weights are stored
     in 16 bits and widened when the file is loaded: half the size, and all is computed in 32 bits as before.
     """
-    training = model.training
-    model.eval()
-    try:
-        proto = _exported(model, anchors, neighbours)
-    finally:
-        model.train(training)
+    proto = _exported(deepcopy(model).cpu(), anchors, neighbours)
     _without_traces(proto)
-    if half_weights:
-        _halve_weights(proto)
     facts = asdict(model.config) | {"anchors": anchors, "neighbours": neighbours}
     onnx.helper.set_model_props(
         proto, {"config": json.dumps(facts), "labels": json.dumps([label.value for label in PartLabel])}
     )
+    onnx.checker.check_model(proto)
+    file: bytes = proto.SerializeToString()
+    return with_half_weights(file) if half_weights else file
+
+
+def with_half_weights(file: bytes) -> bytes:
+    """Returns an ONNX file with large 32-bit weights stored in 16, each widened by a cast in front of what uses it."""
+    proto = onnx.load_from_string(file)
+    casts = []
+    for weight in proto.graph.initializer:
+        if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < _SMALLEST:
+            continue
+        wide, stored = weight.name, f"{weight.name}.half"
+        values = onnx.numpy_helper.to_array(weight).astype(np.float16)
+        weight.CopyFrom(onnx.numpy_helper.from_array(values, stored))
+        casts.append(onnx.helper.make_node("Cast", [stored], [wide], to=onnx.TensorProto.FLOAT))
+    kept = list(proto.graph.node)
+    del proto.graph.node[:]
+    proto.graph.node.extend(casts + kept)
     onnx.checker.check_model(proto)
     return proto.SerializeToString()
 
@@ -105,9 +106,9 @@ def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:
     parts = 7  # any number that is no other size of the network
     example = (
         torch.arange(parts) % LABEL_COUNT,
-        torch.rand(parts, 6),
-        torch.rand(parts, anchors, 3),
-        torch.rand(parts, anchors, neighbours, 3),
+        torch.zeros(parts, 6),
+        torch.zeros(parts, anchors, 3),
+        torch.zeros(parts, anchors, neighbours, 3),
         torch.zeros(parts, parts, dtype=torch.int64),
     )
     n = torch.export.Dim("parts", min=1, max=4096)
@@ -130,23 +131,8 @@ def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:
 
 
 def _without_traces(proto: onnx.ModelProto) -> None:
-    """Takes out what the exporter notes about where each node comes from: a megabyte, and paths of this machine."""
+    """Takes out what the exporter notes about where each node comes from: a megabyte, and paths of one machine."""
     for noted in (proto.graph, *proto.graph.node, *proto.graph.value_info, *proto.graph.initializer):
         del noted.metadata_props[:]
         noted.doc_string = ""
     del proto.graph.value_info[:]
-
-
-def _halve_weights(proto: onnx.ModelProto) -> None:
-    """Stores large 32-bit weights in 16 bits, each widened by a cast in front of what uses it."""
-    casts = []
-    for weight in proto.graph.initializer:
-        if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < _SMALLEST:
-            continue
-        wide, stored = weight.name, f"{weight.name}.half"
-        values = onnx.numpy_helper.to_array(weight).astype(np.float16)
-        weight.CopyFrom(onnx.numpy_helper.from_array(values, stored))
-        casts.append(onnx.helper.make_node("Cast", [stored], [wide], to=onnx.TensorProto.FLOAT))
-    kept = list(proto.graph.node)
-    del proto.graph.node[:]
-    proto.graph.node.extend(casts + kept)

@@ -1,0 +1,68 @@
+"""The network in torch and as an ONNX file: the same answers for any number of parts, and nothing left to look up."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import onnx
+import onnxruntime
+import pytest
+import torch
+from random_graphs import ANCHORS, NEIGHBOURS, TINY, arrays, tiny_network
+
+from grafu.network.batch import one_graph
+from grafu.network.config import GraFuConfig
+from grafu.network.export import OUTPUTS, PAIR_OUTPUTS, onnx_bytes, with_half_weights
+
+
+@pytest.fixture(scope="module")
+def files() -> dict[bool, bytes]:
+    network = tiny_network().train()  # the file is of the network at work, whatever it does now
+    before = torch.get_rng_state()
+    file = onnx_bytes(network, ANCHORS, NEIGHBOURS, half_weights=False)
+    assert network.training
+    assert torch.equal(torch.get_rng_state(), before)
+    return {False: file, True: with_half_weights(file)}
+
+
+def farthest(file: bytes, n: int) -> float:
+    session = onnxruntime.InferenceSession(file, providers=["CPUExecutionProvider"])
+    with torch.no_grad():
+        wanted = tiny_network()(one_graph(**arrays(n)))
+    found = session.run(list(OUTPUTS), {name: array.numpy() for name, array in arrays(n).items()})
+    pairs = zip(OUTPUTS, found, strict=True)
+    expected = {name: getattr(wanted, name).numpy() for name in OUTPUTS}
+    return max(float(np.abs(expected[k].reshape(v.shape) - v).max(initial=0.0)) for k, v in pairs)
+
+
+@pytest.mark.parametrize("n", [0, 1, 2, 7, 40])
+def test_torch_and_onnx_agree(files: dict[bool, bytes], n: int) -> None:
+    assert farthest(files[False], n) < 1e-4
+
+
+@pytest.mark.parametrize("n", [0, 1, 7, 40])
+def test_weights_of_16_bits_agree_to_their_precision(files: dict[bool, bytes], n: int) -> None:
+    assert farthest(files[True], n) < 5e-3  # 11 bits of each weight, through six layers
+
+
+def test_weights_of_16_bits_take_half_the_space(files: dict[bool, bytes]) -> None:
+    weights = {
+        half: sum(len(w.raw_data) for w in onnx.load_from_string(f).graph.initializer) for half, f in files.items()
+    }
+    assert weights[True] < 0.6 * weights[False]
+
+
+def test_the_file_says_what_it_holds(files: dict[bool, bytes]) -> None:
+    facts = {p.key: json.loads(p.value) for p in onnx.load_from_string(files[True]).metadata_props}
+    assert (facts["config"].pop("anchors"), facts["config"].pop("neighbours")) == (ANCHORS, NEIGHBOURS)
+    assert GraFuConfig(**facts["config"]) == TINY
+    assert facts["labels"][-1] == "unknown"
+
+
+def test_the_file_names_no_place(files: dict[bool, bytes]) -> None:
+    assert str(Path(__file__).parents[2]).encode() not in files[False]
+
+
+def test_pairs_are_told_from_slots(files: dict[bool, bytes]) -> None:
+    outputs = {o.name: len(o.type.tensor_type.shape.dim) for o in onnx.load_from_string(files[False]).graph.output}
+    assert {name for name, rank in outputs.items() if rank >= 2} - {"category", "centre", "half"} == set(PAIR_OUTPUTS)
