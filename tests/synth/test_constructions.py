@@ -1,3 +1,5 @@
+from math import pi
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ from grafu.synth.desk import Desk
 from grafu.synth.finish import PLAIN
 from grafu.synth.inner_corner import InnerCorner, make_inner_corner
 from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Blank, Door, Drawer, Stack, Tilt
+from grafu.synth.layout import Bay, Blank, Door, Drawer, Pair, Stack, Tilt
 from grafu.synth.legs import Leg
 from grafu.synth.rack import Rack, make_rack
 from grafu.synth.table import Table
@@ -173,6 +175,14 @@ def test_a_bureau_s_flap_falls_level():
     points = flap.mesh.vertices @ opened[:3, :3].T + opened[:3, 3]
     assert np.ptp(points[:, 2]) == pytest.approx(0.018)
     assert np.ptp(flap.mesh.vertices[:, 2]) > 0.2
+
+
+@pytest.mark.parametrize("leaf", ["bowed", "swept"])
+def test_a_curved_door_stops_before_it_strikes_what_stands_before_its_pin(leaf):
+    asset = make_cabinet(Cabinet(case=Case(pilaster=0.05, frame=FaceFrame()), layout=Pair(leaf)))
+    for joint in asset.joints:
+        assert joint.upper < pi / 2
+        assert collisions(asset, joint.part) == {}
 
 
 def test_a_rack_s_shelves_lie_between_its_uprights():

@@ -16,6 +16,7 @@ from grafu.synth.finish import surface_of
 from grafu.synth.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.interior import RUNNER, interior_pieces, runner_pieces
 from grafu.synth.layout import (
+    CURVED,
     Bay,
     Blank,
     Cell,
@@ -31,6 +32,7 @@ from grafu.synth.layout import (
     Tilt,
     divide,
 )
+from grafu.synth.leaf_relief import bend_at_hinge
 from grafu.synth.leaves import LeafShape, leaf_surfaces
 from grafu.synth.planks import plank
 from grafu.synth.setting import Setting, front_rect, inner_span
@@ -73,8 +75,8 @@ def partition_pieces(partition: Partition, setting: Setting) -> Iterator[Piece]:
 def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     door = cell.leaf
     assert isinstance(door, Door)
-    limited = replace(door, opening=_opening(door, cell.edges))
-    yield _door(limited, front_rect(cell, setting), setting)
+    rect = front_rect(cell, setting)
+    yield _door(replace(door, opening=_opening(door, cell.edges, rect.width)), rect, setting)
     yield from _hinge_rail(door, cell, setting)
     if door.behind is not None:
         yield from _behind(door.behind, cell, setting)
@@ -91,9 +93,9 @@ def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     left = Cell(door, half[0], replace(e, right=edge))
     right = Cell(replace(door, hinge="right"), half[1], replace(e, left=edge))
     for half_cell in (left, right):
-        assert isinstance(half_cell.leaf, Door)
-        limited = replace(half_cell.leaf, opening=_opening(half_cell.leaf, half_cell.edges))
-        yield _door(limited, front_rect(half_cell, setting), setting)
+        rect, leaf = front_rect(half_cell, setting), half_cell.leaf
+        assert isinstance(leaf, Door)
+        yield _door(replace(leaf, opening=_opening(leaf, half_cell.edges, rect.width)), rect, setting)
     if pair.muntin:
         yield _muntin(replace(front_rect(left, setting), x0=half[0].x1, x1=half[1].x0), setting)
     if pair.behind is not None:
@@ -195,14 +197,17 @@ def _leaf(front: Door | Drawer, rect: Rect, hinge: Side | None, setting: Setting
     return LeafShape(front.leaf, rect, setting.front, setting.thickness, free, *grip)
 
 
-def _opening(door: Door, edges: Edges) -> float:
-    """Returns how far a door opens, radians: at most square where something juts out beside its pin.
+def _opening(door: Door, edges: Edges, width: float) -> float:
+    """Returns how far a door opens, radians: at most square where something juts out beside its pin, a curved one less.
 
-    Above and below a flap that may also be a bowed neighbour.
+    Above and below a flap that may also be a bowed neighbour; beside a door it is a neighbour for what juts out of the
+    door itself near its pin, its belly or a handle along an edge.
     """
-    edge = getattr(edges, door.hinge)
-    level = door.hinge in ("top", "bottom")
-    return min(door.opening, pi / 2) if edge is Edge.STOP or (level and edge is not Edge.CASE) else door.opening
+    edge, level = getattr(edges, door.hinge), door.hinge in ("top", "bottom")
+    square = pi / 2 - bend_at_hinge(door.leaf, width)
+    bulky = door.leaf in CURVED or door.hold.place not in ("usual", "free edge")
+    clear = edge is Edge.CASE or (edge is not Edge.STOP and not level and not bulky)
+    return door.opening if clear else min(door.opening, square)
 
 
 def _muntin(rect: Rect, setting: Setting) -> Piece:

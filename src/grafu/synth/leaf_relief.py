@@ -6,6 +6,7 @@ It knows no hinge but the free side, and no frame with a pane in it.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import atan
 from typing import final
 
 import numpy as np
@@ -13,6 +14,7 @@ from jaxtyping import Float
 
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sweep import sheet
+from grafu.synth.layout import LeafStyle
 from grafu.synth.leaf_shape import LeafShape
 
 Grid = Float[np.ndarray, "n m"]
@@ -81,6 +83,13 @@ def _curved(relief: Relief, leaf: LeafShape) -> Relief:
 def swept_depth(width: float) -> float:
     """Returns how far the free side of a swept leaf of this width comes forward, metres."""
     return min(SWEEP, width / 7)
+
+
+def bend_at_hinge(style: LeafStyle, width: float) -> float:
+    """Returns the angle between a leaf's face at its hinge and the front's plane, radians: 0 where it is flat."""
+    if style == "bowed":
+        return atan(4 * min(BOW, width / 12) / width)
+    return atan(2 * swept_depth(width) / width) if style in ("swept", "swept frame") else 0.0
 
 
 def _bent(leaf: LeafShape) -> Relief:
