@@ -1,13 +1,19 @@
 """The pipeline as one function, and the report of its result."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
+from grafu.completion.rule import complete_by_rule
+from grafu.completion.session import open_network
+from grafu.errors import WeightsError
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.functional_graph import FunctionalGraph
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source, functionalize
-from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.synth.cabinet import Cabinet, make_cabinet
@@ -33,10 +39,42 @@ def test_every_source_but_auto_has_its_row() -> None:
     assert set(MOTIONS) == set(MotionSource) - {MotionSource.AUTO}
 
 
-def test_auto_takes_the_annotation_where_there_is_one(asset: Asset) -> None:
+def test_auto_takes_the_first_that_can_answer(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
+    bare = asset.without_annotation()
+    assert AUTO_ORDER == (MotionSource.ANNOTATION, MotionSource.NETWORK, MotionSource.RULE)
     assert choose_source(asset, MotionSource.AUTO) is MotionSource.ANNOTATION
-    assert choose_source(asset.without_annotation(), MotionSource.AUTO) is MotionSource.RULE
-    assert choose_source(asset, MotionSource.RULE) is MotionSource.RULE
+    for has_weights, chosen in ((False, MotionSource.RULE), (True, MotionSource.NETWORK)):
+        monkeypatch.setattr("grafu.pipeline.functionalize.has_shipped_weights", lambda has=has_weights: has)
+        assert choose_source(bare, MotionSource.AUTO) is chosen
+        assert choose_source(asset, MotionSource.RULE) is MotionSource.RULE
+
+
+def test_the_network_without_weights_says_so_in_one_line(
+    asset: Asset, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("grafu.completion.network.open_network", lambda: open_network(tmp_path / "none.onnx"))
+    with pytest.raises(WeightsError, match=r"there are no trained weights at `.*`: use another motion source") as error:
+        functionalize(asset, MotionSource.NETWORK, builtin_gallery())
+    assert "\n" not in str(error.value)
+
+
+def test_the_network_sees_points_and_no_annotation(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+
+    def complete(graph: FunctionalGraph) -> GraphCompletion:
+        seen.append(graph)
+        return replace(complete_by_rule(graph), source="network")
+
+    monkeypatch.setattr("grafu.pipeline.learned.complete_by_network", complete)
+    found = functionalize(asset, MotionSource.NETWORK, builtin_gallery())
+    stripped = functionalize(asset.without_annotation(), MotionSource.NETWORK, builtin_gallery())
+
+    assert seen[0] == seen[1]
+    assert {len(node.points.points) for node in seen[0].nodes} == {512}
+    assert all(node.points is None for node in found.completion.completed.nodes)
+    assert found.source is MotionSource.NETWORK
+    assert found.object == stripped.object
+    assert (found.report.installed, found.report.skipped) == (stripped.report.installed, stripped.report.skipped)
 
 
 def test_an_annotation_that_is_not_there_moves_nothing(asset: Asset) -> None:

@@ -8,11 +8,13 @@ from typing import TypeVar, final
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
+from grafu.completion.session import has_shipped_weights
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.pipeline.annotation import complete_by_annotation
-from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.learned import complete_by_weights
+from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.realization.config import RealizationConfig
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
 from grafu.realization.plan import RealizationPlan
@@ -52,17 +54,30 @@ class Functionalized:
 @final
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """How one source of motions completes a graph and plans what to build."""
+    """How one source of motions completes a graph and plans what to build.
+
+    `answers` says whether it can do so for an asset. Where `reads_annotation` is false the source is given the parts
+    alone, so that the joints and riders which the input states cannot show.
+    """
 
     complete: Callable[[Asset, FunctionalGraph], GraphCompletion]
     plan: Callable[[Asset, GraphCompletion], RealizationPlan]
+    answers: Callable[[Asset], bool] = lambda _: True
+    reads_annotation: bool = True
+
+
+def _plan_completion(asset: Asset, completion: GraphCompletion) -> RealizationPlan:
+    return plan_from_completion(completion, asset)
 
 
 MOTIONS: dict[MotionSource, Motion] = {
-    MotionSource.ANNOTATION: Motion(complete_by_annotation, lambda asset, _: plan_from_annotation(asset)),
-    MotionSource.RULE: Motion(
-        lambda _, graph: complete_by_rule(graph), lambda asset, completion: plan_from_completion(completion, asset)
+    MotionSource.ANNOTATION: Motion(
+        complete_by_annotation, lambda asset, _: plan_from_annotation(asset), lambda asset: bool(asset.joints)
     ),
+    MotionSource.NETWORK: Motion(
+        complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
+    ),
+    MotionSource.RULE: Motion(lambda _, graph: complete_by_rule(graph), _plan_completion),
 }
 
 
@@ -75,10 +90,15 @@ def functionalize(
     """Returns the asset as an object that works, and how it came about.
 
     A door or drawer that cannot be made to move is no error: the report says which, and why.
+
+    Raises:
+        WeightsError: if the network is asked for and its weights are not there.
     """
     clock = _Clock()
     chosen = choose_source(asset, source)
     motion = MOTIONS[chosen]
+    if not motion.reads_annotation:
+        asset = asset.without_annotation()
     graph = clock.timed("parse", lambda: parse_graph(asset, config.parsing))  # contacts only
     completion = clock.timed("complete", lambda: motion.complete(asset, graph))  # who moves, and how
     plan = clock.timed("plan", lambda: motion.plan(asset, completion))  # initial axes
@@ -87,10 +107,10 @@ def functionalize(
 
 
 def choose_source(asset: Asset, source: MotionSource) -> MotionSource:
-    """Returns the source to use: `auto` takes the annotation where the asset has one, else the rule."""
+    """Returns the source to use; `auto` is the first of `AUTO_ORDER` that can answer for the asset."""
     if source is not MotionSource.AUTO:
         return source
-    return MotionSource.ANNOTATION if asset.joints else MotionSource.RULE
+    return next(candidate for candidate in AUTO_ORDER if MOTIONS[candidate].answers(asset))
 
 
 class _Clock:

@@ -142,7 +142,7 @@ class SkippedRecord(ReportRecord):
 class MotionRecord(ReportRecord):
     """Where the motions came from."""
 
-    source: MotionSource = Field(description="annotation or rule")
+    source: MotionSource = Field(description="annotation, network or rule")
 
 
 class Report(ReportRecord):
