@@ -156,7 +156,7 @@ def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
     if kind != "over":
         thick = 0.0 if kind != "between" or chance(rng, 0.85) else between(rng, (0.9, 1.6)) * style.panel
         return Top(kind, thick, width=between(rng, (0.05, 0.12)), rail=rail)
-    thick = between(rng, build.top_thickness or (style.panel, 1.8 * style.panel))
+    thick = between(rng, build.top_thickness or (style.panel, min(1.8 * style.panel, style.panel + 0.02)))
     ornate = style.tradition in ("ornate", "shaker")
     return Top(
         "over",
