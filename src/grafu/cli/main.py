@@ -8,7 +8,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from grafu.cli import functionalize, inspect, synth, templates
+from grafu.cli import functionalize, inspect, synth, templates, train
 from grafu.cli.input_options import join_directions
 from grafu.cli.messages import INTERRUPTED, complain, internal_fault
 from grafu.errors import FunctionalizationError
@@ -22,6 +22,7 @@ examples:
   grafu inspect cabinet.glb
   grafu templates --out gallery
   grafu synth --count 10000 --out data
+  grafu train --out runs/base
 
 exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments
 """
@@ -53,7 +54,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
-    for verb in (functionalize, inspect, templates, synth):
+    for verb in (functionalize, inspect, templates, synth, train):
         subparser = verb.add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")

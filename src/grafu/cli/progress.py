@@ -27,8 +27,8 @@ class _RateColumn(ProgressColumn):
         return Text(f"{task.speed:.1f} per second," if task.speed else "")
 
 
-def with_progress(items: Iterable[T], total: int, word: str = "inputs") -> Iterator[T]:
-    """Yields the items and counts them on a bar, under this word."""
+def with_progress(items: Iterable[T], total: int, word: str = "inputs", shown: bool = True) -> Iterator[T]:
+    """Yields the items and counts them on a bar, under this word, if it is to be shown."""
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -39,7 +39,7 @@ def with_progress(items: Iterable[T], total: int, word: str = "inputs") -> Itera
         TimeRemainingColumn(),
     )
     console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+    with Progress(*columns, console=console, transient=True, disable=not (shown and console.is_terminal)) as progress:
         task = progress.add_task(word, total=total)
         for item in items:
             progress.advance(task)

@@ -35,7 +35,7 @@ class Progress:
     optimiser: torch.optim.Optimizer
     average: AveragedWeights
     step: int = 0
-    best: float = -1.0
+    best: float = 0.0
 
 
 @final

@@ -143,4 +143,18 @@ PAPER = TrainingConfig(
     precision="fp32",
 )
 
-CONFIGS: Mapping[str, TrainingConfig] = MappingProxyType({"base": BASE, "paper": PAPER})
+TINY = replace(
+    BASE,
+    network=GraFuConfig(
+        hidden=32, heads=2, encoder_layers=1, decoder_layers=1, edge=16, category=16, points=16, geometry=16
+    ),
+    deal=DealConfig(models=2, copies=2, reuse=2, spread=4),
+    optimiser=replace(BASE.optimiser, rate=2e-3, warmup=10),
+    features=FeatureConfig(points=64, anchors=8, neighbours=8),
+    validation=ValidationConfig(models=6, every=50),
+    steps=100,
+    precision="fp32",
+)
+"""To see in a minute that all works on a machine; it learns next to nothing."""
+
+CONFIGS: Mapping[str, TrainingConfig] = MappingProxyType({"base": BASE, "paper": PAPER, "tiny": TINY})

@@ -6,7 +6,7 @@ DIR/train.csv, DIR/validation.csv, DIR/tensorboard/   see `grafu.training.logboo
 """
 
 import json
-from collections.abc import Callable
+from collections.abc import Generator
 from contextlib import closing
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -52,21 +52,12 @@ class RunOptions:
 @final
 @dataclass(frozen=True)
 class StepReport:
-    """Told after each step: how many are done; the means of the log and the figures of a validation where due."""
+    """How many steps are done, the best score so far; the means of the log, the figures of a validation, where due."""
 
     step: int
+    best: float = 0.0
     means: dict[str, float] = field(default_factory=dict)
     figures: dict[str, float] = field(default_factory=dict)
-
-
-@final
-@dataclass(frozen=True)
-class TrainingResult:
-    """How a run ended: after `step` steps, `is_done` with all of them, the best score in validation."""
-
-    step: int
-    is_done: bool
-    best: float
 
 
 def train(
@@ -75,9 +66,10 @@ def train(
     folder: Path,
     workers: Workers,
     options: RunOptions = RunOptions(),
-    watch: Callable[[StepReport], None] = lambda _: None,
-) -> TrainingResult:
+) -> Generator[StepReport, None, None]:
     """Trains until all steps are done or a signal comes, and leaves the files of the run in the folder.
+
+    It yields once at the start and then after each step: whoever wants it trained takes all that it yields.
 
     Raises:
         ExportError: if the folder holds a run that is not to be resumed, or cannot be written.
@@ -95,6 +87,7 @@ def train(
     book = Logbook(folder, progress.step) if workers.is_first else None
     meter, saved, lost, is_stopping = Meter(), monotonic(), 0, False
     with stop_requests() as asked, closing(batches):
+        yield StepReport(progress.step, progress.best)
         while progress.step < config.steps and not is_stopping:
             with meter.timed("data"):
                 batch = next(batches).to(workers.device)
@@ -112,23 +105,16 @@ def train(
             if lost > _MOST_LOST:
                 raise ArithmeticError(f"{lost} steps in a row had gradients that are no numbers: lower the rate")
             meter.add(terms.by_name() | {"gradient": norm, "lost": float(lost > 0)})
-            report = StepReport(progress.step)
+            report = StepReport(progress.step, progress.best)
             if book is not None:
                 report = _look(progress, config, judged_by, book, meter, options, folder)
                 if is_stopping or progress.step == config.steps or monotonic() - saved > options.save_every:
                     save_progress(progress, config, folder)
                     saved = monotonic()
-            watch(report)
+            yield report
     if book is not None:
         book.close()
     workers.wait()
-    return TrainingResult(progress.step, progress.step >= config.steps, progress.best)
-
-
-def use_threads(count: int | None) -> None:
-    """Sets how many threads compute on a CPU (None: one for each core)."""
-    if count is not None:
-        torch.set_num_threads(count)
 
 
 def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool) -> Progress:
@@ -191,7 +177,7 @@ def _look(
         if figures["score"] > progress.best:
             progress.best = figures["score"]
             save_best(config, progress.average.weights, step, figures, folder)
-    return StepReport(step, means, figures)
+    return StepReport(step, progress.best, means, figures)
 
 
 def _precise(config: TrainingConfig, device: torch.device) -> torch.autocast:

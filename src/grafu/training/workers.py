@@ -28,6 +28,13 @@ class Workers:
         """Whether this process writes and judges for all."""
         return self.rank == 0
 
+    @property
+    def name(self) -> str:
+        """What computes, in words."""
+        if self.device.type == "cpu":
+            return f"on {self.count} x {torch.get_num_threads()} threads"
+        return f"on {self.count} x {torch.cuda.get_device_name(self.device)}"
+
     def share_weights(self, module: nn.Module) -> None:
         """Gives every process the first one's weights."""
         if self.count > 1:
@@ -79,3 +86,9 @@ def _device(name: str, local: int) -> torch.device:
         return torch.device(name)
     torch.cuda.set_device(local)
     return torch.device("cuda", local)
+
+
+def use_threads(count: int | None) -> None:
+    """Sets how many threads compute on a CPU (None: one for each core)."""
+    if count is not None:
+        torch.set_num_threads(count)

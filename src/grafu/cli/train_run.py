@@ -1,0 +1,114 @@
+"""Runs `train`: hands the options to the loop, counts its steps on a bar, and prints a line for each validation."""
+
+import argparse
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from grafu.cli.messages import complain
+from grafu.cli.progress import with_progress
+from grafu.errors import ExportError
+from grafu.training.checkpoint import load_best
+from grafu.training.config import CONFIGS, TrainingConfig
+from grafu.training.exporting import exported
+from grafu.training.loop import RunOptions, StepReport, train
+from grafu.training.source import Source, SynthSource, source_in
+from grafu.training.workers import Workers, joined_workers, use_threads
+
+EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+_MOST_JOBS = 8  # that many make models faster than a GPU learns from them
+_TOLD = ("category", "hinge", "rail", "attached", "joint")
+
+
+def run_training(options: argparse.Namespace) -> int:
+    """Trains, and says how it goes; returns the exit code, 130 where it was stopped before its end.
+
+    Raises:
+        FunctionalizationError: if the run cannot be begun or gone on with.
+    """
+    config = _config(options)
+    source = _source(options, config)
+    use_threads(options.threads)
+    jobs = options.jobs or min(_MOST_JOBS, os.cpu_count() or 1)
+    with joined_workers(options.device) as workers:
+        reports = train(config, source, options.out, workers, RunOptions(jobs, options.resume))
+        first = last = next(reports)
+        _say(workers, _begun(options, config, source, workers, first))
+        try:
+            for report in with_progress(reports, config.steps - first.step, "steps", shown=workers.is_first):
+                last = report
+                if report.figures:
+                    _say(workers, _judged(report))
+        except ArithmeticError as error:
+            complain(str(error))
+            return EXIT_FAILED
+        return _ended(last, config, options.out, workers)
+
+
+def export_weights(folder: Path, target: Path) -> int:
+    """Writes the best weights of a run as ONNX; returns 0.
+
+    Raises:
+        UnreadableAsset: if there are none.
+        ExportError: if the file cannot be written.
+    """
+    best = load_best(folder)
+    content = exported(best)
+    fresh = target.with_name(f".{target.name}.new")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        fresh.write_bytes(content)
+        os.replace(fresh, target)
+    except OSError as error:
+        raise ExportError(f"cannot write the output `{target}`: {error.strerror}") from error
+    finally:
+        fresh.unlink(missing_ok=True)
+    score = best.figures["score"]
+    print(f"written to {target}: {len(content) / 1e6:.1f} MB, the weights of step {best.step} (score {score:.4f})")
+    return EXIT_DONE
+
+
+def _config(options: argparse.Namespace) -> TrainingConfig:
+    asked: dict[str, Any] = {name: getattr(options, name) for name in ("steps", "seed")}
+    return replace(CONFIGS[options.config], **{name: value for name, value in asked.items() if value is not None})
+
+
+def _source(options: argparse.Namespace, config: TrainingConfig) -> Source:
+    if options.data == "synth":
+        return SynthSource(config.seed, config.features.points)
+    return source_in(Path(options.data), config.seed, config.features.points)
+
+
+def _begun(
+    options: argparse.Namespace, config: TrainingConfig, source: Source, workers: Workers, first: StepReport
+) -> str:
+    graphs = config.deal.models * config.deal.copies * workers.count
+    before = f"from step {first.step} on, " if first.step else ""
+    return (
+        f"training `{options.config}` on {source.name}: {before}{config.steps} steps of {graphs} graphs, {workers.name}"
+    )
+
+
+def _judged(report: StepReport) -> str:
+    figures = report.figures
+    shares = (
+        f"{variant} " + " ".join(f"{name} {figures[f'{variant}/{name}']:.3f}" for name in _TOLD)
+        for variant in ("natural", "masked")
+    )
+    best = ", the best" if figures["score"] >= report.best else ""
+    return f"step {report.step}: score {figures['score']:.4f}{best}, loss {figures['loss']:.3f}; {'; '.join(shares)}"
+
+
+def _ended(last: StepReport, config: TrainingConfig, folder: Path, workers: Workers) -> int:
+    if last.step < config.steps:
+        if workers.is_first:
+            complain(f"stopped after step {last.step} of {config.steps}; the same command with --resume goes on")
+        return EXIT_INTERRUPTED
+    _say(workers, f"{last.step} steps done, best score {last.best:.4f}; weights in {folder}; --export FILE writes ONNX")
+    return EXIT_DONE
+
+
+def _say(workers: Workers, line: str) -> None:
+    if workers.is_first:
+        print(line, flush=True)
