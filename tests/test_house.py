@@ -15,6 +15,7 @@ from grafu.version import __version__
 
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
+LEARNING = ("network", "training")  # the folders that the product does without
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.
 ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")
@@ -93,8 +94,9 @@ def test_no_file_names_a_place_on_one_machine() -> None:
     assert found == []
 
 
-def imported_packages() -> set[str]:
-    trees = [ast.parse(p.read_text()) for p in SOURCES]
+def imported_packages(*, to_train: bool) -> set[str]:
+    """Returns what is imported to train, or by all else."""
+    trees = [ast.parse(p.read_text()) for p in SOURCES if (p.relative_to(ROOT).parts[2] in LEARNING) == to_train]
     nodes = [node for tree in trees for node in ast.walk(tree)]
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level}
@@ -106,8 +108,14 @@ def test_the_base_install_is_what_is_imported() -> None:
     modules = {"python-fcl": "fcl", "pillow": "PIL", "mapbox-earcut": "mapbox_earcut"}
     names = {re.split(r"[<>=]", line)[0] for line in stated}
 
-    assert {modules.get(name, name) for name in names} == imported_packages()
+    assert {modules.get(name, name) for name in names} == imported_packages(to_train=False)
     assert not names & {"torch", "bpy"}
+
+
+def test_what_training_imports_is_stated_too() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    stated = [*project["dependencies"], *project["optional-dependencies"]["train"]]
+    assert imported_packages(to_train=True) <= {re.split(r"[<>=]", line)[0] for line in stated}
 
 
 def test_the_pipeline_imports_neither_torch_nor_blender() -> None:
