@@ -7,12 +7,11 @@ process. Made furniture never repeats; a folder is gone through again and again,
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Protocol, final
+from typing import Protocol, final, runtime_checkable
 
 import numpy as np
 
 from grafu.data.furfun.folder import FurFunFolder
-from grafu.data.furfun.layout import UNFUNCTIONAL
 from grafu.data.pair import GraphPair
 from grafu.data.shards import ShardReader
 from grafu.data.shards_record import record_of, record_pair
@@ -27,6 +26,7 @@ TEST_SEED = 990_002
 """The seed of the made furniture that figures are reported on; no training and no choice may use it."""
 
 
+@runtime_checkable
 class Source(Protocol):
     """Models without end, by number. It can be sent to other processes."""
 
@@ -135,8 +135,6 @@ def source_in(folder: Path, seed: int, points: int) -> Source:
     """
     if shard_paths(folder):
         return ShardSource(folder, seed)
-    if not (folder / UNFUNCTIONAL).is_dir():
-        raise UnreadableAsset(f"`{folder}` must hold shards (shard_*.npz) or a FurFun release: got neither")
     return FurFunSource(FurFunFolder(folder, points), "train", seed)
 
 

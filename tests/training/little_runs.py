@@ -1,0 +1,55 @@
+"""A training run so small that a test can afford it: few weights, few points, models of a remembered handful."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import final
+
+from grafu.data.pair import GraphPair
+from grafu.data.shards_record import record_of, record_pair
+from grafu.network.config import GraFuConfig
+from grafu.synth.generate import make_specimen
+from grafu.training.config import TINY, TrainingConfig, ValidationConfig
+
+LITTLE = replace(
+    TINY,
+    network=GraFuConfig(
+        hidden=16,
+        heads=2,
+        encoder_layers=1,
+        decoder_layers=1,
+        edge=8,
+        category=8,
+        points=8,
+        geometry=8,
+        dropout=0.0,
+        geometry_dropout=0.0,
+    ),
+    validation=ValidationConfig(models=2, every=2, batch=6),
+    steps=4,
+)
+
+
+@final
+@dataclass(frozen=True)
+class FewModels:
+    """Three small made models, over and over."""
+
+    seed: int = 3
+
+    @property
+    def name(self) -> str:
+        return "few models"
+
+    def pair(self, number: int) -> GraphPair:
+        return few_pairs(self.seed)[number % 3]
+
+
+@lru_cache(maxsize=2)
+def few_pairs(seed: int) -> tuple[GraphPair, ...]:
+    pairs = (record_pair(record_of(make_specimen(seed, index, 64))) for index in range(40))
+    small = (pair for pair in pairs if 4 <= len(pair.input.nodes) <= 16)
+    return tuple(next(small) for _ in range(3))
+
+
+def little(steps: int = 4, **changes: object) -> TrainingConfig:
+    return replace(LITTLE, steps=steps, **changes)
