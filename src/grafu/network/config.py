@@ -65,3 +65,7 @@ class GraFuConfig:
         for name in ("dropout", "geometry_dropout"):
             if not 0.0 <= getattr(self, name) < 1.0:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
+
+
+PAPER = GraFuConfig(points_frame="object", pair_boxes="predicted", pair_edges=False)
+"""The network without our departures."""

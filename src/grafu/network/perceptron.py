@@ -20,7 +20,7 @@ class PairLinear(nn.Module):
     """A linear layer over [i | j | terms of the pair], written as a sum of three.
 
     It is the same function, but i and j are projected once each instead of once for every pair, and no pair holds a
-    copy of both: of 522 numbers into 256 that is 1 / 40 of the multiplications for 22 nodes.
+    copy of both: of 522 numbers into 256, for 22 nodes, a fifteenth of the multiplications.
     """
 
     def __init__(self, width: int, terms: int, out: int) -> None:
