@@ -88,8 +88,18 @@ def _part_values(asset: Asset, graph: FunctionalGraph) -> dict[str, float]:
     if panels:
         values["panel thickness, median"] = float(np.median(panels) / asset.unit)
         values["panel thickness, largest / smallest"] = float(max(panels) / max(min(panels), 1e-4 * asset.unit))
+    return values | _label_shares(asset)
+
+
+def _label_shares(asset: Asset) -> dict[str, float]:
+    """Returns each label's share of the labelled parts, and the share of parts without one: lost labels say nothing."""
     labels = Counter(part.label for part in asset.parts)
-    return values | {f"label: {label.value}": labels[label] / len(asset.parts) for label in PartLabel}
+    lost = labels.pop(PartLabel.UNKNOWN, 0)
+    values = {"parts without a label": lost / len(asset.parts)}
+    if labels:
+        known = [label for label in PartLabel if label is not PartLabel.UNKNOWN]
+        values |= {f"label: {label.value}": labels[label] / labels.total() for label in known}
+    return values
 
 
 def _graph_values(graph: FunctionalGraph, unit: float) -> dict[str, float]:
