@@ -1,12 +1,16 @@
-"""Draws the pages of docs/ that repeat code: report.md from the report's schema, errors.md from the exception tree.
+"""Draws what docs/ repeats of the code: whole pages (report, errors, distributions) and tables within others.
+
+A table within a page stands between `<!-- NAME: drawn by scripts/docs.py ... -->` and `<!-- end of NAME -->`.
 
 python scripts/docs.py            write the pages
 python scripts/docs.py --check    exit 1 where a page is out of date
 """
 
+import re
 import sys
 from pathlib import Path
 
+from docs_synthetic import distributions_page, families_table, strategies_table
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
@@ -42,7 +46,13 @@ reasons, and the rest of the piece is built.
 
 def main() -> int:
     """Writes or checks the pages; returns the exit code."""
-    pages = {"report.md": report_page(), "errors.md": errors_page()}
+    pages = {
+        "report.md": report_page(),
+        "errors.md": errors_page(),
+        "distributions.md": distributions_page(),
+        "synthetic.md": with_table("synthetic.md", "families", families_table()),
+        "dataset.md": with_table("dataset.md", "strategies", strategies_table()),
+    }
     stale = [name for name, text in pages.items() if not (DOCS / name).exists() or (DOCS / name).read_text() != text]
     if "--check" in sys.argv:
         for name in stale:
@@ -51,6 +61,15 @@ def main() -> int:
     for name in stale:
         (DOCS / name).write_text(pages[name])
     return 0
+
+
+def with_table(page: str, name: str, drawn: str) -> str:
+    """Returns a page of docs/ with what stands between the marks of this name drawn anew."""
+    marks = re.compile(rf"(<!-- {name}: drawn by [^\n]* -->\n).*?(<!-- end of {name} -->\n)", re.DOTALL)
+    text, count = marks.subn(lambda found: f"{found[1]}\n{drawn}\n{found[2]}", (DOCS / page).read_text())
+    if count != 1:
+        raise SystemExit(f"docs/{page} must hold the marks of `{name}` once: got {count} times")
+    return text
 
 
 def report_page() -> str:

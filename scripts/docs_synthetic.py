@@ -1,0 +1,267 @@
+"""What docs/ repeats of the generator's tables: families, traditions, habits, strategies. `docs.py` writes it.
+
+Reasons for single numbers stand beside the tables in the code; what is said here is what holds for a whole table.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import fields
+
+from grafu.data.corruption.config import OFFICIAL, PAPER, STRATEGY_NAMES
+from grafu.data.corruption.strategies import STRATEGIES, probabilities
+from grafu.synth import carpentry, cutting, habits, naming, style
+from grafu.synth.families.table import FAMILIES
+from grafu.synth.habits import HABITS
+from grafu.synth.traditions import TRADITIONS, Tradition
+
+SYNTH = "../src/grafu/synth"
+HEAD = """\
+# Distributions
+
+<!-- drawn by scripts/docs.py from the tables in src/grafu/synth -->
+
+What the generator of [synthetic furniture](synthetic.md) draws, and how often. Families stand on that page. Numbers are
+per cent where nothing else is said; an empty cell is never drawn. The reason for each number stands beside it in the
+code. What families decide for themselves (sizes, layouts) stands in their own modules.
+"""
+TRADITIONS_HEAD = f"""\
+## Traditions
+
+One piece is built in one tradition, so that what goes together in real furniture is drawn together: a shaker leaf on a
+hairpin leg is rare. Each family names the traditions that it comes in ([families]({SYNTH}/families/table.py)), and may
+narrow a table. Thicknesses are those of boards as they are sold, and the rounder ones of bare models from modelling
+sites; shares follow what is sold and what the real development models show ([traditions]({SYNTH}/traditions.py)).
+Thicknesses are given as least · median · most.
+"""
+STYLE_HEAD = f"""\
+## Doors and handles
+
+A hinge is drawn first and the handle follows it, so that a handle tells about its hinge as often as it does in real
+furniture ([style]({SYNTH}/style.py), [carpentry]({SYNTH}/carpentry.py)). A piece carries them all alike. Reach: on the
+free edge, as near to the hand as the door allows; middle and corner: of the free edge; top line: lying in the middle
+of the upper or lower edge, which says nothing about the hinge; middle line: in the middle of the door.
+"""
+HABITS_HEAD = f"""\
+## Modellers' habits
+
+A modeller who draws one panel as a sheet does so all over the model. So a habit is drawn first, and it makes the rest
+likely or not ([habits]({SYNTH}/habits.py)). The shares come from the seventeen development models, which are few,
+widened towards what other sources are known for. Chances are per model; that of sheets is for each group of panels,
+that of clutter for each kind, both times the factors below.
+"""
+MISSING_HEAD = """\
+## What is not there
+
+Of the parts that a whole piece has, these are not in the model as it was modelled. What carries a door, a drawer or a
+handle stays, and so does a top that something stands on. Cases under a common worktop and fronts that are pushed lack
+theirs in any case; the whole holds what a completion would add.
+"""
+WORDING_HEAD = f"""\
+## Words, faces, cuts
+
+What one data set calls a divider is a side panel in another ([naming]({SYNTH}/naming.py)); such wording holds for the
+model and for its truth. What is joined and cut is in [cutting]({SYNTH}/cutting.py), how finely faces are drawn in
+[habits]({SYNTH}/habits.py).
+"""
+
+# A tradition's tables of weights, in the order of the page, and what each decides.
+CHOICES = {
+    "mount": "fronts lie",
+    "leaf": "doors",
+    "handle": "handles",
+    "box": "drawer boxes",
+    "between": "between fronts",
+    "base": "stands on",
+    "leg": "legs, where it has any",
+    "top": "tops",
+}
+LENGTHS = {"panel": "panels, mm", "front": "fronts, mm", "back": "backs, mm"}
+SPANS = {"gap": ("gaps, mm", 1e3), "overhang": ("tops jut out, mm", 1e3), "opening": ("doors open, degrees", 1.0)}
+SHARES = {
+    "bare": "drawn with the fewest parts",
+    "plain_drawers": "plain drawers beside the doors' leaf",
+    "framed": "face frame",
+    "moulded": "moulding",
+    "muntin": "upright between a pair",
+}
+MASKINGS = ("keeps all labels", "lacks a few", "lacks many", "lacks all")
+
+
+def distributions_page() -> str:
+    """Returns docs/distributions.md."""
+    parts = [HEAD, TRADITIONS_HEAD, traditions_tables(), STYLE_HEAD, style_tables(), HABITS_HEAD, habits_tables()]
+    return "\n".join([*parts, MISSING_HEAD, missing_table(), WORDING_HEAD, wording_tables()])
+
+
+def families_table() -> str:
+    """Returns the table of families for docs/synthetic.md."""
+    whole = sum(weight for weight, _ in FAMILIES.values())
+    rows = [(name, number(weight / whole), said(draw.__doc__)) for name, (weight, draw) in FAMILIES.items()]
+    return f"{len(rows)} families.\n\n{table(('family', '%', 'what it is'), rows)}"
+
+
+def strategies_table() -> str:
+    """Returns the table of corruption strategies for docs/dataset.md."""
+    paper, official = (dict(zip(STRATEGY_NAMES, probabilities(c), strict=True)) for c in (PAPER, OFFICIAL))
+    rows = [
+        (
+            f"`{name}`",
+            STRATEGIES[name].family,
+            f"{STRATEGIES[name].weight:g}",
+            number(paper[name]),
+            number(official[name]),
+        )
+        for name in STRATEGY_NAMES
+    ]
+    return table(("strategy", "family", "weight (paper)", "`PAPER`, %", "`OFFICIAL`, %"), rows)
+
+
+def traditions_tables() -> str:
+    """Returns a row for each thing that may be drawn, a column for each tradition."""
+    head = ("", *TRADITIONS)
+    texts = [table(("of pieces", *TRADITIONS), [*length_rows(), *span_rows(), *share_rows()])]
+    for field, title in CHOICES.items():
+        tables = [getattr(tradition, field) for tradition in TRADITIONS.values()]
+        texts.append(f"**{title.capitalize()}**\n\n{weight_table(head, tables)}")
+    assert {*CHOICES, *LENGTHS, *SPANS, *SHARES} == {field.name for field in fields(Tradition)}, "a field has no row"
+    return "\n".join(texts)
+
+
+def length_rows() -> Iterable[tuple[str, ...]]:
+    """Yields least, median and most of each thickness."""
+    for field, title in LENGTHS.items():
+        yield (title, *(spread_of(getattr(tradition, field)) for tradition in TRADITIONS.values()))
+
+
+def span_rows() -> Iterable[tuple[str, ...]]:
+    """Yields the ends of each span, drawn evenly between."""
+    for field, (title, factor) in SPANS.items():
+        spans = (getattr(tradition, field) for tradition in TRADITIONS.values())
+        yield (title, *(f"{low * factor:g} to {high * factor:g}" for low, high in spans))
+
+
+def share_rows() -> Iterable[tuple[str, ...]]:
+    """Yields each share, per cent."""
+    for field, title in SHARES.items():
+        yield (f"{title}, %", *(number(getattr(tradition, field)) for tradition in TRADITIONS.values()))
+
+
+def style_tables() -> str:
+    """Returns where handles sit, which grips stand in for them, and which side doors hang on."""
+    carries = (style.CARRIES, style.KITCHEN_CARRIES, style.KNOB_CARRIES)
+    sides = {
+        "a door above another hangs on its side": carpentry.LIKE_BELOW,
+        "beside a wall or a tall unit a door hangs there": carpentry.WALL_SIDE,
+        "in a row, doors hang on the outer sides": carpentry.ROW_HABITS["outer"],
+        "in a row, all hang left": carpentry.ROW_HABITS["left"],
+        "in a row, all hang right": carpentry.ROW_HABITS["right"],
+        "both doors of a pair hang on one side": carpentry.SAME_SIDE_PAIR,
+    }
+    texts = [
+        "**Side-hung doors carry their handle**\n",
+        weight_table(("", "bars and others", "the same, frameless and face frame", "knobs and rings"), carries),
+        "**Fronts without a handle have a grip**\n",
+        weight_table(("", "%"), [style.GRIPS]),
+        "**Which side**\n",
+        share_table(sides),
+    ]
+    return "\n".join(texts)
+
+
+def habits_tables() -> str:
+    """Returns a row for each habit, and the factors of clutter."""
+    columns = [f.name for f in fields(next(iter(HABITS.values()))) if f.name != "masking"]
+    rows = [
+        (name, *(number(getattr(habit, column)) for column in columns), *map(number, habit.masking))
+        for name, habit in HABITS.items()
+    ]
+    head = ("habit", *(column.replace("_", " ") for column in columns), *MASKINGS)
+    factors = [(kind, f"{factor:g}") for kind, factor in habits.CLUTTER_WEIGHT.items()]
+    sheets = [(label.value, f"{factor:g}") for label, factor in habits.SHEETS.items()]
+    return "\n".join(
+        [table(head, rows), table(("clutter", "factor"), factors), table(("drawn as sheets", "factor"), sheets)]
+    )
+
+
+def missing_table() -> str:
+    """Returns how often each part is missing."""
+    tops = {f"the top: {family}": share for family, share in habits.NO_TOP.items()}
+    others = {
+        "the top: other cases": habits.NO_CASE_TOP,
+        "the top: other tables": habits.NO_TABLE_TOP,
+        "backs": habits.NO_BACK,
+        "bottoms": habits.NO_BOTTOM,
+        "all shelves": habits.NO_SHELVES,
+        "one shelf": habits.A_SHELF_LOST,
+        "all handles": habits.NO_HANDLES,
+        "one handle": habits.ONE_HANDLE_LOST,
+    }
+    return share_table(tops | others)
+
+
+def wording_tables() -> str:
+    """Returns wording, what is joined, faces, density, and the rates of whole models."""
+    models = {
+        "every face drawn from both sides": habits.BOTH_SIDES,
+        "the same, where edges are finely rounded": habits.FINE_BOTH_SIDES,
+        "parts in a drawn order": habits.SHUFFLED,
+        "stretched by up to a tenth": habits.STRETCHED * (1 - habits.WIDELY),
+        "stretched by up to a quarter": habits.STRETCHED * habits.WIDELY,
+        "scaled wrongly": habits.MIS_SCALED,
+        "its front mistaken by quarter turns": habits.TURNED,
+        "askew by up to four degrees": habits.YAWED,
+        "one front ajar": habits.AJAR,
+        "one label wrong": habits.MISLABELLED,
+        "of face frames: drawn as bars": cutting.FRAME_IN_BARS,
+    }
+    texts = [
+        share_table({name: share for name, (_, share) in naming.HABITS.items()}),
+        "**What is joined, where panels are joined**\n",
+        weight_table(("", "%"), [{name: weight for name, (weight, _) in cutting.GROUPS.items()}]),
+        "**Faces, where they are out of order**\n",
+        weight_table(("", "%"), [habits.FACES]),
+        "**How finely models are drawn**\n",
+        weight_table(("", "%"), [habits.DENSITY]),
+        "**Whole models**\n",
+        share_table(models),
+    ]
+    return "\n".join(texts)
+
+
+def weight_table(head: Sequence[str], tables: Sequence[Mapping[str, float]]) -> str:
+    """Returns a row for each word that any of the tables holds, and its share in each."""
+    words = dict.fromkeys(word for weights in tables for word in weights)
+    sums = [sum(weights.values()) for weights in tables]
+    cells = {w: [number(weights.get(w, 0.0) / s) for weights, s in zip(tables, sums, strict=True)] for w in words}
+    return table(head, [(word, *row) for word, row in cells.items() if any(row)])
+
+
+def share_table(shares: Mapping[str, float]) -> str:
+    """Returns a row for each share, per cent."""
+    return table(("", "%"), [(name, number(share)) for name, share in shares.items()])
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Returns a table in Markdown."""
+    lines = [f"| {' | '.join(cells)} |" for cells in rows]
+    return "\n".join([f"| {' | '.join(head)} |", "|---" * len(head) + "|", *lines, ""])
+
+
+def number(share: float) -> str:
+    """Returns a share as per cent, one decimal below ten, nothing for nothing."""
+    return "" if share == 0 else f"{100 * share:.0f}" if share >= 0.095 else f"{100 * share:.1f}".removesuffix(".0")
+
+
+def spread_of(weights: Mapping[float, float]) -> str:
+    """Returns least, median and most, metres in and millimetres out."""
+    reached, half = 0.0, sum(weights.values()) / 2
+    for middle in sorted(weights):
+        reached += weights[middle]
+        if reached >= half:
+            break
+    return " · ".join(f"{1e3 * length:g}" for length in (min(weights), middle, max(weights)))
+
+
+def said(doc: str | None) -> str:
+    """Returns what a drawing function says that it returns."""
+    first = (doc or "").splitlines()[0].removeprefix("Returns ").removesuffix(".")
+    return first[:1].upper() + first[1:]
