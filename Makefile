@@ -1,5 +1,6 @@
 # What a person runs, and what CI runs. Only Python 3.11+ and make are needed; everything goes into .venv.
 #   make demo    install, and make the sample furniture work
+#   make train-deps   install what only training needs: torch
 #   make test    install the development tools, and run the tests
 #   make check   lint, formatting, types, layers, pages drawn from code
 #   make format  mend formatting and what lint can mend
@@ -10,7 +11,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 SAMPLE := samples/sideboard.glb
 
-.PHONY: demo test check format bench clean help
+.PHONY: demo train-deps test check format bench clean help
 .DEFAULT_GOAL := help
 
 help:
@@ -30,6 +31,16 @@ help:
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@touch $@
 
+# Only training needs torch: the build for CPUs where that is to be had, else the usual one; what is there is kept.
+.venv/installed-train: .venv/installed
+	$(BIN)/python -c 'import torch' 2>/dev/null || \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check 'torch==2.13.0+cpu' 2>/dev/null || \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check torch
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[train]'
+	@touch $@
+
+train-deps: .venv/installed-train
+
 demo: .venv/installed
 	$(BIN)/grafu functionalize $(SAMPLE) --out out --overwrite
 	@echo "look: out/sideboard/model.glb (animated: any glTF viewer), model.urdf (any robot simulator), report.json"
@@ -39,10 +50,10 @@ demo: .venv/installed
 	@command -v npm >/dev/null && npm install --no-package-lock --no-audit --no-fund --loglevel=error || true
 	@touch $@
 
-test: .venv/installed-dev .venv/installed-validator
+test: .venv/installed-dev .venv/installed-train .venv/installed-validator
 	$(BIN)/pytest -n auto
 
-check: .venv/installed-dev
+check: .venv/installed-dev .venv/installed-train
 	$(BIN)/ruff check src tests scripts
 	$(BIN)/ruff format --check src tests scripts
 	$(BIN)/mypy

@@ -60,7 +60,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--threads", type=positive_count, metavar="T", help="threads that compute (default: one per core)"
     )
-    parser.add_argument("--device", default="auto", metavar="D", help="auto, cpu or cuda (default: auto)")
+    parser.add_argument(
+        "--device", choices=("auto", "cpu", "cuda"), default="auto", help="what computes (default: auto)"
+    )
     parser.add_argument(
         "--export", type=Path, metavar="FILE", help="write the best weights of DIR as ONNX, train nothing"
     )

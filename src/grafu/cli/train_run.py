@@ -13,10 +13,10 @@ from grafu.training.checkpoint import load_best
 from grafu.training.config import CONFIGS, TrainingConfig
 from grafu.training.exporting import exported
 from grafu.training.loop import RunOptions, StepReport, train
-from grafu.training.source import Source, SynthSource, source_in
-from grafu.training.workers import Workers, joined_workers, use_threads
+from grafu.training.source import RESERVED_SEEDS, Source, SynthSource, source_in
+from grafu.training.workers import Workers, has_device, joined_workers, use_threads
 
-EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 _MOST_JOBS = 8  # that many make models faster than a GPU learns from them
 _TOLD = ("category", "hinge", "rail", "attached", "joint")
 
@@ -28,6 +28,12 @@ def run_training(options: argparse.Namespace) -> int:
         FunctionalizationError: if the run cannot be begun or gone on with.
     """
     config = _config(options)
+    if not has_device(options.device):
+        complain(f"`--device` must be one that is there: torch finds no `{options.device}`")
+        return EXIT_BAD_INPUT
+    if options.data == "synth" and config.seed in RESERVED_SEEDS:
+        complain(f"`--seed` must not be {config.seed}: the furniture of that seed judges the weights")
+        return EXIT_BAD_INPUT
     source = _source(options, config)
     use_threads(options.threads)
     jobs = options.jobs or min(_MOST_JOBS, os.cpu_count() or 1)

@@ -24,6 +24,7 @@ VALIDATION_SEED = 990_001
 """The seed of the made furniture that weights are chosen by; no training may use it."""
 TEST_SEED = 990_002
 """The seed of the made furniture that figures are reported on; no training and no choice may use it."""
+RESERVED_SEEDS = (VALIDATION_SEED, TEST_SEED)
 
 
 @runtime_checkable

@@ -17,7 +17,7 @@ from grafu.training.criterion import criterion
 from grafu.training.lesson import Lesson, make_lesson, masked_pair
 from grafu.training.loss_config import LossConfig
 from grafu.training.raw_answers import batch_accuracy
-from grafu.training.source import VALIDATION_SEED, FurFunSource, Source, SynthSource
+from grafu.training.source import RESERVED_SEEDS, VALIDATION_SEED, FurFunSource, Source, SynthSource
 
 VARIANTS = ("natural", "masked", "lacking")
 """Each model as it was found, that with its labels hidden, and one from which the paper's corruptions took away."""
@@ -52,8 +52,8 @@ def validation_source(source: Source, points: int) -> Source:
     """
     if isinstance(source, FurFunSource):
         return replace(source, part="val")
-    if isinstance(source, SynthSource) and source.seed == VALIDATION_SEED:
-        raise ValueError(f"`seed` must not be {VALIDATION_SEED}: that furniture judges the weights")
+    if isinstance(source, SynthSource) and source.seed in RESERVED_SEEDS:
+        raise ValueError(f"`seed` must not be one of {RESERVED_SEEDS}: that furniture judges the weights")
     return SynthSource(VALIDATION_SEED, points)
 
 

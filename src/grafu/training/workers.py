@@ -88,6 +88,11 @@ def _device(name: str, local: int) -> torch.device:
     return torch.device("cuda", local)
 
 
+def has_device(name: str) -> bool:
+    """Whether there is a device of this name: auto, cpu, cuda."""
+    return name != "cuda" or torch.cuda.is_available()
+
+
 def use_threads(count: int | None) -> None:
     """Sets how many threads compute on a CPU (None: one for each core)."""
     if count is not None:

@@ -1,0 +1,105 @@
+"""`train` through the real command: a run goes on where it was cut, its weights are exported, errors are one line."""
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from grafu.cli import train, train_run
+from grafu.cli.main import main
+from remembered import remember
+
+TINY = ["train", "--config", "tiny", "--threads", "1", "--jobs", "1"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _remembered() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        remember(patch)
+        yield
+
+
+@pytest.fixture(scope="module")
+def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("runs") / "tiny"
+    assert main([*TINY, "--out", str(folder), "--steps", "2"]) == 0
+    return folder
+
+
+def test_the_names_of_configs_are_those_that_there_are() -> None:
+    assert set(train.CONFIGS) == set(train_run.CONFIGS)
+
+
+def test_a_run_says_how_it_goes_and_goes_on(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*TINY, "--out", str(trained), "--steps", "3", "--resume"]) == 0
+    begun, judged, done = capsys.readouterr().out.splitlines()
+    assert begun.startswith("training `tiny` on furniture made with seed 1: from step 2 on, 3 steps of 4 graphs")
+    assert judged.startswith("step 3: score 0.")
+    assert done.startswith("3 steps done, best score 0.")
+
+
+def test_a_run_is_not_begun_twice(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*TINY, "--out", str(trained)]) == 2
+    assert "--resume" in capsys.readouterr().err
+
+
+def test_the_best_weights_become_one_file(
+    trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(train_run, "exported", lambda best: f"weights of step {best.step}".encode())
+    target = tmp_path / "new" / "grafu.onnx"
+    assert main(["train", "--out", str(trained), "--export", str(target)]) == 0
+    assert target.read_bytes().startswith(b"weights of step")
+    assert [path.name for path in target.parent.iterdir()] == ["grafu.onnx"]
+    assert f"written to {target}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--export", "x.onnx"], "train first"),
+        (["--data", "nowhere"], "is no folder"),
+        (["--seed", "990001"], "judges the weights"),
+    ],
+)
+def test_errors_are_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+) -> None:
+    assert main([*TINY, "--out", str(tmp_path / "run"), *arguments]) == 2
+    error = capsys.readouterr().err
+    assert said in error
+    assert error.count("\n") == 1
+
+
+def test_a_device_that_is_not_there_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(train_run, "has_device", lambda name: name != "cuda")
+    assert main([*TINY, "--out", str(tmp_path), "--device", "cuda"]) == 2
+    assert "`--device`" in capsys.readouterr().err
+
+
+def test_without_torch_the_command_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in [name for name in sys.modules if name == "grafu.cli.train_run" or name.startswith("grafu.training")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "torch", None)
+    assert main(["train", "--out", str(tmp_path)]) == 2
+    assert "pip install 'grafu[train]'" in capsys.readouterr().err
+
+
+def test_a_stopped_run_can_go_on(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "grafu.cli.main", *TINY, "--steps", "100000", "--out", str(tmp_path / "run")]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    assert process.stdout.readline().startswith("training")
+    os.kill(process.pid, signal.SIGTERM)
+    _, error = process.communicate(timeout=240)
+    assert process.returncode == 130
+    assert "--resume goes on" in error
+    assert (tmp_path / "run" / "last.pt").is_file()
