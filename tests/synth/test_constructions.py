@@ -1,3 +1,4 @@
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -129,6 +130,23 @@ def test_a_tray_has_no_front():
     asset = make_cabinet(Cabinet(layout=Drawer("tray")))
     assert asset.part("drawer").box.size[2] < 0.06
     assert all(p.label is not PartLabel.HANDLE for p in asset.parts)
+
+
+def test_bands_lie_between_shelves_and_fronts():
+    case = Case(frame=FaceFrame(0.018, "strips", 0.001))
+    asset = make_cabinet(Cabinet(case=case, layout=Pair(shelves=2, inside=Inside(setback=0.0, band=True))))
+    shelf = next(p.box for p in asset.parts if p.label is PartLabel.SHELF)
+    bands = [p.box for p in asset.parts if p.label is PartLabel.BAR and abs(p.box.center[2] - shelf.center[2]) < 1e-6]
+    assert len(bands) == 1
+    assert bands[0].high[1] == pytest.approx(shelf.low[1])
+    assert bands[0].size == pytest.approx([shelf.size[0], 0.001, shelf.size[2]])
+
+
+@pytest.mark.parametrize("spec", [Cabinet(mount="inset"), Cabinet()])
+def test_bands_are_left_out_behind_inset_fronts_and_on_glass(spec):
+    shelf = "full" if spec.mount == "inset" else "glass"
+    asset = make_cabinet(replace(spec, layout=Pair(shelves=1, inside=Inside(shelf=shelf, band=True))))
+    assert not any(p.label is PartLabel.BAR for p in asset.parts)
 
 
 def test_baskets_are_misc_of_few_faces():

@@ -64,3 +64,16 @@ def test_the_same_generator_state_draws_the_same_style():
 def test_mixed_tables_keep_their_shares():
     table = mixed((0.75, {"bar-round": 3.0, "ring": 1.0}), (0.25, {"ring": 2.0}))
     assert table == pytest.approx({"bar-round": 0.5625, "ring": 0.4375})
+
+
+def test_edge_bands_are_drawn_on_frameless_overlay_pieces_alone():
+    banded = [style for name in TRADITIONS for style in styles(name, 100) if style.banded]
+    assert len(banded) > 50
+    assert all(style.mount == "overlay" and not style.frame and not style.bare for style in banded)
+    assert {style.tradition for style in banded} == {"frameless", "flat-pack", "office", "minimal"}
+
+
+def test_frameless_fronts_mostly_span_the_whole_width():
+    reveals = [style.reveal for style in styles("frameless")]
+    assert 0.7 < np.mean([reveal == 0.0 for reveal in reveals]) < 0.9
+    assert all(reveal is None or reveal <= 0.0 for reveal in reveals)

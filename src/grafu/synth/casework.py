@@ -28,7 +28,7 @@ from grafu.synth.construction import (
     TopKind,
 )
 from grafu.synth.legs import Leg, LegShape
-from grafu.synth.style import Style
+from grafu.synth.style import BOARDED, Style
 
 # How backs are modelled: nearly all are full sheets; the half and split ones are cheap furniture's.
 BACKS: Mapping[BackKind, float] = {"full": 0.86, "split": 0.09, "half": 0.02, "none": 0.03}
@@ -40,12 +40,14 @@ CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.66, "framed": 0.27, "doubl
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
 BARE_STANDS, BARE_BACKLESS = 0.6, 0.3  # of bare pieces: on nothing, without a back
 # Makers whose shelves touch the fronts also give edges strips and backs nailers (41003, 41085), others less often.
-THOROUGH, LOOSE, TOUCH = 1.7, 0.5, 0.003  # factors; metres
-STRIPS = 0.16  # frameless cases whose panels have edge strips of their own (41003, 41085)
+THOROUGH, LOOSE, TOUCH = 1.9, 0.5, 0.003  # factors; metres
+STRIPS = 0.12  # frameless cases whose panels have edge strips although their maker draws none elsewhere
+FLUSH_TOP, SHOWN_TOP = 0.35, 0.75  # tops that overhang: over fronts that end with the case's sides, and else
 BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces
 RAIL, RAIL_HEIGHTS = 0.12, (0.03, 0.09)  # tops with a bar below their front edge; metres
 SKIRT = 0.12  # pieces on square legs or posts whose room below is closed by boards (22692)
-NAILED = 0.24  # backs with rails: 8 of the 17 models have them
+NAILED = 0.47  # backs with rails: 8 of the 17 models have them
+NAILED_BANDED = 0.85  # of pieces whose maker draws edge bands
 EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.05, "cornice": 0.02}
 ORNATE_EDGES: Mapping[TopEdge, float] = {
     "square": 0.3,
@@ -158,10 +160,11 @@ def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
         return Top(kind, thick, width=between(rng, (0.05, 0.12)), rail=rail)
     thick = between(rng, build.top_thickness or (style.panel, min(1.8 * style.panel, style.panel + 0.02)))
     ornate = style.tradition in ("ornate", "shaker")
+    flush = style.tradition in BOARDED and style.mount == "overlay" and style.reveal is not None
     return Top(
         "over",
         thick if build.top_thickness or chance(rng, 0.6) else 0.0,
-        overhang=between(rng, style.rules.overhang) if chance(rng, 0.75) else 0.0,
+        overhang=between(rng, style.rules.overhang) if chance(rng, FLUSH_TOP if flush else SHOWN_TOP) else 0.0,
         edge=pick(rng, ORNATE_EDGES if ornate else EDGES),
         rim=between(rng, (0.02, 0.1)) if chance(rng, 0.04) else 0.0,
         rail=rail,
@@ -174,7 +177,8 @@ def _back(rng: np.random.Generator, style: Style, build: Build, width: float) ->
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
     if kind == "full" and width > WIDE_BACK and style.tradition == "flat-pack" and chance(rng, 0.5):
         kind = "split"
-    rails = count(rng, 2, 3) if chance(rng, NAILED * _care(style)) else 0
+    share = NAILED_BANDED if style.banded else NAILED * _care(style)
+    rails = count(rng, 3 if style.banded else 2, 3) if chance(rng, share) else 0
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
 
 
@@ -191,7 +195,9 @@ def _bottom(rng: np.random.Generator, base: Base) -> Bottom:
 
 def _strips(rng: np.random.Generator, style: Style, build: Build, base: Base) -> FaceFrame | None:
     """Returns edge strips on the panels of a frameless case, as some kitchen models have them; mostly none."""
-    if not build.framed or base.kind == "posts" or style.mount == "inset" or not chance(rng, STRIPS * _care(style)):
+    if not build.framed or base.kind == "posts" or style.mount == "inset":
+        return None
+    if not (style.banded or chance(rng, STRIPS * _care(style))):
         return None
     return FaceFrame(style.panel, "strips", 0.001 if chance(rng, 0.5) else 0.0)
 

@@ -17,8 +17,11 @@ from grafu.synth.style import Style
 HINGE_EDGE = 0.003  # doors whose handle sits on the hinge side: modellers' errors
 SMALL_FRONT = 0.15  # metres: a framed leaf of this height would be all frame, so small fronts are mostly plain
 MOST_SHELVES = 7  # in one opening: more would be racks of trays
-NO_SHELVES, BARE_INSIDE = 0.1, 0.3  # openings left empty: modellers often stop at what is seen, of bare pieces more so
-MORE_SHELVES = {0: 0.5, 1: 0.35, -1: 0.15}  # than the pitch says
+NO_SHELVES, BARE_INSIDE = (
+    0.07,
+    0.26,
+)  # openings left empty: modellers often stop at what is seen, of bare pieces more so
+MORE_SHELVES = {0: 0.45, 1: 0.42, -1: 0.13}  # than the pitch says
 INSIDES = {
     Inside(): 0.83,
     Inside(shelf="short"): 0.07,
@@ -27,9 +30,9 @@ INSIDES = {
     Inside(basket="wire"): 0.015,
     Inside(basket="rack"): 0.01,
     Inside(runners=2): 0.015,
-    Inside(cleats=True): 0.1,
-    Inside(blocks=True): 0.06,
-    Inside(lip=0.02): 0.02,
+    Inside(cleats=True): 0.13,
+    Inside(blocks=True): 0.09,
+    Inside(lip=0.02): 0.05,
 }
 FLUSH_BAYS = 0.6  # open shelves mostly end with the case's front
 
@@ -111,7 +114,7 @@ def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:
 
 def fit_bay(rng: np.random.Generator, bay: Bay, room: Rect, style: Style) -> Bay:
     """Returns the open bay with its shelves."""
-    inside = replace(bay.inside, setback=0.0 if chance(rng, FLUSH_BAYS) else style.setback)
+    inside = replace(bay.inside, setback=0.0 if chance(rng, FLUSH_BAYS) else style.setback, band=style.banded)
     return replace(bay, shelves=_shelves(rng, bay.shelves, room, False, style), inside=inside)
 
 
@@ -169,16 +172,18 @@ def _plain_hold(style: Style, handle: HandleStyle) -> Hold:
 def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: Style) -> int:
     """Returns the shelves of an opening, by its height; none where something stands behind the door."""
     least = min(0.3, 2 * style.pitch)
-    if asked or filled or room.height < least or chance(rng, BARE_INSIDE if style.bare else NO_SHELVES):
+    empty = 0.0 if style.banded else BARE_INSIDE if style.bare else NO_SHELVES
+    if asked or filled or room.height < least or chance(rng, empty):
         return asked
     usual = round(room.height / style.pitch) - 1 + pick(rng, MORE_SHELVES)
     return max(1 if room.height > 0.3 else 0, min(usual, MOST_SHELVES))
 
 
 def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: Style) -> Inside:
-    asked = replace(asked, setback=style.setback)
-    if asked != Inside(setback=style.setback) or style.bare:
+    plain = Inside(setback=style.setback, band=style.banded)
+    asked = replace(asked, setback=plain.setback, band=plain.band)
+    if asked != plain or style.bare:
         return asked
     if leaf in ("glass", "muntins") and chance(rng, 0.4):
         return replace(asked, shelf="glass")
-    return replace(pick(rng, INSIDES), setback=style.setback)
+    return replace(pick(rng, INSIDES), setback=plain.setback, band=plain.band)

@@ -17,7 +17,8 @@ class Inside:
     stands on the floor. With `runners`, slides that belong to no drawer hang on both walls, as in many real models;
     `rails` are level bars along the back wall. Shelves and dividers stand `setback` behind the fronts, 0 where they
     touch them (41003). A lip of height `lip` stands before each shelf's front edge; `cleats` carry the shelves' ends
-    (47315), and `blocks` stiffen the upper corners.
+    (47315), and `blocks` stiffen the upper corners. With `band`, a strip covers each shelf's front edge (41003), as the
+    strips before the case's panels do; behind inset fronts and on glass there is none.
 
     Raises:
         ValueError: if a count or a length is negative.
@@ -33,6 +34,7 @@ class Inside:
     lip: float = 0.0
     cleats: bool = False
     blocks: bool = False
+    band: bool = False
 
     def __post_init__(self) -> None:
         if min(self.dividers, self.runners, self.rails, self.setback, self.lip) < 0:

@@ -67,6 +67,8 @@ def _shelves(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterat
     material = finish.glass if inside.shelf == "glass" else finish.inside
     for low, high in _levels(count, inside, cell, setting):
         yield plank(PartLabel.SHELF, "shelf", material, ((x0, near, low), (x1, setting.back, high)))
+        if inside.band and inside.shelf != "glass" and not lip and setting.mount == "overlay":
+            yield plank(PartLabel.BAR, "edge_strip", material, ((x0, y0 - setting.frame, low), (x1, y0, high)))
         if lip:
             yield plank(PartLabel.BAR, "shelf_lip", material, ((x0, y0, min(low, high - lip)), (x1, near, high)))
 

@@ -48,15 +48,24 @@ KNOB_LENGTHS = (0.013, 0.04)  # metres: the knobs of real models are this wide (
 PROTRUSIONS = (0.016, 0.046)  # metres: how far real bars stand off, from strips to thick rods
 INSETS = (0.016, 0.07)  # metres from an edge to its handle's middle: the widest doors have it nearest to their edge
 PITCHES = ((0.26, 0.42), (0.13, 0.25))  # metres between shelves: usual ones, and close ones as for linen or cans
-CLOSE_SHELVES = 0.42  # of pieces: 46456 and 49182 have three and five shelves in low rooms
+CLOSE_SHELVES, CLOSE_BANDED = 0.42, 0.7  # of pieces: 46456 and 49182 have three and five shelves in low rooms
 BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
 LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
 THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
 PUSHED = 0.3  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
-# Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones.
-FLUSH, BEYOND, JUT = 0.6, 0.14, (-0.015, -0.002)  # shares of pieces, metres
+# Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones. Shares; metres
+FLUSH, BEYOND, JUT = 0.6, 0.14, (-0.015, -0.003)
+# Frameless boards meet in a plane: their makers leave nothing of the case beside the fronts more often.
+BOARDED: frozenset[TraditionName] = frozenset({"frameless", "flat-pack", "office", "minimal", "appliance"})
+FLUSH_BOARDS, BEYOND_BOARDS = 0.8, 0.14
+# Modellers from catalogues draw the bands on the edges of boards as parts, and then whatever else is there (41003,
+# 41085, 44781 of the ten overlay pieces).
+BANDED: Mapping[TraditionName, float] = {"flat-pack": 0.7, "frameless": 0.7, "office": 0.55, "minimal": 0.5}
 # Metres from the fronts to the shelves behind them: touching (41003), as is usual, and well behind (half of the real).
-SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.4, (0.003, 0.015): 0.25, (0.015, 0.07): 0.35}
+# Nearly all whose boards are banded and half of those whose doors lie on the case touch; of the others few.
+SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.2, (0.003, 0.015): 0.35, (0.015, 0.07): 0.45}
+FIXED_SHELF = 0.7  # of banded pieces have one behind every seam of their fronts (41003)
+TIGHT, TIGHT_BANDED, TIGHT_SHELVES = 0.5, 0.85, 0.55  # shares: doors on the case; shelves at the fronts
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
     {
@@ -75,7 +84,8 @@ class Style:
     the gap; below 0: they jut out), `frame` the width of a face frame (0: frameless). `carry` says where side-hung
     doors carry their handles, `length` how long handles are (None: each handle's own), `full` that they run along the
     whole front; `knob` is a knob's width, `protrusion` how far bars stand off (None: their own). `pitch` is the height
-    of a shelf's room, `setback` how far behind the fronts shelves end. A `bare` piece was modelled with the least: no
+    of a shelf's room, `setback` how far behind the fronts shelves end; `banded` boards have the bands on
+    their edges drawn as parts. A `bare` piece was modelled with the least: no
     base, no fittings.
     """
 
@@ -111,6 +121,7 @@ class Style:
     slide_gap: float
     pitch: float
     setback: float
+    banded: bool
     bare: bool
     finish: Finish
 
@@ -130,6 +141,8 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     handle: HandleStyle = "none" if bare and chance(rng, BARE_HANDLES) else pick(rng, rules.handle)
     grip: Grip = pick(rng, GRIPS) if handle == "none" and leaf == "slab" else "none"
     frame = between(rng, (0.025, 0.055)) if chance(rng, rules.framed) and not bare else 0.0
+    banded = mount == "overlay" and not (frame or bare) and chance(rng, BANDED.get(name, 0.0))
+    tight = banded or chance(rng, TIGHT)
     full = chance(rng, 0.6 if handle == "bar-profile" else LONG_SHARE)
     return Style(
         tradition=name,
@@ -139,10 +152,10 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         mount=mount,
         gap=between(rng, rules.gap),
         # real doors of models touch the case more often than not; bumpers and play make up to 3 mm
-        seat=0.0002 if chance(rng, 0.5) else between(rng, (0.0005, 0.003)),
+        seat=0.0002 if tight else between(rng, (0.0005, 0.003)),
         # fronts cover all of a panel, or leave a visible reveal as face frames do in every second piece
         lap=between(rng, (0.01, 0.02)) if chance(rng, 0.45 if frame else 0.08) else 1.0,
-        reveal=_reveal(rng),
+        reveal=_reveal(rng, name),
         frame=frame,
         muntin=between(rng, (0.02, 0.07)) if chance(rng, rules.muntin) and not bare else 0.0,
         moulding=between(rng, (0.03, 0.08)) if chance(rng, rules.moulded) and not bare else 0.0,
@@ -159,14 +172,15 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
         inset=spread(rng, INSETS),
         drawer_high=chance(rng, 0.3),
         box=pick(rng, rules.box),
-        between="nothing" if bare and chance(rng, 0.5) else pick(rng, rules.between),
+        between=_between(rng, rules, bare, banded),
         opening=radians(between(rng, rules.opening)),
         travel=between(rng, (0.55, 0.95)),
         runners=chance(rng, 0.0 if bare else 0.17),
         # slides need 12.5 mm; models are drawn tighter and looser
         slide_gap=pick(rng, {0.0125: 5.0, 0.005: 2.0, 0.002: 1.0, 0.02: 1.0}),
-        pitch=between(rng, PITCHES[chance(rng, CLOSE_SHELVES)]),
-        setback=between(rng, pick(rng, SETBACKS)),
+        pitch=between(rng, PITCHES[chance(rng, CLOSE_BANDED if banded else CLOSE_SHELVES)]),
+        setback=_setback(rng, tight, banded),
+        banded=banded,
         bare=bare,
         finish=draw_finish(rng),
     )
@@ -189,10 +203,25 @@ def _carries(name: TraditionName, handle: HandleStyle) -> Mapping[Carry, float]:
     return KITCHEN_CARRIES if name in KITCHENS else CARRIES
 
 
-def _reveal(rng: np.random.Generator) -> float | None:
+def _reveal(rng: np.random.Generator, name: TraditionName) -> float | None:
     """Returns what overlay fronts leave of the case's outer edges, metres: the gap (None), nothing, or less."""
-    kind = pick(rng, {"gap": 1.0 - FLUSH - BEYOND, "flush": FLUSH, "beyond": BEYOND})
+    flush, beyond = (FLUSH_BOARDS, BEYOND_BOARDS) if name in BOARDED else (FLUSH, BEYOND)
+    kind = pick(rng, {"gap": 1.0 - flush - beyond, "flush": flush, "beyond": beyond})
     return None if kind == "gap" else 0.0 if kind == "flush" else between(rng, JUT)
+
+
+def _between(rng: np.random.Generator, rules: Tradition, bare: bool, banded: bool) -> Between:
+    """Returns what parts openings above each other: a fixed shelf in most banded pieces."""
+    if bare and chance(rng, 0.5):
+        return "nothing"
+    return "panel" if banded and chance(rng, FIXED_SHELF) else pick(rng, rules.between)
+
+
+def _setback(rng: np.random.Generator, tight: bool, banded: bool) -> float:
+    """Returns how far behind the fronts shelves end, metres."""
+    if tight and chance(rng, TIGHT_BANDED if banded else TIGHT_SHELVES):
+        return 0.0
+    return between(rng, pick(rng, SETBACKS))
 
 
 def _drawer_leaf(rng: np.random.Generator, leaf: LeafStyle, rules: Tradition) -> LeafStyle:

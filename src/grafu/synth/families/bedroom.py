@@ -102,7 +102,20 @@ def apothecary(rng: np.random.Generator) -> Cabinet:
     """Returns a chest of many small drawers, to 24 of them."""
     style = pushed(rng, draw_style(rng, {"shaker": 0.45, "ornate": 0.25, "flat-pack": 0.2, "minimal": 0.1}))
     columns, rows = pick(
-        rng, {(3, 3): 2.0, (3, 4): 2.0, (4, 3): 1.5, (4, 4): 1.5, (3, 5): 1.0, (4, 5): 0.6, (4, 6): 0.4, (6, 4): 0.3}
+        rng,
+        {
+            (3, 3): 2.0,
+            (3, 4): 2.0,
+            (4, 3): 1.5,
+            (4, 4): 1.5,
+            (3, 5): 1.0,
+            (5, 3): 1.0,
+            (4, 5): 0.6,
+            (5, 4): 0.6,
+            (6, 3): 0.6,
+            (4, 6): 0.4,
+            (6, 4): 0.4,
+        },
     )
     size = (columns * between(rng, (0.18, 0.3)), between(rng, (0.28, 0.45)), 0.1 + rows * between(rng, (0.13, 0.2)))
     if columns * rows > 12:  # each in a box of its own would make more parts than a model may have

@@ -34,9 +34,9 @@ BASE = Build(
 )
 TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "over"), legs=(0.05, 0.15))
 NARROW = 0.09  # base units for bottles, towels, trays
-BRIDGES = 0.27  # wall units that are wide and low, over a hood or a fridge (46408)
+BRIDGES = 0.4  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
-BASE_FRONTS = {"doors": 0.34, "under drawers": 0.33, "drawers": 0.22, "beside": 0.05, "open": 0.06}
+BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
 
 def base_cabinet(rng: np.random.Generator) -> Cabinet:
@@ -62,7 +62,7 @@ def base_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
 
 
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a wall unit: doors, or a lift-up flap where it is wide and low (six in ten of those)."""
+    """Returns a wall unit: doors, or a lift-up flap where it is wide and low (four in five of those)."""
     style = chunky(rng, draw_style(rng, KITCHEN), 0.06)
     bridge = chance(rng, BRIDGES)
     size = draw_size(rng, (0.6, 1.25) if bridge else (0.2, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
@@ -74,7 +74,7 @@ def wall_cabinet(rng: np.random.Generator) -> Cabinet:
 def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
     """Returns the fronts of a wall unit of this size."""
     width, _, height = size
-    if width > 1.5 * height and chance(rng, 0.65):
+    if width > 1.5 * height and chance(rng, 0.8):
         return Door("top")
     if height > 0.6 and width > 0.5 and chance(rng, 0.08):
         return Stack((Door("top"), Door("top")), between=style.between)

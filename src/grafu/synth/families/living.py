@@ -19,8 +19,13 @@ LIVING: Mapping[TraditionName, float] = {
     "shaker": 0.22, "mid-century": 0.26, "minimal": 0.2, "ornate": 0.14, "flat-pack": 0.14, "frameless": 0.04
 }  # fmt: skip
 LOW = Build(tops=("over", "between"), legs=(0.08, 0.3))
+PLAIN_LOW = replace(LOW, tops=("between",))
+TOPPED = 0.3  # lowboards of any build; the others are boxes without a top of their own
 SLENDER = Build(tops=("between", "over"), legs=(0.04, 0.15), open_back=True, bases=("none", "plinth", "legs"))
 STAND = Site(hand=0.9)
+ONE_FLAP = 0.5  # lowboards that a single flap closes, up to its widest in the trade
+WIDEST_FLAP = 1.8  # metres
+WIDEST_DRAWER = 1.7  # metres: wider TV stands have several beside each other
 TOWERS = 0.2  # bookcases as narrow as one row of discs
 CLOSED: Mapping[Layout, float] = {Door(): 3.0, Drawer(): 1.0, Stack((Drawer(), Drawer()), (), "nothing"): 1.0}
 GLASS: Mapping[LeafStyle, float] = {"glass": 0.65, "muntins": 0.35}
@@ -53,11 +58,13 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
     low = style.between
     fronts: Mapping[Layout, float] = {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25}
     closed = pick(rng, fronts)
-    kind = pick(rng, {"sides": 0.5, "below": 0.25, "middle": 0.15, "row": 0.1})
+    kind = pick(rng, {"sides": 0.45, "below": 0.23, "middle": 0.13, "row": 0.09, "drawers": 0.1})
     if kind == "sides":
         layout: Layout = Row((closed, Bay(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
     elif kind == "below":
         layout = Stack((drawer_row(rng, count(rng, 2, 3)), Bay()), (between(rng, (0.8, 1.4)), 1.0))
+    elif kind == "drawers" and size[0] < WIDEST_DRAWER:
+        layout = drawer_stack(rng, style, count(rng, 1, 2))
     elif kind == "middle":
         layout = Row((Bay(), Pair() if isinstance(closed, Door) else closed, Bay()), (1.0, 1.4, 1.0))
     else:
@@ -67,17 +74,19 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
 
 def lowboard(rng: np.random.Generator) -> Cabinet:
     """Returns a lowboard: flaps that drop down (mostly) or lift up, drawers or bays beside them."""
-    style = draw_style(rng, {"minimal": 0.35, "frameless": 0.25, "mid-century": 0.25, "flat-pack": 0.15})
+    style = draw_style(rng, {"minimal": 0.33, "frameless": 0.32, "mid-century": 0.16, "flat-pack": 0.19})
     size = draw_size(rng, (1.0, 2.9), (0.35, 0.5), (0.25, 0.6))
     flap = Door("bottom" if chance(rng, 0.8) else "top")
     columns = max(1, round(size[0] / between(rng, (0.6, 0.95))))
+    if size[0] < WIDEST_FLAP and chance(rng, ONE_FLAP):
+        columns = 1
     cells: list[Layout] = [flap] * columns
     if columns > 1 and chance(rng, 0.4):
         cells[count(rng, 0, columns - 1)] = Bay() if chance(rng, 0.5) else Drawer()
     if chance(rng, 0.3):
         cells = [Stack((cell, Bay()), (1.0, between(rng, (0.4, 0.8)))) for cell in cells]
     layout = Row(tuple(cells)) if columns > 1 else cells[0]
-    return build_cabinet(rng, "lowboard", style, size, layout, LOW, STAND)
+    return build_cabinet(rng, "lowboard", style, size, layout, LOW if chance(rng, TOPPED) else PLAIN_LOW, STAND)
 
 
 def bookcase(rng: np.random.Generator) -> Cabinet:

@@ -35,7 +35,7 @@ def plan_chest(rng: np.random.Generator) -> Cabinet:
     style = pushed(rng, replace(draw_style(rng, OFFICE), leaf="slab", drawer_leaf="slab", frame=0.0, runners=False))
     large = chance(rng, 0.75)
     number = count(rng, 4, 12)
-    high = 0.08 + number * between(rng, (0.034, 0.058))
+    high = 0.08 + number * between(rng, (0.029, 0.052))
     size = draw_size(rng, (1.0, 1.6) if large else (0.4, 0.75), (0.6, 0.95) if large else (0.3, 0.45), (high, high))
     style = replace(style, between="nothing", length=None if style.length is None else min(style.length, 0.14))
     shares = (*(2.0,) * count(rng, 1, 2), *(1.0,) * (number - 2)) if chance(rng, 0.3) else ()

@@ -15,7 +15,7 @@ from grafu.synth.chest import Chest
 from grafu.synth.corner import CornerCabinet
 from grafu.synth.desk import Desk
 from grafu.synth.ensemble import Ensemble
-from grafu.synth.families import bedroom, bureaus, composed, corners, kitchen, living, office, racks, tables
+from grafu.synth.families import bath, bedroom, bureaus, composed, corners, kitchen, living, office, racks, tables
 from grafu.synth.inner_corner import InnerCorner
 from grafu.synth.rack import Rack
 from grafu.synth.table import Table
@@ -25,9 +25,10 @@ Draw = Callable[[np.random.Generator], Spec]
 
 FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "base cabinet": (15.0, kitchen.base_cabinet),
-    "wall cabinet": (11.0, kitchen.wall_cabinet),
+    "wall cabinet": (11.5, kitchen.wall_cabinet),
     "sink cabinet": (3.0, kitchen.sink_cabinet),
     "corner cabinet": (1.8, corners.corner_cabinet),
+    "washstand": (5.0, bath.washstand),
     "kitchen island": (1.0, composed.island),
     "kitchen units": (1.5, composed.kitchen_units),
     "tall cabinet": (6.0, kitchen.tall_cabinet),
@@ -36,10 +37,10 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "dresser": (7.0, bedroom.dresser),
     "nightstand": (6.0, bedroom.nightstand),
     "shoe cabinet": (1.0, bedroom.shoe_cabinet),
-    "apothecary chest": (1.8, bedroom.apothecary),
-    "chest": (1.0, bedroom.chest),
+    "apothecary chest": (2.2, bedroom.apothecary),
+    "chest": (1.6, bedroom.chest),
     "TV stand": (4.5, living.tv_stand),
-    "lowboard": (2.5, living.lowboard),
+    "lowboard": (4.0, living.lowboard),
     "bookcase": (3.5, living.bookcase),
     "display cabinet": (2.5, living.display_cabinet),
     "hutch": (1.5, composed.hutch),
@@ -47,10 +48,10 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "rack": (1.8, racks.rack),
     "free form": (3.5, living.free_form),
     "filing cabinet": (1.5, office.filing_cabinet),
-    "plan chest": (1.8, office.plan_chest),
+    "plan chest": (2.5, office.plan_chest),
     "desk": (4.0, tables.desk),
     "writing desk": (3.5, tables.writing_desk),
-    "table with drawers": (5.5, tables.drawer_table),
+    "table with drawers": (7.5, tables.drawer_table),
     "bureau": (1.0, bureaus.bureau),
     "vanity": (1.2, tables.vanity),
     "fridge": (0.6, office.fridge),

@@ -35,14 +35,14 @@ TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "console": ((0.8, 1.5), (0.28, 0.45), (0.7, 0.9), (1, 4)),
     "coffee": ((0.8, 1.3), (0.5, 0.8), (0.35, 0.5), (1, 2)),
     "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
-    "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 5)),
+    "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 6)),
 }
 LOW_APRON = 0.06  # metres: a lower one has no room for bars and drawers
-KINDS: Mapping[str, float] = {"side": 0.36, "console": 0.2, "coffee": 0.14, "dining": 0.1, "long": 0.25}
+KINDS: Mapping[str, float] = {"side": 0.31, "console": 0.18, "coffee": 0.11, "dining": 0.1, "long": 0.34}
 # metres: the height of a table's apron, from a pencil drawer's to a drawer's for cutlery or linen
 APRONS: Mapping[str, Span] = {
-    "side": (0.07, 0.22), "console": (0.042, 0.2), "coffee": (0.05, 0.18), "dining": (0.055, 0.16),
-    "long": (0.055, 0.11),
+    "side": (0.07, 0.22), "console": (0.042, 0.2), "coffee": (0.05, 0.18), "dining": (0.045, 0.14),
+    "long": (0.045, 0.09),
 }  # fmt: skip
 # Of tables: bars above and below the drawers, a board lengthwise behind them (of those with drawers in a row), panels
 # between drawers, a moulding around the top, a back that reaches further down (26608 has most of these)
@@ -109,7 +109,7 @@ def writing_desk(rng: np.random.Generator) -> Table:
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.8, 1.8), (0.45, 0.75), (0.7, 0.8))
     hutch = _hutch(rng, style, size[0], size[1]) if chance(rng, 0.2) else None
-    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.036, 0.14), hutch=hutch)
+    return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.034, 0.1), hutch=hutch)
 
 
 def drawer_table(rng: np.random.Generator) -> Table:
