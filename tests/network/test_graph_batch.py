@@ -2,9 +2,9 @@
 
 import pytest
 import torch
+from random_graphs import differences, graph, tiny_network
 
 from grafu.network.batch import GraphBatch, join_batches
-from random_graphs import differences, graph, tiny_network
 
 
 def test_joined_graphs_keep_their_points() -> None:

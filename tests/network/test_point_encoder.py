@@ -2,10 +2,10 @@
 
 import pytest
 import torch
+from random_graphs import arrays
 
 from grafu.network.config import PointsFrame
 from grafu.network.point_encoder import PointEncoder
-from random_graphs import arrays
 
 
 def encoder(frame: PointsFrame = "part") -> PointEncoder:
