@@ -113,8 +113,8 @@ def test_patterns_come_at_their_rates() -> None:
     parts = [s.asset.parts for s in specimens()]
     unknown = [share([p.label is PartLabel.UNKNOWN for p in given]) for given in parts]
     rates = {
-        "labels all there": (share([u == 0 for u in unknown]), 0.35, 0.58),
-        "labels all lost": (share([u == 1 for u in unknown]), 0.07, 0.24),
+        "labels all there": (share([u == 0 for u in unknown]), 0.41, 0.65),
+        "labels all lost": (share([u == 1 for u in unknown]), 0.03, 0.19),
         "sheets": (share([any(p.box.size.min() < 1e-6 for p in given) for given in parts]), 0.25, 0.6),
         "joined": (share([any(p.id.startswith("joined") for p in given) for given in parts]), 0.15, 0.42),
         "pieces": (share([any("_piece_" in p.id for p in given) for given in parts]), 0.12, 0.4),
@@ -124,7 +124,7 @@ def test_patterns_come_at_their_rates() -> None:
             0.12,
             0.45,
         ),
-        "missing": (share([bool(s.missing) for s in specimens()]), 0.5, 0.85),
+        "missing": (share([bool(s.missing) for s in specimens()]), 0.4, 0.75),
     }
     assert {name: rate for name, (rate, low, high) in rates.items() if not low <= rate <= high} == {}
 

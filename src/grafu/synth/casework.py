@@ -40,7 +40,7 @@ CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.66, "framed": 0.27, "doubl
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
 BARE_STANDS, BARE_BACKLESS = 0.6, 0.3  # of bare pieces: on nothing, without a back
 # Makers whose shelves touch the fronts also give edges strips and backs nailers (41003, 41085), others less often.
-THOROUGH, LOOSE, TOUCH = 1.9, 0.5, 0.003  # factors; metres
+THOROUGH, LOOSE, TOUCH = 1.7, 0.6, 0.003  # factors; metres
 STRIPS = 0.12  # frameless cases whose panels have edge strips although their maker draws none elsewhere
 FLUSH_TOP, SHOWN_TOP = 0.35, 0.75  # tops that overhang: over fronts that end with the case's sides, and else
 BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces

@@ -47,7 +47,7 @@ BAR_LENGTHS = (0.09, 0.55)  # metres, as sold; real median: 0.38 of the front
 KNOB_LENGTHS = (0.013, 0.04)  # metres: the knobs of real models are this wide (45963: 13 mm)
 PROTRUSIONS = (0.016, 0.046)  # metres: how far real bars stand off, from strips to thick rods
 INSETS = (0.016, 0.07)  # metres from an edge to its handle's middle: the widest doors have it nearest to their edge
-PITCHES = ((0.26, 0.42), (0.13, 0.25))  # metres between shelves: usual ones, and close ones as for linen or cans
+PITCHES = ((0.25, 0.4), (0.13, 0.23))  # metres between shelves: usual ones, and close ones as for linen or cans
 CLOSE_SHELVES, CLOSE_BANDED = 0.42, 0.7  # of pieces: 46456 and 49182 have three and five shelves in low rooms
 BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
 LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
@@ -60,12 +60,12 @@ BOARDED: frozenset[TraditionName] = frozenset({"frameless", "flat-pack", "office
 FLUSH_BOARDS, BEYOND_BOARDS = 0.8, 0.14
 # Modellers from catalogues draw the bands on the edges of boards as parts, and then whatever else is there (41003,
 # 41085, 44781 of the ten overlay pieces).
-BANDED: Mapping[TraditionName, float] = {"flat-pack": 0.7, "frameless": 0.7, "office": 0.55, "minimal": 0.5}
+BANDED: Mapping[TraditionName, float] = {"flat-pack": 0.75, "frameless": 0.75, "office": 0.6, "minimal": 0.55}
 # Metres from the fronts to the shelves behind them: touching (41003), as is usual, and well behind (half of the real).
 # Nearly all whose boards are banded and half of those whose doors lie on the case touch; of the others few.
 SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.2, (0.003, 0.015): 0.35, (0.015, 0.07): 0.45}
 FIXED_SHELF = 0.7  # of banded pieces have one behind every seam of their fronts (41003)
-TIGHT, TIGHT_BANDED, TIGHT_SHELVES = 0.5, 0.85, 0.55  # shares: doors on the case; shelves at the fronts
+TIGHT, TIGHT_BANDED, TIGHT_SHELVES = 0.5, 0.9, 0.65  # shares: doors on the case; shelves at the fronts
 LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
     {

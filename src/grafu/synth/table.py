@@ -82,9 +82,7 @@ class Table:
         x, y = self.half
         if min(x, y) <= self.leg or self.under - self.apron - self.arch <= 0 or 3 * self.rails >= self.apron:
             size = f"{self.width} x {self.depth} x {self.height} m with legs of {self.leg} m"
-            raise ValueError(
-                f"`Table` needs room between its legs and rails, and below its drawers: got {size}"
-            )
+            raise ValueError(f"`Table` needs room between its legs and rails, and below its drawers: got {size}")
 
     @property
     def half(self) -> tuple[float, float]:

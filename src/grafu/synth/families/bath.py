@@ -17,7 +17,9 @@ from grafu.synth.style import draw_style
 from grafu.synth.traditions import TraditionName
 
 BATH: Mapping[TraditionName, float] = {"frameless": 0.62, "minimal": 0.15, "flat-pack": 0.15, "shaker": 0.08}
-HUNG = Build(bases=("none", "legs"), tops=("between", "none", "stretchers"), legs=(0.1, 0.25), moulded=False)
+HUNG = Build(
+    bases=("none", "legs"), tops=("between", "none", "stretchers"), legs=(0.1, 0.25), moulded=False, framed=False
+)
 FRONTS = {1: 0.4, 2: 0.42, 0: 0.18}  # drawers above each other; 0: doors
 SLABS = 0.35  # washstands with a slab on them, for a basin that stands on it or hangs in it
 HAND = Site(hand=0.8)  # it hangs a hand's breadth above the knee

@@ -34,7 +34,7 @@ BASE = Build(
 )
 TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "over"), legs=(0.05, 0.15))
 NARROW = 0.09  # base units for bottles, towels, trays
-BRIDGES = 0.4  # wall units that are wide and low, over a hood or a fridge (46408)
+BRIDGES = 0.41  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
