@@ -158,7 +158,8 @@ SPECS = {
 
 @pytest.mark.parametrize("name", SPECS)
 def test_furniture_on_which_earlier_versions_failed(name):
-    asset = make_cabinet(SPECS[name])
+    # A rail behind the seam above a flap is left out: these versions had none, and a flap must do without
+    asset = untidy.without_parts(make_cabinet(SPECS[name]), ("hinge_rail",))
     result = realized(asset)
     assert set(installed(result)) == {j.part for j in asset.joints}
     for part, outcome in installed(result).items():
