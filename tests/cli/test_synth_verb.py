@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from folders import contents
 from grafu.cli import synth_run
 from grafu.cli.main import main
 from grafu.data import write_shards
@@ -24,10 +25,6 @@ def _remembered() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         remember(patch)
         yield
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 @pytest.fixture(scope="module")

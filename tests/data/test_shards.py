@@ -148,6 +148,17 @@ def test_a_shard_cut_short_is_one_error(shard: Path, tmp_path: Path, kept: int) 
         ShardReader(cut)
 
 
+@pytest.mark.parametrize(("offset", "value"), [(8, 1), (10, 97)])  # encrypted; packed in a way that nobody knows
+def test_what_no_reader_opens_is_one_error(shard: Path, tmp_path: Path, offset: int, value: int) -> None:
+    data = bytearray(shard.read_bytes())
+    for start in (data.index(b"PK\x03\x04") + offset - 2, data.index(b"PK\x01\x02") + offset):
+        data[start] = value
+    strange = tmp_path / "strange.npz"
+    strange.write_bytes(data)
+    with pytest.raises(UnreadableAsset, match="no whole file of arrays"):
+        ShardReader(strange)
+
+
 def test_a_changed_byte_is_one_error(shard: Path, tmp_path: Path) -> None:
     bad = tmp_path / "bad.npz"
     whole = shard.read_bytes()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from folders import contents
 from grafu.data import write_plan
 from grafu.data.stream import stream_shards
 from grafu.data.write import models_written, write_dataset
@@ -22,10 +23,6 @@ def _remembered() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         remember(patch)
         yield
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
 
 
 @pytest.fixture(scope="module")

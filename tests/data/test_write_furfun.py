@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from folders import contents
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.data.furfun.layout import FUNCTIONAL, SPLITS, UNFUNCTIONAL
 from grafu.data.stream import stream_synth
@@ -22,10 +23,6 @@ def _remembered() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         remember(patch)
         yield
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 @pytest.fixture(scope="module")

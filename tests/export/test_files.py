@@ -4,14 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from folders import contents
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles, write_files
 
 FILES = ExportFiles({"model.urdf": b"<robot/>", "meshes/door.obj": b"v 0 0 0\n"})
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
 def test_a_folder_appears_whole_with_its_parents(tmp_path):

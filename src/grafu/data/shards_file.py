@@ -68,7 +68,8 @@ def read_array_file(path: Path, mapped: str, verify: bool = True) -> tuple[dict[
                 elif kind == "npy":
                     arrays[stem] = _read_member(archive, info)
             return arrays, texts
-    except (BadZipFile, EOFError, ValueError, struct.error, NotImplementedError, zlib.error) as error:
+    # RuntimeError is zipfile's word for a member that is encrypted, or packed in a way that it does not know
+    except (BadZipFile, EOFError, ValueError, struct.error, RuntimeError, zlib.error) as error:
         raise UnreadableAsset(f"`{path}` is no whole file of arrays, or was changed: {error}") from error
     except OSError as error:
         raise UnreadableAsset(f"cannot read `{path}`: {error.strerror or error}") from error
