@@ -31,11 +31,11 @@ from grafu.synth.legs import Leg, LegShape
 from grafu.synth.style import BOARDED, Style
 
 # How backs are modelled: nearly all are full sheets; the half and split ones are cheap furniture's.
-BACKS: Mapping[BackKind, float] = {"full": 0.86, "split": 0.09, "half": 0.02, "none": 0.03}
+BACKS: Mapping[BackKind, float] = {"full": 0.74, "split": 0.21, "half": 0.02, "none": 0.03}
 WIDE_BACK = 0.7  # metres: wider hardboard backs of furniture sold in boxes come in two halves
 BOTTOMS: Mapping[BottomKind, float] = {"between": 0.74, "sheet": 0.1, "under": 0.14, "none": 0.02}
-SIDES: Mapping[SideKind, float] = {"panel": 0.87, "framed": 0.05, "double": 0.08}
-CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.66, "framed": 0.27, "double": 0.07}
+SIDES: Mapping[SideKind, float] = {"panel": 0.83, "framed": 0.05, "double": 0.12}
+CLASSIC_SIDES: Mapping[SideKind, float] = {"panel": 0.63, "framed": 0.26, "double": 0.11}
 # A face frame is one part in tidy models, its bars one by one in kitchen models (44781, 45001, 45463, 45940).
 FRAMES: Mapping[FrameKind, float] = {"bars": 0.65, "one": 0.35}
 BARE_STANDS, BARE_BACKLESS = 0.6, 0.3  # of bare pieces: on nothing, without a back
@@ -45,7 +45,7 @@ STRIPS = 0.12  # frameless cases whose panels have edge strips although their ma
 FLUSH_TOP, SHOWN_TOP = 0.35, 0.75  # tops that overhang: over fronts that end with the case's sides, and else
 BEYOND = 0.05  # overlay cases whose sides run on to the fronts' outer faces
 RAIL, RAIL_HEIGHTS = 0.12, (0.03, 0.09)  # tops with a bar below their front edge; metres
-SKIRT = 0.12  # pieces on square legs or posts whose room below is closed by boards (22692)
+SKIRT = 0.2  # pieces on square legs or posts whose room below is closed by boards (22692)
 NAILED = 0.47  # backs with rails: 8 of the 17 models have them
 NAILED_BANDED = 0.85  # of pieces whose maker draws edge bands
 EDGES: Mapping[TopEdge, float] = {"square": 0.72, "chamfered": 0.1, "rounded": 0.12, "moulded": 0.05, "cornice": 0.02}

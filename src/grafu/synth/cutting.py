@@ -1,6 +1,7 @@
 """Which parts a modeller joins to one and which are in several pieces: the drawing of cuts, with their rates."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -12,7 +13,6 @@ from grafu.synth.untidiness import Cut, Joined
 from grafu.vocabulary import PartLabel
 
 _CASE = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.TOP_PANEL, PartLabel.DIVIDER)
-
 # What is joined, by weight. 32052 has each pedestal's whole case as one back panel, and 22692 and 49182 have panels
 # with their mouldings in one.
 GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...]]]] = {
@@ -32,6 +32,9 @@ LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  #
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
 FRAME_IN_BARS = 0.6
 STRIP = 0.15  # of cut models: solid-edge strips along panels
+# How much likelier the walls of a case are in planks than its levels: 32052 has its back in three.
+WALLS: Final = {PartLabel.SIDE_PANEL: 5.0, PartLabel.BACK_PANEL: 9.0}
+ALIKE, SAME = 0.8, 0.001  # of boards in planks, their twins too; metres within which two boards are of one size
 BOX_APART = 0.12  # of cut models: fronts moved by the artist, their boxes left as boards
 
 
@@ -87,9 +90,24 @@ def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], sha
         return (*found, *(Cut(p.id, "edge strip", width=width) for p in boards if p.box.thin_axis != 1))
     if chance(rng, BOX_APART):
         return (*found, *(Cut(j.part, "box apart") for j in asset.joints))
-    for k in rng.permutation(len(boards))[: count(rng, 1, 2)]:
+    weights = np.array([WALLS.get(board.label, 1.0) for board in boards])
+    number = min(count(rng, 1, 2), len(boards))
+    for k in rng.choice(len(boards), number, replace=False, p=weights / weights.sum()) if number else ():
         found.append(_planks(rng, boards[k]))
-    return tuple(found)
+    return (*found, *_twins(rng, boards, found))
+
+
+def _twins(rng: np.random.Generator, boards: Sequence[Part], cuts: Sequence[Cut]) -> Iterator[Cut]:
+    """Yields the cuts of boards whose twins, of the same label and size, are cut: one side as the other."""
+    whole = {board.id: board for board in boards}
+    done = {cut.part for cut in cuts}
+    for cut in cuts:
+        if cut.part not in whole or not chance(rng, ALIKE):
+            continue
+        board = whole[cut.part]
+        twins = [b for b in boards if b.label is board.label and np.allclose(b.box.size, board.box.size, atol=SAME)]
+        yield from (replace(cut, part=twin.id) for twin in twins if twin.id not in done)
+        done |= {twin.id for twin in twins}
 
 
 def _planks(rng: np.random.Generator, board: Part) -> Cut:

@@ -122,7 +122,7 @@ CLUTTER_WEIGHT: Final[dict[str, float]] = {
     "nailers": 3.0,
     "corner plates": 2.5,
     "edge sheets": 2.0,
-    "runners": 1.5,
+    "runners": 3.5,
     "posts": 0.8,
     "pads": 0.6,
     "plates": 1.0,

@@ -75,11 +75,11 @@ Rule = Callable[[Asset], dict[str, PartLabel]]
 # fronts are face frame. Other makers
 # (the authors' vocabulary has divider and face frame) do otherwise, so no rule is certain.
 HABITS: Final[dict[str, tuple[Rule, float]]] = {
-    "inner uprights are side panels": (_inner_uprights, 0.22),
+    "inner uprights are side panels": (_inner_uprights, 0.35),
     "dividers are odds and ends": (_odd_dividers, 0.04),
     "inner levels are bottom panels": (_inner_levels, 0.06),
-    "toe kicks are side panels": (_toe_kicks, 0.6),
-    "frame members are bars": (_frame_members, 0.5),
+    "toe kicks are side panels": (_toe_kicks, 0.8),
+    "frame members are bars": (_frame_members, 0.42),
     "false fronts are odds and ends": (_odd_false_fronts, 0.15),
     "bars in front are face frame": (_frame_bars, 0.08),
     "a shelf between legs is a bottom panel": (_shelf_between_legs, 0.4),

@@ -17,7 +17,7 @@ CLEAR = 0.001  # metres between a drawer's box and its runner
 
 def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     """Yields a bar on either side of each drawer's box, in the gap to what stands there; or one more on the drawer."""
-    height, double, share = between(rng, (0.012, 0.04)), chance(rng, 0.3), between(rng, (0.0, 0.6))
+    height, double, share = between(rng, (0.012, 0.04)), chance(rng, 0.5), between(rng, (0.0, 0.6))
     still = [p for p in asset.parts if p.label.is_support]
     for joint in asset.joints:
         along = int(np.argmax(np.abs(joint.axis.direction)))

@@ -52,7 +52,7 @@ CLOSE_SHELVES, CLOSE_BANDED = 0.42, 0.7  # of pieces: 46456 and 49182 have three
 BARE_HANDLES = 0.45  # of the barest pieces have no handles at all
 LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
 THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
-PUSHED = 0.3  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
+PUSHED = 0.4  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
 # Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones. Shares; metres
 FLUSH, BEYOND, JUT = 0.6, 0.14, (-0.015, -0.003)
 # Frameless boards meet in a plane: their makers leave nothing of the case beside the fronts more often.

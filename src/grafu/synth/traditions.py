@@ -42,7 +42,7 @@ class Tradition:
     base: Mapping[BaseKind, float]
     leg: Mapping[LegShape, float]
     top: Mapping[TopKind, float]
-    bare: float = 0.16
+    bare: float = 0.22
     plain_drawers: float = 0.3
     framed: float = 0.0
     moulded: float = 0.0
@@ -106,7 +106,7 @@ def mixed(*shares: tuple[float, Handles]) -> dict[HandleStyle, float]:
 TRADITIONS: dict[TraditionName, Tradition] = {
     "frameless": Tradition(
         panel=MELAMINE,
-        bare=0.33,
+        bare=0.35,
         front={0.013: 1.0, 0.016: 3.0, 0.018: 4.0, 0.019: 3.0, 0.022: 1.0},
         back=THIN_BACK,
         mount={"overlay": 0.96, "inset": 0.04},
@@ -210,7 +210,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "minimal": Tradition(
         panel=ROUNDED,
-        bare=0.42,
+        bare=0.46,
         front={0.01: 1.0, 0.015: 1.0, 0.018: 2.0, 0.02: 4.0, 0.025: 1.0, 0.03: 0.7, 0.04: 0.3},
         back=ANY_BACK,
         mount={"overlay": 0.65, "inset": 0.35},
@@ -260,7 +260,7 @@ TRADITIONS: dict[TraditionName, Tradition] = {
     ),
     "flat-pack": Tradition(
         panel={0.015: 3.0, 0.016: 4.0, 0.018: 2.0, 0.012: 0.7},
-        bare=0.32,
+        bare=0.36,
         front={0.015: 3.0, 0.016: 3.0, 0.018: 2.0, 0.012: 0.7},
         back={0.003: 6.0, 0.004: 3.0, 0.002: 1.0},
         mount={"overlay": 0.8, "inset": 0.2},

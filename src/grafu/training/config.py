@@ -103,7 +103,8 @@ class TrainingConfig:
 
 BASE = TrainingConfig(
     network=GraFuConfig(),
-    loss=LossConfig(),
+    # Probabilities that can be believed, and boxes to the last few per cent: see `LossConfig`.
+    loss=LossConfig(free_positive=1.0, box_error="absolute", match_cost="probability"),
     mix=CopyMix(
         # What is asked in use is the model as it was found, with labels or without, all edges contacts. Kinds of edges
         # that a corruption keeps are never there then, so these strategies, 43 % in the paper, get the rest.
