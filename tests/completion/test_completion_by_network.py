@@ -349,7 +349,7 @@ def test_what_is_added_touches_its_neighbours_and_carries_nothing() -> None:
 
 
 def test_a_graph_without_parts_is_complete() -> None:
-    completion = complete_by_network(FunctionalGraph("empty", ()))
+    completion = complete(FunctionalGraph("empty", ()), Answers())
 
     assert (completion.completed.nodes, completion.source) == ((), "network")
 

@@ -1,5 +1,7 @@
 """A network that was exported is asked without torch: the session, and a graph completed from end to end."""
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +22,7 @@ from grafu.network.grafu import GraFu
 from small_graphs import cabinet
 
 TINY = GraFuConfig(hidden=16, heads=2, encoder_layers=1, decoder_layers=1, edge=8, category=8, points=8, geometry=4)
-FEW = FeatureConfig(anchors=4, neighbours=3)
+FEW = FeatureConfig(points=100, anchors=4, neighbours=3)
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +34,7 @@ def model() -> GraFu:
 @pytest.fixture(scope="module")
 def weights(model: GraFu, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("weights") / "tiny.onnx"
-    path.write_bytes(onnx_bytes(model, FEW.anchors, FEW.neighbours, half_weights=False))
+    path.write_bytes(onnx_bytes(model, **asdict(FEW), half_weights=False))
     return path
 
 
@@ -80,6 +82,27 @@ def test_what_is_no_network_is_refused(tmp_path: Path) -> None:
         NetworkSession(damaged)
     with pytest.raises(WeightsError, match="there are no trained weights"):
         NetworkSession(tmp_path / "none.onnx")
+
+
+def test_a_file_that_is_silent_about_its_points_is_shown_the_usual_number(weights: Path, tmp_path: Path) -> None:
+    proto = onnx.load(str(weights))
+    facts = {p.key: p.value for p in proto.metadata_props if p.key != "features"}
+    older = tmp_path / "older.onnx"
+    onnx.helper.set_model_props(proto, facts | {"config": json.dumps({"points": 8, "anchors": 4, "neighbours": 3})})
+    onnx.save(proto, str(older))
+
+    assert NetworkSession(older).features == FeatureConfig(anchors=4, neighbours=3)
+
+
+@pytest.mark.parametrize("features", ["many", "{}{}", '{"points": 2}', '{"pixels": 2}', "7"])
+def test_a_file_that_misstates_its_points_is_refused(weights: Path, tmp_path: Path, features: str) -> None:
+    proto = onnx.load(str(weights))
+    facts = {p.key: p.value for p in proto.metadata_props}
+    onnx.helper.set_model_props(proto, facts | {"features": features})
+    other = tmp_path / "other.onnx"
+    onnx.save(proto, str(other))
+    with pytest.raises(WeightsError, match="how many points of a part"):
+        NetworkSession(other)
 
 
 def test_a_network_for_other_labels_is_refused(weights: Path, tmp_path: Path) -> None:

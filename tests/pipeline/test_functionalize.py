@@ -2,11 +2,13 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
+from grafu.completion.features import FeatureConfig
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import open_network
 from grafu.errors import WeightsError
@@ -52,7 +54,7 @@ def test_auto_takes_the_first_that_can_answer(asset: Asset, monkeypatch: pytest.
 def test_the_network_without_weights_says_so_in_one_line(
     asset: Asset, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("grafu.completion.network.open_network", lambda: open_network(tmp_path / "none.onnx"))
+    monkeypatch.setattr("grafu.pipeline.learned.open_network", lambda: open_network(tmp_path / "none.onnx"))
     with pytest.raises(WeightsError, match=r"there are no trained weights at `.*`: use another motion source") as error:
         functionalize(asset, MotionSource.NETWORK, builtin_gallery())
     assert "\n" not in str(error.value)
@@ -61,16 +63,19 @@ def test_the_network_without_weights_says_so_in_one_line(
 def test_the_network_sees_points_and_no_annotation(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = []
 
-    def complete(graph: FunctionalGraph) -> GraphCompletion:
+    def complete(graph: FunctionalGraph, _: object, features: FeatureConfig) -> GraphCompletion:
         seen.append(graph)
+        assert features == FeatureConfig(points=64)
         return replace(complete_by_rule(graph), source="network")
 
     monkeypatch.setattr("grafu.pipeline.learned.complete_by_network", complete)
+    network = SimpleNamespace(features=FeatureConfig(points=64))
+    monkeypatch.setattr("grafu.pipeline.learned.open_network", lambda: network)
     found = functionalize(asset, MotionSource.NETWORK, builtin_gallery())
     stripped = functionalize(asset.without_annotation(), MotionSource.NETWORK, builtin_gallery())
 
     assert seen[0] == seen[1]
-    assert {len(node.points.points) for node in seen[0].nodes} == {512}
+    assert {len(node.points.points) for node in seen[0].nodes} == {64}
     assert all(node.points is None for node in found.completion.completed.nodes)
     assert found.source is MotionSource.NETWORK
     assert found.object == stripped.object

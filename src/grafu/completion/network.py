@@ -9,7 +9,7 @@ from grafu.completion.beliefs import Beliefs, averaged, beliefs_of, mirrored_bac
 from grafu.completion.decode import complete_reading, read_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, graph_features, mirrored
-from grafu.completion.session import GraphNetwork, open_network
+from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
@@ -19,30 +19,20 @@ _MOVERS_PER_ROUND = 4  # handles that one look can add: the paper's free slots
 
 
 def complete_by_network(
-    graph: FunctionalGraph,
-    network: GraphNetwork | None = None,
-    features: FeatureConfig | None = None,
-    config: DecodeConfig = DecodeConfig(),
+    graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, config: DecodeConfig = DecodeConfig()
 ) -> GraphCompletion:
     """Returns the graph with labels, handles, missing parts, and a motion or a refusal for each door and drawer.
 
-    `network` and the `features` that it wants are those that came with the package, unless given. Nodes should have
-    points; those without are seen as their boxes. Scores of decisions are the network's probabilities, renormalised
-    over what could be chosen.
-
-    Raises:
-        WeightsError: if no network is given and none came with the package.
+    `features` says how many points the network wants to see. Nodes should have points; those without are seen as their
+    boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen.
     """
     if not graph.nodes:
         return GraphCompletion(graph, graph, "network")
-    if network is None:
-        shipped = open_network()
-        network, features = shipped, features or shipped.features
     seen, added = graph, list[NewPart]()
     given = frozenset(node.id for node in graph.nodes)
     rounds = 0
     while True:
-        beliefs = look(seen, network, features or FeatureConfig(), config.mirror)
+        beliefs = look(seen, network, features, config.mirror)
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
         reading = read_graph(seen, beliefs, given, parents, config)
         most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND

@@ -25,7 +25,8 @@ _INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
 class NetworkSession:
     """A network that is ready to be asked.
 
-    `features` says how many points it wants to see; one thread by default, because inputs run in parallel.
+    `features` says how many points it wants to see: the file's word, the default number where an older file is silent.
+    One thread by default, because inputs run in parallel.
 
     Raises:
         WeightsError: if the file is missing, damaged, or made for other inputs, outputs or labels.
@@ -59,8 +60,13 @@ class NetworkSession:
         facts: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
         if json.loads(facts.get("labels", "[]")) != [label.value for label in LABELS]:
             raise WeightsError(f"`{path}` was trained on other labels: train it again")
-        config = json.loads(facts.get("config", "{}"))
-        return FeatureConfig(anchors=config["anchors"], neighbours=config["neighbours"])
+        try:
+            if "features" in facts:
+                return FeatureConfig(**json.loads(facts["features"]))
+            older = json.loads(facts["config"])  # it holds two of the three numbers
+            return FeatureConfig(anchors=older["anchors"], neighbours=older["neighbours"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise WeightsError(f"`{path}` must state how many points of a part it sees: {error!r}") from error
 
 
 def has_shipped_weights() -> bool:

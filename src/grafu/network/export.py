@@ -30,18 +30,21 @@ PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
 
 
-def onnx_bytes(model: GraFu, anchors: int, neighbours: int, *, half_weights: bool) -> bytes:
-    """Returns an ONNX file of the network; its metadata hold the configuration and the labels in their order.
+def onnx_bytes(model: GraFu, *, points: int, anchors: int, neighbours: int, half_weights: bool) -> bytes:
+    """Returns an ONNX file; its metadata hold the network's config, what it sees of points, and the labels in order.
 
-    `anchors` and `neighbours` are the numbers of groups and of their points. With `half_weights` the weights are stored
-    in 16 bits and widened when the file is loaded: half the size, and all is computed in 32 bits as before.
+    Of the `points` of a part, `anchors` groups of `neighbours` points each are seen: the `features` of the file. With
+    `half_weights` the weights are stored in 16 bits and widened when the file is loaded: half the size, and all is
+    computed in 32 bits as before.
     """
     proto = _exported(deepcopy(model).cpu(), anchors, neighbours)
     _without_traces(proto)
-    facts = asdict(model.config) | {"anchors": anchors, "neighbours": neighbours}
-    onnx.helper.set_model_props(
-        proto, {"config": json.dumps(facts), "labels": json.dumps([label.value for label in PartLabel])}
-    )
+    facts = {
+        "config": asdict(model.config),
+        "features": {"points": points, "anchors": anchors, "neighbours": neighbours},
+        "labels": [label.value for label in PartLabel],
+    }
+    onnx.helper.set_model_props(proto, {key: json.dumps(value) for key, value in facts.items()})
     onnx.checker.check_model(proto)
     file: bytes = proto.SerializeToString()
     return with_half_weights(file) if half_weights else file

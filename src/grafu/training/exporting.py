@@ -1,6 +1,7 @@
 """The best weights of a run as the file that the package ships. It writes no files."""
 
 import logging
+from dataclasses import asdict
 
 from grafu.network.export import onnx_bytes
 from grafu.training.checkpoint import BestWeights
@@ -8,10 +9,9 @@ from grafu.training.checkpoint import BestWeights
 
 def exported(best: BestWeights) -> bytes:
     """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
-    features = best.config.features
     before = logging.root.manager.disable
     logging.disable(logging.WARNING)  # torch's exporter tells of packages that it does not need
     try:
-        return onnx_bytes(best.network(), features.anchors, features.neighbours, half_weights=True)
+        return onnx_bytes(best.network(), **asdict(best.config.features), half_weights=True)
     finally:
         logging.disable(before)
