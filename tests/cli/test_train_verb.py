@@ -75,6 +75,19 @@ def test_errors_are_one_line(
     assert error.count("\n") == 1
 
 
+def test_furniture_in_a_folder_that_judges_the_weights_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data = tmp_path / "data"
+    assert main(["synth", "--count", "1", "--seed", "990002", "--points", "4", "--jobs", "1", "--out", str(data)]) == 0
+    capsys.readouterr()
+    assert main([*TINY, "--out", str(tmp_path / "run"), "--data", str(data)]) == 2
+    error = capsys.readouterr().err
+    assert "made with seed 990002, it judges the weights" in error
+    assert error.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
 def test_a_device_that_is_not_there_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -40,6 +40,10 @@ class FewModels:
     def name(self) -> str:
         return "few models"
 
+    @property
+    def maker_seed(self) -> int:
+        return self.seed
+
     def pair(self, number: int) -> GraphPair:
         return few_pairs(self.seed)[number % 3]
 

@@ -9,7 +9,7 @@ from grafu.data.pair import natural_pair
 from grafu.data.shards import write_shard
 from grafu.data.shards_record import Record
 from grafu.data.write import write_dataset
-from grafu.data.write_plan import DatasetPlan
+from grafu.data.write_plan import MANIFEST, DatasetPlan
 from grafu.errors import UnreadableAsset
 from grafu.training.source import VALIDATION_SEED, FurFunSource, ShardSource, SynthSource, source_in
 from grafu.training.validation import validation_source
@@ -48,6 +48,7 @@ def test_a_release_trains_on_its_training_part_and_is_judged_on_another(tmp_path
     assert {models.pair(k).model_id for k in range(len(models.models))} == set(models.models)
     assert not set(models.models) & set(judge.models)
     assert "part `train`" in models.name
+    assert models.maker_seed == 2
 
 
 def test_a_folder_of_another_kind_is_refused(tmp_path: Path) -> None:
@@ -63,3 +64,13 @@ def test_the_furniture_that_judges_is_not_trained_on() -> None:
         validation_source(SynthSource(VALIDATION_SEED), 8)
     with pytest.raises(ValueError, match="negative"):
         SynthSource(-1)
+
+
+def test_the_furniture_that_judges_is_known_in_a_folder_too(tmp_path: Path) -> None:
+    assert len(list(write_dataset(DatasetPlan(VALIDATION_SEED, 1, points=4), tmp_path))) == 1
+    source = source_in(tmp_path, 1, 4)
+    assert source.maker_seed == VALIDATION_SEED
+    with pytest.raises(ValueError, match="judges the weights"):
+        validation_source(source, 4)
+    (tmp_path / MANIFEST).unlink()
+    assert source.maker_seed is None

@@ -31,10 +31,10 @@ def run_training(options: argparse.Namespace) -> int:
     if not has_device(options.device):
         complain(f"`--device` must be one that is there: torch finds no `{options.device}`")
         return EXIT_BAD_INPUT
-    if options.data == "synth" and config.seed in RESERVED_SEEDS:
-        complain(f"`--seed` must not be {config.seed}: the furniture of that seed judges the weights")
-        return EXIT_BAD_INPUT
     source = _source(options, config)
+    if source.maker_seed in RESERVED_SEEDS:
+        complain(f"it must not be trained on {source.name}: made with seed {source.maker_seed}, it judges the weights")
+        return EXIT_BAD_INPUT
     use_threads(options.threads)
     jobs = options.jobs or min(_MOST_JOBS, os.cpu_count() or 1)
     with joined_workers(options.device) as workers:

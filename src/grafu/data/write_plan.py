@@ -21,7 +21,7 @@ from grafu.data.shards import MODELS_PER_SHARD
 from grafu.data.shards_arrays import ABSENT, LABELS, ModelArrays, record_to_arrays
 from grafu.data.shards_record import record_of
 from grafu.data.stream import shard_paths
-from grafu.errors import ExportError
+from grafu.errors import ExportError, UnreadableAsset
 from grafu.synth.check import faults_in
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
@@ -107,9 +107,18 @@ def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> N
         raise ExportError(f"`{folder}` holds `{held[0]}` and no data set, so it is kept: choose another --out")
     manifest = _manifest(plan)
     if held and not overwrite:
-        _require_same(_stated(folder), manifest, folder)
+        _require_same(manifest, folder)
     else:
         _write_manifest(folder, manifest)
+
+
+def made_with(folder: Path) -> int | None:
+    """Returns the seed that a folder of made models states, None where it states none.
+
+    Raises:
+        UnreadableAsset: if its manifest is damaged, or of another form.
+    """
+    return _read_manifest(folder).get("seed") if (folder / MANIFEST).is_file() else None
 
 
 def summary_of(arrays: ModelArrays, fresh: bool, faults: tuple[str, ...] = ()) -> ModelSummary:
@@ -168,18 +177,22 @@ def _write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
         fresh.unlink(missing_ok=True)
 
 
-def _stated(folder: Path) -> dict[str, Any]:
+def _read_manifest(folder: Path) -> dict[str, Any]:
     try:
         stated = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise ExportError(f"`{folder / MANIFEST}` cannot be read ({error}): choose another --out") from error
-    if not isinstance(stated, dict) or stated.get("schema") != SCHEMA:
-        raise ExportError(f"`{folder / MANIFEST}` must be of the form `{SCHEMA}`: choose another --out")
+        raise UnreadableAsset(f"`{folder / MANIFEST}` cannot be read ({error})") from error
+    if not isinstance(stated, dict) or stated.get("schema") != SCHEMA or not isinstance(stated.get("seed"), int):
+        raise UnreadableAsset(f"`{folder / MANIFEST}` must be of the form `{SCHEMA}`")
     return stated
 
 
-def _require_same(stated: dict[str, Any], asked: dict[str, Any], folder: Path) -> None:
+def _require_same(asked: dict[str, Any], folder: Path) -> None:
     """Refuses to go on with what was made in another way."""
+    try:
+        stated = _read_manifest(folder)
+    except UnreadableAsset as error:
+        raise ExportError(f"{error}: choose another --out") from error
     ways = "choose another --out, or give --overwrite to start again"
     for key, word in _SAID.items():
         if stated.get(key) != asked[key]:

@@ -17,6 +17,7 @@ from grafu.data.shards import ShardReader
 from grafu.data.shards_record import record_of, record_pair
 from grafu.data.split import SplitName
 from grafu.data.stream import shard_paths
+from grafu.data.write_plan import made_with
 from grafu.errors import UnreadableAsset
 from grafu.synth.generate import make_specimen
 
@@ -25,6 +26,7 @@ VALIDATION_SEED = 990_001
 TEST_SEED = 990_002
 """The seed of the made furniture that figures are reported on; no training and no choice may use it."""
 RESERVED_SEEDS = (VALIDATION_SEED, TEST_SEED)
+"""No model made with these is trained on, on the spot or out of a folder."""
 
 
 @runtime_checkable
@@ -34,6 +36,10 @@ class Source(Protocol):
     @property
     def name(self) -> str:
         """What it is, in words."""
+
+    @property
+    def maker_seed(self) -> int | None:
+        """The seed that its furniture was made with; None where it was not made, or nobody knows."""
 
     def pair(self, number: int) -> GraphPair:
         """Returns the natural pair of model `number` (0, 1, ...)."""
@@ -60,6 +66,11 @@ class SynthSource:
         """What it is, in words."""
         return f"furniture made with seed {self.seed}"
 
+    @property
+    def maker_seed(self) -> int:
+        """The seed that the furniture is made with."""
+        return self.seed
+
     def pair(self, number: int) -> GraphPair:
         """Returns the natural pair of model `number`."""
         return record_pair(record_of(make_specimen(self.seed, number, self.points)))
@@ -85,6 +96,11 @@ class ShardSource:
     def name(self) -> str:
         """What it is, in words."""
         return f"{_models_from(self.folder)[-1]} models in {self.folder}"
+
+    @property
+    def maker_seed(self) -> int | None:
+        """The seed that the folder's manifest states; None where it has none."""
+        return made_with(self.folder)
 
     def pair(self, number: int) -> GraphPair:
         """Returns the natural pair of model `number` of the endless sequence."""
@@ -117,6 +133,11 @@ class FurFunSource:
     def name(self) -> str:
         """What it is, in words."""
         return f"{len(self.models)} models of the part `{self.part}` of {self.folder.path}"
+
+    @property
+    def maker_seed(self) -> int | None:
+        """The seed that the release was made with; None of one that was annotated."""
+        return made_with(self.folder.path)
 
     @property
     def models(self) -> tuple[str, ...]:

@@ -47,13 +47,13 @@ def validation_source(source: Source, points: int) -> Source:
     """Returns what is to judge weights that `source` trains: made furniture, or the release's own validation part.
 
     Raises:
-        ValueError: if the source makes the very furniture that is to judge.
+        ValueError: if the source is of the very furniture that is to judge.
         UnreadableAsset: if a release has no pair for validation.
     """
+    if source.maker_seed in RESERVED_SEEDS:
+        raise ValueError(f"the seed of the furniture must not be one of {RESERVED_SEEDS}: it judges the weights")
     if isinstance(source, FurFunSource):
         return replace(source, part="val")
-    if isinstance(source, SynthSource) and source.seed in RESERVED_SEEDS:
-        raise ValueError(f"`seed` must not be one of {RESERVED_SEEDS}: that furniture judges the weights")
     return SynthSource(VALIDATION_SEED, points)
 
 
