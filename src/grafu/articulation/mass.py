@@ -10,7 +10,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
 from grafu.articulation.moments import BOARD_THICKNESS, NO_MOMENTS, Moments, moments_of
 from grafu.geometry.appearance import Material
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
 from grafu.vocabulary import PartLabel
 
 # kg/m3, by a word in a material's name; the first that fits counts
@@ -59,8 +59,7 @@ class MassProperties(ArrayValue):
     inertia: Mat3
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "center", frozen_array(self.center))
-        object.__setattr__(self, "inertia", frozen_array(self.inertia))
+        freeze_arrays(self, dtype=np.float64)
         least, middle, most = np.linalg.eigvalsh(self.inertia)
         if not (self.mass > 0 and least > 0 and most <= (least + middle) * (1 + 1e-9)):
             found = f"mass {self.mass}, principal moments {least}, {middle}, {most}"

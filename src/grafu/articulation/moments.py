@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
 from grafu.geometry.box import yaw_of
 from grafu.geometry.components import Patches, patches_of
 from grafu.geometry.mesh import TriangleMesh
@@ -34,8 +34,7 @@ class Moments(ArrayValue):
     second: Mat3
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "first", frozen_array(self.first))
-        object.__setattr__(self, "second", frozen_array(self.second))
+        freeze_arrays(self, dtype=np.float64)
 
     def scaled(self, factor: float) -> "Moments":
         """Returns the moments of `factor` times as much of everything (as by a density)."""

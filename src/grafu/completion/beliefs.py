@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int64
 
 from grafu.completion.scores import Scores
-from grafu.geometry.arrays import ArrayValue, frozen_array
+from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.graph.motion import mirror_face, mirror_hinge
 
@@ -37,8 +37,7 @@ class Beliefs(ArrayValue):
     slide: Float[np.ndarray, "s s 6"]
 
     def __post_init__(self) -> None:
-        for name in ("exists", "label", "centre", "half", "edge", "parent", "mount", "hinge", "slide"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        freeze_arrays(self, dtype=np.float64)
 
 
 def beliefs_of(scores: Scores) -> Beliefs:

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int64
 
 from grafu.completion.points_grouping import box_points, group_points, resampled
-from grafu.geometry.arrays import ArrayValue, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
 from grafu.graph.arrays import graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
@@ -62,11 +62,9 @@ class GraphFeatures(ArrayValue):
     scale: float
 
     def __post_init__(self) -> None:
-        for name in ("labels", "edges"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name), np.int64))
-        for name in ("boxes", "anchors", "groups"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name), np.float32))
-        object.__setattr__(self, "origin", frozen_array(self.origin))
+        freeze_arrays(self, "labels", "edges", dtype=np.int64)
+        freeze_arrays(self, "boxes", "anchors", "groups", dtype=np.float32)
+        freeze_arrays(self, "origin", dtype=np.float64)
 
 
 def graph_features(graph: FunctionalGraph, config: FeatureConfig = FeatureConfig()) -> GraphFeatures:

@@ -6,7 +6,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float32
 
-from grafu.geometry.arrays import ArrayValue, frozen_array
+from grafu.geometry.arrays import ArrayValue, freeze_arrays
 
 
 @final
@@ -33,10 +33,7 @@ class Scores(ArrayValue):
     slide: Float32[np.ndarray, "s s 6"]
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray):
-                object.__setattr__(self, field.name, frozen_array(value, np.float32))
+        freeze_arrays(self, dtype=np.float32)
 
 
 SCORE_NAMES: tuple[str, ...] = tuple(field.name for field in fields(Scores))

@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, frozen_array, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays, vec3
 from grafu.geometry.box import Box
 
 Directions = Float[np.ndarray, "n 3"]
@@ -27,8 +27,7 @@ class Camera(ArrayValue):
     fov: float = radians(28)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "eye", frozen_array(self.eye))
-        object.__setattr__(self, "target", frozen_array(self.target))
+        freeze_arrays(self, dtype=np.float64)
         if not 0 < self.fov < np.pi:
             raise ValueError(f"`Camera.fov` must be in (0, pi) radians: got {self.fov}")
         if np.linalg.norm((self.target - self.eye)[:2]) < 1e-12:

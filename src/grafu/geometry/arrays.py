@@ -30,6 +30,17 @@ def frozen_array(values: Any, dtype: type = np.float64) -> Any:
     return array
 
 
+def freeze_arrays(value: object, *names: str, dtype: type | None = None) -> None:
+    """Makes arrays of a frozen value read-only copies of a type (None: each of its own); for its `__post_init__`.
+
+    `names` are the fields; without any, all that hold arrays.
+    """
+    for name in names or value.__dataclass_fields__:  # type: ignore[attr-defined]
+        array = getattr(value, name)
+        if names or isinstance(array, np.ndarray):
+            object.__setattr__(value, name, frozen_array(array, array.dtype.type if dtype is None else dtype))
+
+
 def vec3(x: float, y: float, z: float) -> Vec3:
     """Returns one vector of three floats."""
     return np.array([x, y, z], dtype=np.float64)

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float
 
-from grafu.geometry.arrays import ArrayValue, Mat4, Scalars, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat4, Scalars, freeze_arrays
 
 Rows = Float[np.ndarray, "n 3"]
 Rotations = Float[np.ndarray, "n 3 3"]
@@ -28,8 +28,7 @@ class BoxStack(ArrayValue):
     rotations: Rotations
 
     def __post_init__(self) -> None:
-        for name in ("centers", "halves", "rotations"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        freeze_arrays(self, dtype=np.float64)
 
     def __len__(self) -> int:
         return len(self.centers)

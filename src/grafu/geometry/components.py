@@ -12,7 +12,7 @@ from jaxtyping import Bool, Int
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -30,9 +30,8 @@ class Patches(ArrayValue):
     closed: Bool[np.ndarray, " k"]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "faces", frozen_array(self.faces, np.int64))
-        object.__setattr__(self, "patch", frozen_array(self.patch, np.int64))
-        object.__setattr__(self, "closed", frozen_array(self.closed, np.bool_))
+        freeze_arrays(self, "faces", "patch", dtype=np.int64)
+        freeze_arrays(self, "closed", dtype=np.bool_)
 
 
 def welded(points: Points, tolerance: float = 1e-6) -> Indices:

@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float64, Int64
 
+from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.edges import Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import EdgeKind, PartLabel
@@ -25,8 +26,8 @@ _KIND_CODES = {kind: code for code, kind in enumerate(KINDS)}
 
 
 @final
-@dataclass(frozen=True)
-class GraphArrays:
+@dataclass(frozen=True, eq=False, slots=True)
+class GraphArrays(ArrayValue):
     """A graph of n nodes. `boxes` are centres and half sizes.
 
     `edges` are codes, symmetric, null where there is none; `child[i, j]` says that i hangs on j: it is the door, drawer
@@ -40,6 +41,9 @@ class GraphArrays:
     border: Int64[np.ndarray, " n"]
     sign: Int64[np.ndarray, " n"]
     slide: Int64[np.ndarray, " n"]
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
 
 def graph_arrays(graph: FunctionalGraph) -> GraphArrays:

@@ -23,7 +23,7 @@ import numpy as np
 
 from grafu.errors import TemplateError
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
 from grafu.vocabulary import MechanismClass
@@ -40,8 +40,7 @@ class SnapPlane(ArrayValue):
     v: Vec3
 
     def __post_init__(self) -> None:
-        for name in ("center", "normal", "u", "v"):
-            object.__setattr__(self, name, frozen_array(getattr(self, name)))
+        freeze_arrays(self, dtype=np.float64)
         across = max(abs(float(self.normal @ self.u)), abs(float(self.normal @ self.v)), abs(float(self.u @ self.v)))
         size = float(np.linalg.norm(self.u) * np.linalg.norm(self.v))
         if abs(float(np.linalg.norm(self.normal)) - 1) > 1e-6 or size <= 0 or across > 1e-6:

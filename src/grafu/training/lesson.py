@@ -16,6 +16,7 @@ from grafu.completion.features import FeatureConfig, graph_features, object_fram
 from grafu.data.corruption.config import CorruptionConfig
 from grafu.data.fold import fold
 from grafu.data.pair import GraphPair
+from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import graph_arrays
 from grafu.graph.edit import as_contacts, relabelled
 from grafu.training.targets import GraphTargets, graph_targets
@@ -57,8 +58,8 @@ class CopyMix:
 
 
 @final
-@dataclass(frozen=True)
-class Copy:
+@dataclass(frozen=True, eq=False, slots=True)
+class Copy(ArrayValue):
     """What is seen of a model once (n nodes), and the answers.
 
     `rows` are the nodes' rows in the points of the lesson. A point x there is `stretch` x + `shift` in this frame.
@@ -73,16 +74,22 @@ class Copy:
     targets: GraphTargets
     strategy: str
 
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
+
 
 @final
-@dataclass(frozen=True)
-class Lesson:
+@dataclass(frozen=True, eq=False, slots=True)
+class Lesson(ArrayValue):
     """The grouped points of a whole model (u parts), and copies of it."""
 
     model_id: str
     anchors: Float32[np.ndarray, "u g 3"]
     groups: Float32[np.ndarray, "u g s 3"]
     copies: tuple[Copy, ...]
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
 
 def make_lesson(pairs: Sequence[GraphPair], features: FeatureConfig) -> Lesson:

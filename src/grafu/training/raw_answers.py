@@ -4,9 +4,6 @@ Nothing is repaired: a door may hang nowhere, a drawer on one rail. What is used
 (`grafu.completion`).
 """
 
-from dataclasses import dataclass
-from typing import final
-
 import numpy as np
 from torch import Tensor
 
@@ -16,16 +13,6 @@ from grafu.network.predictions import Predictions
 from grafu.training.targets import TargetBatch
 
 _CHILD_OF = {HINGE: DOOR, RAIL: DRAWER, ATTACHED: HANDLE}
-
-
-@final
-@dataclass(frozen=True)
-class _Graph:
-    """One graph of a batch: what was answered, and where its input nodes (n of them) stand in the truth."""
-
-    found: GraphArrays
-    truth: GraphArrays
-    anchors: np.ndarray
 
 
 def batch_accuracy(predictions: Predictions, targets: TargetBatch) -> list[GraphAccuracy]:

@@ -12,6 +12,7 @@ import torch
 from jaxtyping import Bool, Float32, Float64, Int64
 from torch import Tensor
 
+from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
 
@@ -19,8 +20,8 @@ _PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin
 
 
 @final
-@dataclass(frozen=True)
-class GraphTargets:
+@dataclass(frozen=True, eq=False, slots=True)
+class GraphTargets(ArrayValue):
     """The answers for one graph of t nodes, given n of them.
 
     The fields up to `slide` are those of `grafu.graph.arrays.GraphArrays`, with `boxes` in the normalised frame of the
@@ -36,6 +37,9 @@ class GraphTargets:
     slide: Int64[np.ndarray, " t"]
     thin: Int64[np.ndarray, " t"]
     anchors: Int64[np.ndarray, " n"]
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
 
 @final

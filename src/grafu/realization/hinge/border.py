@@ -10,7 +10,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, frozen_array, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import TriangleMesh
@@ -33,8 +33,7 @@ class BorderFrame(ArrayValue):
     length: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "origin", frozen_array(self.origin))
-        object.__setattr__(self, "rotation", frozen_array(self.rotation))
+        freeze_arrays(self, dtype=np.float64)
 
     @property
     def board(self) -> float:

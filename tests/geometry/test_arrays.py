@@ -1,0 +1,50 @@
+"""Values that hold arrays: nobody writes to them, and they compare by what they hold."""
+
+import pickle
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+import pytest
+
+from grafu.geometry.arrays import ArrayValue, freeze_arrays
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Sample(ArrayValue):
+    name: str
+    numbers: np.ndarray
+    codes: np.ndarray
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self, "codes", dtype=np.uint8)
+        freeze_arrays(self)
+
+
+def sample() -> Sample:
+    return Sample("one", np.arange(3, dtype=np.float32), np.arange(3))
+
+
+def test_a_value_keeps_copies_of_its_arrays() -> None:
+    given = np.arange(3.0)
+    kept = Sample("one", given, given)
+    given[0] = 7.0
+    assert kept.numbers[0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        kept.numbers[0] = 7.0
+
+
+def test_named_arrays_take_a_type_and_others_keep_theirs() -> None:
+    assert (sample().numbers.dtype, sample().codes.dtype) == (np.float32, np.uint8)
+    assert sample().name == "one"
+
+
+def test_what_is_frozen_already_is_not_copied_again() -> None:
+    assert Sample("two", sample().numbers, (codes := sample().codes)).codes is codes
+
+
+def test_values_compare_by_content_and_travel() -> None:
+    assert pickle.loads(pickle.dumps(sample())) == sample()
+    assert len({sample(), sample()}) == 1
+    assert sample() != Sample("two", sample().numbers, sample().codes)
