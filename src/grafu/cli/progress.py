@@ -1,6 +1,6 @@
 """A progress bar on stderr, where it is a terminal. It knows nothing of the work."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar, final
 
 from rich.console import Console
@@ -27,8 +27,10 @@ class _RateColumn(ProgressColumn):
         return Text(f"{task.speed:.1f} per second," if task.speed else "")
 
 
-def with_progress(items: Iterable[T], total: int, word: str = "inputs", shown: bool = True) -> Iterator[T]:
-    """Yields the items and counts them on a bar, under this word, if it is to be shown."""
+def with_progress(
+    items: Iterable[T], total: int, word: str = "inputs", shown: bool = True, size: Callable[[T], int] = lambda _: 1
+) -> Iterator[T]:
+    """Yields the items and counts them, each as `size` (say steps), on a bar, under this word, if it is to be shown."""
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -42,5 +44,5 @@ def with_progress(items: Iterable[T], total: int, word: str = "inputs", shown: b
     with Progress(*columns, console=console, transient=True, disable=not (shown and console.is_terminal)) as progress:
         task = progress.add_task(word, total=total)
         for item in items:
-            progress.advance(task)
+            progress.advance(task, size(item))
             yield item

@@ -7,7 +7,7 @@ from grafu.cli.input_options import positive_count
 from grafu.cli.messages import complain
 from grafu.cli.synth import whole_number
 
-CONFIGS = ("base", "paper", "tiny")
+CONFIGS = ("base", "paper", "small", "tiny")
 EXIT_BAD_INPUT = 2
 
 _DESCRIPTION = """\
@@ -35,7 +35,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--config",
         choices=CONFIGS,
         default="base",
-        help="base: what is shipped; paper: the paper's numbers; tiny: to see that all works (default: base)",
+        help="base: what is shipped; paper: the paper's numbers; small: what `ablate` compares by; "
+        "tiny: to see that all works (default: base)",
     )
     parser.add_argument("--resume", action="store_true", help="go on where the run in DIR was cut, if there is one")
     parser.add_argument(

@@ -106,7 +106,7 @@ def ordered_map(
         for first in count(start, chunk):
             last = first + chunk if stop is None else min(first + chunk, stop)
             if first < last:
-                with _interrupts_later():  # this may start a process
+                with interrupts_later():  # this may start a process
                     waiting.append(pool.submit(_make_chunk, make, first, last))
             elif not waiting:
                 return
@@ -129,7 +129,7 @@ def _make_record(seed: int, points: int, index: int) -> Record:
 
 
 @contextmanager
-def _interrupts_later() -> Iterator[None]:
+def interrupts_later() -> Iterator[None]:
     """Puts Ctrl-C off; a process that is started meanwhile never hears of it, not even while it imports modules."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield

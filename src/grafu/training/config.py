@@ -1,4 +1,4 @@
-"""Everything that a training run is asked to do, and the two runs that have names: `paper` and `base`."""
+"""Everything that a training run is asked to do, and the runs that have names: `base`, `paper`, `small`, `tiny`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -144,6 +144,20 @@ PAPER = TrainingConfig(
     precision="fp32",
 )
 
+SMALL = replace(
+    BASE,
+    network=GraFuConfig(
+        hidden=128, heads=4, encoder_layers=2, decoder_layers=2, edge=64, category=64, points=32, geometry=16
+    ),
+    deal=DealConfig(models=2, copies=4),
+    optimiser=replace(BASE.optimiser, rate=1e-3, warmup=200, average=0.995),  # for a few thousand steps
+    features=FeatureConfig(points=256, anchors=16, neighbours=16),
+    validation=replace(BASE.validation, every=1000),
+    steps=2000,
+    precision="fp32",
+)
+"""To compare ways of training within minutes each (`grafu ablate`)."""
+
 TINY = replace(
     BASE,
     network=GraFuConfig(
@@ -158,4 +172,4 @@ TINY = replace(
 )
 """To see in a minute that all works on a machine; it learns next to nothing."""
 
-CONFIGS: Mapping[str, TrainingConfig] = MappingProxyType({"base": BASE, "paper": PAPER, "tiny": TINY})
+CONFIGS: Mapping[str, TrainingConfig] = MappingProxyType({"base": BASE, "paper": PAPER, "small": SMALL, "tiny": TINY})
