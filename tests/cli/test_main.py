@@ -17,7 +17,7 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == f"grafu {__version__}\n"
 
 
-@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates", "synth"])
+@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates", "synth", "train", "ablate"])
 def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main([verb, "--help"])
@@ -45,6 +45,10 @@ def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.Ca
         ["synth", "--out", "x", "--jobs", "0"],
         ["synth", "--out", "x", "--format", "zip"],
         ["synth", "--out", "x", "--gallery", "--stats"],
+        ["ablate", "heads", "--out", "x"],
+        ["ablate", "losses"],
+        ["ablate", "losses", "--out", "x", "--seeds"],
+        ["ablate", "losses", "--out", "x", "--steps", "0"],
     ],
 )
 def test_wrong_arguments_exit_with_2(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:

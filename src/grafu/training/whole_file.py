@@ -1,6 +1,7 @@
 """Writes a small text file so that nobody ever sees half of it: by one rename."""
 
 import os
+from contextlib import suppress
 from pathlib import Path
 from uuid import uuid4
 
@@ -21,4 +22,5 @@ def write_whole(text: str, path: Path) -> None:
     except OSError as error:
         raise ExportError(f"cannot write `{path}`: {error.strerror}") from error
     finally:
-        fresh.unlink(missing_ok=True)
+        with suppress(OSError):
+            fresh.unlink()

@@ -1,0 +1,98 @@
+"""`ablate` through the real command: all experiments, their table, nothing twice, errors in one line."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from grafu.cli import ablate, ablate_run
+from grafu.cli.main import main
+from grafu.training import ablation_run
+from grafu.training.ablation import FOLDS_TRIED, KINDS
+
+TINY = ["--config", "tiny", "--steps", "2", "--jobs", "1"]
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("ablations") / "folds"
+    assert main(["ablate", "folds", *TINY, "--out", str(folder)]) == 0
+    return folder
+
+
+def test_the_kinds_are_those_that_there_are() -> None:
+    assert ablate.KINDS == KINDS
+
+
+def test_every_experiment_has_its_row_and_its_folder(done: Path) -> None:
+    names = [*(f"folds_{count}" for count in FOLDS_TRIED), "folds_endless"]
+    table = (done / "table.md").read_text()
+    assert table.startswith("Ablation of folds: config `tiny`, 2 steps of 4 graphs, seed 1, trained on the first 200 ")
+    assert [line.split("`")[1] for line in table.splitlines() if line.startswith("| `")] == names
+    assert all((done / name / "seed_1" / "figures.json").is_file() for name in names)
+    assert len((done / "table.csv").read_text().splitlines()) == 1 + 4 * len(names)
+
+
+def test_what_is_finished_is_not_trained_again(
+    done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delattr(ablation_run, "train")
+    assert main(["ablate", "folds", *TINY, "--out", str(done)]) == 0
+    said = capsys.readouterr().out
+    assert "6 runs, 6 of them finished before" in said
+    assert "| `folds_17` |" in said
+
+
+def test_a_run_that_fails_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def diverges(*_: object) -> None:
+        raise ArithmeticError("no numbers")
+
+    monkeypatch.setattr(ablation_run, "train", diverges)
+    assert main(["ablate", "folds", *TINY, "--out", str(tmp_path)]) == 1
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 6
+    assert said[0] == "grafu: folds_0, seed 1: no numbers"
+
+
+def test_a_stop_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(ablate_run, "do_runs", lambda *_: (event for event in ()))
+    assert main(["ablate", "losses", *TINY, "--seeds", "1", "2", "--out", str(tmp_path)]) == 130
+    assert "stopped with 0 of 30 runs finished; the same command goes on" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["losses"], "another ablation"),
+        (["folds", "--steps", "3"], "another ablation"),
+        (["folds", "--seeds", "1", "990002"], "judges the weights"),
+        (["folds", "--data", "nowhere"], "is no folder"),
+    ],
+)
+def test_errors_of_use_are_one_line(
+    done: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+) -> None:
+    assert main(["ablate", arguments[0], *TINY, "--out", str(done), *arguments[1:]]) == 2
+    error = capsys.readouterr().err
+    assert said in error
+    assert error.count("\n") == 1
+
+
+def test_a_device_must_be_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(ablate_run, "has_device", lambda name: name != "cuda")
+    assert main(["ablate", "folds", "--out", str(tmp_path), "--device", "cuda"]) == 2
+    assert "`--device`" in capsys.readouterr().err
+
+
+def test_without_torch_it_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in [name for name in sys.modules if name == "grafu.cli.ablate_run" or name.startswith("grafu.training")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "torch", None)
+    assert main(["ablate", "losses", "--out", str(tmp_path)]) == 2
+    assert "pip install 'grafu[train]'" in capsys.readouterr().err
