@@ -8,14 +8,14 @@ from little_runs import FewModels
 
 from grafu.completion.features import FeatureConfig
 from grafu.training.config import TINY
-from grafu.training.lesson_stream import DealConfig, stream_hands
+from grafu.training.lesson_stream import DealConfig, Syllabus, stream_hands
 
 FEATURES = FeatureConfig(points=8, anchors=2, neighbours=2)
 DEAL = DealConfig(models=2, copies=1, reuse=3, spread=6)
 
 
 def dealt(count: int, start: int = 0, deal: DealConfig = DEAL, part: tuple[int, int] = (0, 1)) -> list[list[tuple]]:
-    hands = stream_hands(FewModels(), TINY.mix, FEATURES, deal, 7, start, 1, part)
+    hands = stream_hands(Syllabus(FewModels(), TINY.mix, FEATURES, 7, part), deal, start)
     found = [[(*lesson_key(lesson), visit) for lesson, visit in hand] for hand in islice(hands, count)]
     hands.close()
     return found

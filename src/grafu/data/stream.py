@@ -91,7 +91,7 @@ def ordered_map(
 ) -> Generator[T, None, None]:
     """Yields `make(i)` for i = start, start + 1, ... in order, made by `jobs` processes (1: by this one).
 
-    `make` must be a function of a module, or a `partial` of one. What it raises comes out here.
+    `make` must be a function of a module, a value's method, or a `partial` of one. What it raises comes out here.
 
     Raises:
         BrokenProcessPool: if a process dies.

@@ -6,10 +6,10 @@ from typing import final
 
 import numpy as np
 import torch
-from torch import Tensor
 
 from grafu.network.batch import NULL, GraphBatch
 from grafu.training.lesson import Copy, Lesson
+from grafu.training.padding import padded
 from grafu.training.targets import TargetBatch, mirrored_targets, stack_targets
 
 
@@ -55,11 +55,11 @@ def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> Trainin
     anchors, groups, index = _point_table(showings, shares_shifted)
     n = max(len(view.labels) for view in views)
     graphs = GraphBatch(
-        labels=_filled([v.labels for v in views], (n,), 0),
-        boxes=_filled([v.boxes for v in views], (n, 6), 0),
-        edges=_filled([v.edges for v in views], (n, n), NULL),
-        mask=_filled([np.ones(len(v.labels), dtype=bool) for v in views], (n,), 0),
-        point_index=_filled(index, (n,), 0),
+        labels=padded([v.labels for v in views], (n,), 0),
+        boxes=padded([v.boxes for v in views], (n, 6), 0),
+        edges=padded([v.edges for v in views], (n, n), NULL),
+        mask=padded([np.ones(len(v.labels), dtype=bool) for v in views], (n,), 0),
+        point_index=padded(index, (n,), 0),
         anchors=torch.from_numpy(anchors),
         groups=torch.from_numpy(groups),
     )
@@ -106,10 +106,3 @@ def _in_frame(showing: Showing, rows: np.ndarray, copy: Copy) -> tuple[np.ndarra
     stretch = (signs * copy.stretch).astype(np.float32)
     shift = (signs * copy.shift).astype(np.float32)
     return showing.lesson.anchors[rows] * stretch + shift, showing.lesson.groups[rows] * stretch
-
-
-def _filled(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: int) -> Tensor:
-    stacked = np.full((len(arrays), *shape), fill, dtype=arrays[0].dtype)
-    for row, array in zip(stacked, arrays, strict=True):
-        row[tuple(slice(size) for size in array.shape)] = array
-    return torch.from_numpy(stacked)

@@ -29,13 +29,17 @@ _CONFIG = TypeAdapter(TrainingConfig)
 @final
 @dataclass
 class Progress:
-    """What changes while a network is trained; `best` is the highest score so far."""
+    """What changes while a network is trained.
+
+    `best` is the highest score so far; `lost` counts the last steps in a row whose gradient was no number.
+    """
 
     network: GraFu
     optimiser: torch.optim.Optimizer
     average: AveragedWeights
     step: int = 0
     best: float = 0.0
+    lost: int = 0
 
 
 @final

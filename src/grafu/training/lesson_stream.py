@@ -64,35 +64,37 @@ class DealConfig:
         )
 
 
-def stream_hands(
-    source: Source,
-    mix: CopyMix,
-    features: FeatureConfig,
-    deal: DealConfig,
-    seed: int,
-    start: int = 0,
-    jobs: int = 1,
-    part: tuple[int, int] = (0, 1),
-) -> Generator[Hand, None, None]:
+@final
+@dataclass(frozen=True)
+class Syllabus:
+    """The lessons of a source, by number; their copies are drawn with `seed`.
+
+    `part` (k, n) takes every n-th model, from the k-th on: n readers share a source without a double.
+    """
+
+    source: Source
+    mix: CopyMix
+    features: FeatureConfig
+    seed: int
+    part: tuple[int, int] = (0, 1)
+
+    def lesson(self, copies: int, number: int) -> Lesson:
+        """Returns lesson `number` (0, 1, ...), with so many copies."""
+        model = number * self.part[1] + self.part[0]
+        rng = np.random.default_rng([self.seed, model])
+        return make_lesson(draw_pairs(self.source.pair(model), copies, self.mix, rng), self.features)
+
+
+def stream_hands(syllabus: Syllabus, deal: DealConfig, start: int = 0, jobs: int = 1) -> Generator[Hand, None, None]:
     """Yields the hands from number `start` on, without end.
 
-    The lessons are made by `jobs` processes (1: by this one), as in `ordered_map`. `part` (k, n) deals every n-th
-    model, from the k-th on: n readers share a source without a double.
+    The lessons are made by `jobs` processes (1: by this one), as in `ordered_map`.
     """
-    make = partial(lesson_of, source, mix, features, deal.copies * deal.reuse, seed, part)
+    make = partial(syllabus.lesson, deal.copies * deal.reuse)
     turn, skipped = deal.round_of(start)
     first = max(0, turn - deal.reuse + 1)
     with closing(ordered_map(make, first * deal.fresh, None, jobs)) as lessons:
-        yield from islice(_dealt(lessons, deal, (seed, *part), first, turn), skipped, None)
-
-
-def lesson_of(
-    source: Source, mix: CopyMix, features: FeatureConfig, copies: int, seed: int, part: tuple[int, int], number: int
-) -> Lesson:
-    """Returns lesson `number` (0, 1, ...) of a part of a source, with so many copies."""
-    mine = number * part[1] + part[0]
-    rng = np.random.default_rng([seed, mine])
-    return make_lesson(draw_pairs(source.pair(mine), copies, mix, rng), features)
+        yield from islice(_dealt(lessons, deal, (syllabus.seed, *syllabus.part), first, turn), skipped, None)
 
 
 def _dealt(lessons: Iterator[Lesson], deal: DealConfig, seed: Sequence[int], first: int, turn: int) -> Iterator[Hand]:

@@ -78,42 +78,22 @@ def train(
     """
     torch.manual_seed(config.seed)
     progress = _begin(config, folder, workers, options.resume)
-    network, parameters = progress.network, list(progress.network.parameters())
-    judged_by = (
-        validation_batches(validation_source(source, config.features.points), config) if workers.is_first else []
-    )
+    keeper = _Keeper(config, source, folder, options, progress.step) if workers.is_first else None
     torch.manual_seed(config.seed + 1000 * workers.rank + progress.step)  # dropout differs between processes
     batches = stream_batches(source, config, progress.step, options.jobs, (workers.rank, workers.count))
-    book = Logbook(folder, progress.step) if workers.is_first else None
-    meter, saved, lost, is_stopping = Meter(), monotonic(), 0, False
+    meter, is_stopping = Meter(), False
     with stop_requests() as asked, closing(batches):
         yield StepReport(progress.step, progress.best)
         while progress.step < config.steps and not is_stopping:
             with meter.timed("data"):
                 batch = next(batches).to(workers.device)
-            with meter.timed("forward"), _precise(config, workers.device):
-                predictions = network(batch.graphs)
-            with meter.timed("loss"):
-                terms = criterion(predictions, batch.targets, config.loss)
-            with meter.timed("backward"):
-                progress.optimiser.zero_grad()
-                terms.total.backward()  # type: ignore[no-untyped-call]
-            with meter.timed("step"):
-                is_stopping = workers.average_gradients(parameters, asked.is_made)
-                norm = nn.utils.clip_grad_norm_(parameters, config.optimiser.clip)
-                lost = 0 if _step(progress, config, bool(norm.isfinite())) else lost + 1
-            if lost > _MOST_LOST:
-                raise ArithmeticError(f"{lost} steps in a row had gradients that are no numbers: lower the rate")
-            meter.add(terms.by_name() | {"gradient": norm, "lost": float(lost > 0)})
-            report = StepReport(progress.step, progress.best)
-            if book is not None:
-                report = _look(progress, config, judged_by, book, meter, options, folder)
-                if is_stopping or progress.step == config.steps or monotonic() - saved > options.save_every:
-                    save_progress(progress, config, folder)
-                    saved = monotonic()
-            yield report
-    if book is not None:
-        book.close()
+            is_stopping = _learn(progress, batch, config, workers, meter, asked.is_made)
+            if keeper is None:
+                yield StepReport(progress.step, progress.best)
+            else:
+                yield keeper.look(progress, meter, is_stopping)
+    if keeper is not None:
+        keeper.close()
     workers.wait()
 
 
@@ -141,43 +121,84 @@ def _optimiser(network: nn.Module, config: OptimiserConfig) -> torch.optim.Optim
     return kind(groups, lr=config.rate, betas=config.betas, fused=True)
 
 
-def _step(progress: Progress, config: TrainingConfig, is_sound: bool) -> bool:
-    """Moves the weights, unless the gradient is no number; returns whether it did."""
+def _learn(
+    progress: Progress, batch: TrainingBatch, config: TrainingConfig, workers: Workers, meter: Meter, is_stopping: bool
+) -> bool:
+    """Takes one step on a batch; returns whether this or another process is to stop.
+
+    Raises:
+        ArithmeticError: if gradients stay no numbers.
+    """
+    parameters = list(progress.network.parameters())
+    with meter.timed("forward"), _precise(config, workers.device):
+        predictions = progress.network(batch.graphs)
+    with meter.timed("loss"):
+        terms = criterion(predictions, batch.targets, config.loss)
+    with meter.timed("backward"):
+        progress.optimiser.zero_grad()
+        terms.total.backward()  # type: ignore[no-untyped-call]
+    with meter.timed("step"):
+        is_stopping = workers.average_gradients(parameters, is_stopping)
+        norm = nn.utils.clip_grad_norm_(parameters, config.optimiser.clip)
+        _step(progress, config, bool(norm.isfinite()))
+    if progress.lost > _MOST_LOST:
+        raise ArithmeticError(f"{progress.lost} steps in a row had gradients that are no numbers: lower the rate")
+    meter.add(terms.by_name() | {"gradient": norm, "lost": float(progress.lost > 0)})
+    return is_stopping
+
+
+def _step(progress: Progress, config: TrainingConfig, is_sound: bool) -> None:
+    """Moves the weights, unless the gradient is no number; then the step is lost."""
     asked = config.optimiser
     for group in progress.optimiser.param_groups:
         group["lr"] = asked.rate * rate_at(progress.step, config.steps, asked.warmup, asked.period)
     if is_sound:
         progress.optimiser.step()
         progress.average.update(progress.network)
+    progress.lost = 0 if is_sound else progress.lost + 1
     progress.step += 1
-    return is_sound
 
 
-def _look(
-    progress: Progress,
-    config: TrainingConfig,
-    judged_by: list[TrainingBatch],
-    book: Logbook,
-    meter: Meter,
-    options: RunOptions,
-    folder: Path,
-) -> StepReport:
-    """Writes what is due after a step, judges the averaged weights where that is due, and keeps the best."""
-    step, is_last = progress.step, progress.step == config.steps
-    means: dict[str, float] = {}
-    figures: dict[str, float] = {}
-    if step % options.log_every == 0 or is_last:
-        means = meter.take() | {"rate": progress.optimiser.param_groups[0]["lr"]}
-        book.step(step, means)
-    if step % config.validation.every == 0 or is_last:
-        judge = GraFu(config.network).to(next(progress.network.parameters()).device)
-        judge.load_state_dict(progress.average.weights)
-        figures = validate(judge, judged_by, config.loss)
-        book.validation(step, figures)
+@final
+class _Keeper:
+    """What the first process does for all: it writes the log, judges, and keeps the best weights and where it is."""
+
+    def __init__(self, config: TrainingConfig, source: Source, folder: Path, options: RunOptions, step: int) -> None:
+        self._config, self._folder, self._options = config, folder, options
+        self._judged_by = validation_batches(validation_source(source, config.features.points), config)
+        self._book = Logbook(folder, step)
+        self._saved = monotonic()
+
+    def look(self, progress: Progress, meter: Meter, is_stopping: bool) -> StepReport:
+        """Does what is due after a step: writes the log, judges, and saves what the run goes on from."""
+        step, is_last = progress.step, progress.step == self._config.steps
+        means: dict[str, float] = {}
+        figures: dict[str, float] = {}
+        if step % self._options.log_every == 0 or is_last:
+            means = meter.take() | {"rate": progress.optimiser.param_groups[0]["lr"]}
+            self._book.step(step, means)
+        if step % self._config.validation.every == 0 or is_last:
+            figures = self._judge(progress)
+        if is_stopping or is_last or monotonic() - self._saved > self._options.save_every:
+            save_progress(progress, self._config, self._folder)
+            self._saved = monotonic()
+        return StepReport(step, progress.best, means, figures)
+
+    def close(self) -> None:
+        """Makes sure that all of the log is on disk."""
+        self._book.close()
+
+    def _judge(self, progress: Progress) -> dict[str, float]:
+        """Returns the figures of the averaged weights, which are kept where none did better."""
+        weights = progress.average.weights
+        judge = GraFu(self._config.network).to(next(progress.network.parameters()).device)
+        judge.load_state_dict(weights)
+        figures = validate(judge, self._judged_by, self._config.loss)
+        self._book.validation(progress.step, figures)
         if figures["score"] > progress.best:
             progress.best = figures["score"]
-            save_best(config, progress.average.weights, step, figures, folder)
-    return StepReport(step, progress.best, means, figures)
+            save_best(self._config, weights, progress.step, figures, self._folder)
+        return figures
 
 
 def _precise(config: TrainingConfig, device: torch.device) -> torch.autocast:

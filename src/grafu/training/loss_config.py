@@ -1,7 +1,7 @@
 """The weights and choices of the losses, with the paper's numbers (supplement, Loss Function). It computes nothing."""
 
 from dataclasses import dataclass, replace
-from typing import Literal, final
+from typing import Any, Literal, final
 
 ClassCost = Literal["cross-entropy", "probability"]
 BoxError = Literal["squared", "absolute"]
@@ -97,4 +97,5 @@ def held_out(config: LossConfig, experiment: str) -> LossConfig:
     Raises:
         KeyError: if there is no such experiment.
     """
-    return LossConfig(**(vars(config) | dict.fromkeys(HOLD_OUTS[experiment], 0.0)))
+    weights: dict[str, Any] = dict.fromkeys(HOLD_OUTS[experiment], 0.0)
+    return replace(config, **weights)

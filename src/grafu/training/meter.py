@@ -14,10 +14,7 @@ class Meter:
     """Sums numbers by name; numbers of a GPU are fetched only when their mean is asked for."""
 
     def __init__(self) -> None:
-        self._values: defaultdict[str, list[Tensor | float]] = defaultdict(list)
-        self._seconds: defaultdict[str, float] = defaultdict(float)
-        self._steps = 0
-        self._started = perf_counter()
+        self._begin()
 
     def add(self, values: Mapping[str, Tensor | float]) -> None:
         """Counts the numbers of one step."""
@@ -40,5 +37,11 @@ class Meter:
         means = {name: sum(float(v) for v in values) / len(values) for name, values in self._values.items()}
         means |= {f"seconds/{name}": seconds / steps for name, seconds in self._seconds.items()}
         means["steps_per_second"] = self._steps / elapsed if elapsed > 0 else 0.0
-        self.__init__()
+        self._begin()
         return means
+
+    def _begin(self) -> None:
+        self._values: defaultdict[str, list[Tensor | float]] = defaultdict(list)
+        self._seconds: defaultdict[str, float] = defaultdict(float)
+        self._steps = 0
+        self._started = perf_counter()

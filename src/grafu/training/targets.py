@@ -15,6 +15,7 @@ from torch import Tensor
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.training.padding import padded
 
 _PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending (official.md 3.2)
 
@@ -122,25 +123,18 @@ def stack_targets(graphs: Sequence[GraphTargets]) -> TargetBatch:
     t = max(len(g.labels) for g in graphs)
     n = max(len(g.anchors) for g in graphs)
     return TargetBatch(
-        labels=_padded([g.labels for g in graphs], (t,), UNKNOWN),
-        boxes=_padded([g.boxes for g in graphs], (t, 6), 0.0),
-        edges=_padded([g.edges for g in graphs], (t, t), NULL),
-        child=_padded([g.child for g in graphs], (t, t), False),
-        border=_padded([g.border for g in graphs], (t,), NONE),
-        sign=_padded([g.sign for g in graphs], (t,), NONE),
-        slide=_padded([g.slide for g in graphs], (t,), NONE),
-        anchors=_padded([g.anchors for g in graphs], (n,), NONE),
-        mask=_padded([np.ones(len(g.labels), dtype=bool) for g in graphs], (t,), False),
+        labels=padded([g.labels for g in graphs], (t,), UNKNOWN),
+        boxes=padded([g.boxes for g in graphs], (t, 6), 0.0),
+        edges=padded([g.edges for g in graphs], (t, t), NULL),
+        child=padded([g.child for g in graphs], (t, t), False),
+        border=padded([g.border for g in graphs], (t,), NONE),
+        sign=padded([g.sign for g in graphs], (t,), NONE),
+        slide=padded([g.slide for g in graphs], (t,), NONE),
+        anchors=padded([g.anchors for g in graphs], (n,), NONE),
+        mask=padded([np.ones(len(g.labels), dtype=bool) for g in graphs], (t,), False),
     )
 
 
 def _flipped(codes: np.ndarray, where: np.ndarray) -> np.ndarray:
     """Returns the codes with their last bit, the side or sense, turned where asked and where there is a code."""
     return np.where(where & (codes != NONE), codes ^ 1, codes)
-
-
-def _padded(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: float | int | bool) -> Tensor:
-    stacked = np.full((len(arrays), *shape), fill, dtype=arrays[0].dtype)
-    for row, array in zip(stacked, arrays, strict=True):
-        row[tuple(slice(size) for size in array.shape)] = array
-    return torch.from_numpy(stacked)
