@@ -1,6 +1,7 @@
 """Settings for all tests; it also makes tests/ importable, so that every test can use `strategies` and `sweeping`."""
 
 import os
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -14,3 +15,27 @@ settings.load_profile("server" if os.environ.get("CI") else "grafu")
 def pytest_configure(config: pytest.Config) -> None:
     # The shape checks sample long tuples with `random`, also inside strategies; Hypothesis seeds it, so tests repeat
     config.addinivalue_line("filterwarnings", "ignore:Do not use the `random` module inside strategies")
+
+
+# The fixtures import what they need when they are asked for: what is imported earlier escapes the shape checks
+
+
+@pytest.fixture(scope="module")
+def remembered() -> Iterator[None]:
+    """Streams and writers of this process take their specimens from `remembered`, where each is made once."""
+    from remembered import remember
+
+    with pytest.MonkeyPatch.context() as patch:
+        remember(patch)
+        yield
+
+
+@pytest.fixture
+def one_thread() -> Iterator[None]:
+    """Torch computes with one thread: tests of small networks run beside others."""
+    import torch  # noqa: TID251  # only tests of network and training ask for this
+
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    yield
+    torch.set_num_threads(threads)

@@ -15,16 +15,10 @@ from grafu.cli import synth_run
 from grafu.cli.main import main
 from grafu.data import write_shards
 from grafu.data.write import models_written
-from remembered import remember
 
 FEW = ["synth", "--points", "8", "--models-per-shard", "10"]
 
-
-@pytest.fixture(scope="module", autouse=True)
-def _remembered() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        remember(patch)
-        yield
+pytestmark = pytest.mark.usefixtures("remembered")
 
 
 @pytest.fixture(scope="module")

@@ -4,23 +4,16 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from grafu.cli import train, train_run
 from grafu.cli.main import main
-from remembered import remember
 
 TINY = ["train", "--config", "tiny", "--threads", "1", "--jobs", "1"]
 
-
-@pytest.fixture(scope="module", autouse=True)
-def _remembered() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        remember(patch)
-        yield
+pytestmark = pytest.mark.usefixtures("remembered")
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,7 @@
 
 import multiprocessing
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from itertools import islice
@@ -14,14 +14,9 @@ from grafu.data.shards import write_shard
 from grafu.data.shards_record import Record, record_of
 from grafu.data.stream import ordered_map, stream_shards, stream_specimens, stream_synth
 from grafu.errors import UnreadableAsset
-from remembered import remember, specimen
+from remembered import specimen
 
-
-@pytest.fixture(scope="module", autouse=True)
-def _remembered() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        remember(patch)
-        yield
+pytestmark = pytest.mark.usefixtures("remembered")
 
 
 def square(number: int) -> int:

@@ -1,7 +1,6 @@
 """A data set on disk: it goes on where it was stopped, to the same bytes, and never mixes with another."""
 
 import json
-from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
@@ -13,16 +12,10 @@ from grafu.data.stream import stream_shards
 from grafu.data.write import models_written, write_dataset
 from grafu.data.write_plan import MANIFEST, DatasetPlan
 from grafu.errors import ExportError, UnreadableAsset
-from remembered import remember
 
 PLAN = DatasetPlan(seed=2, count=14, points=16, models_per_shard=4)
 
-
-@pytest.fixture(scope="module", autouse=True)
-def _remembered() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        remember(patch)
-        yield
+pytestmark = pytest.mark.usefixtures("remembered")
 
 
 @pytest.fixture(scope="module")

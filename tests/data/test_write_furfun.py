@@ -1,6 +1,5 @@
 """Made models laid out like the authors' release: it reads back, goes on where it was stopped, and never mixes."""
 
-from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
@@ -13,16 +12,10 @@ from grafu.data.stream import stream_synth
 from grafu.data.write import models_written, write_dataset
 from grafu.data.write_plan import DatasetPlan
 from grafu.errors import ExportError
-from remembered import remember
 
 PLAN = DatasetPlan(seed=2, count=12, points=16, format="furfun")
 
-
-@pytest.fixture(scope="module", autouse=True)
-def _remembered() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        remember(patch)
-        yield
+pytestmark = pytest.mark.usefixtures("remembered")
 
 
 @pytest.fixture(scope="module")

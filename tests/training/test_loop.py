@@ -21,10 +21,7 @@ from grafu.training.workers import Workers
 ALONE = Workers(0, 1, torch.device("cpu"))
 OFTEN = RunOptions(log_every=1)
 
-
-@pytest.fixture(autouse=True)
-def _one_thread() -> None:
-    torch.set_num_threads(1)
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 def run(

@@ -1,7 +1,5 @@
 """Network and loss together: a tiny network learns two graphs by heart in a few seconds, parts and motions alike."""
 
-from collections.abc import Iterator
-
 import pytest
 import torch
 
@@ -25,6 +23,8 @@ TINY = GraFuConfig(
 )  # fmt: skip
 POINTS = FeatureConfig(points=32, anchors=4, neighbours=8)
 
+pytestmark = pytest.mark.usefixtures("one_thread")
+
 
 def seen(features: GraphFeatures) -> GraphBatch:
     names = ("labels", "boxes", "anchors", "groups", "edges")
@@ -43,14 +43,6 @@ def two_lessons() -> tuple[GraphBatch, TargetBatch]:
     small = without_nodes(mirrored(cabinet(), 0), ["drawer_2", "knob_4", "back"])
     batches, targets = zip(lesson(cabinet(), ["knob_2"]), lesson(small, []), strict=True)
     return join_batches(batches), stack_targets(targets)
-
-
-@pytest.fixture(autouse=True)
-def one_thread() -> Iterator[None]:
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(threads)
 
 
 def learnt(config: LossConfig, steps: int) -> tuple[Predictions, list[float]]:
