@@ -108,7 +108,7 @@ def test_a_convention_holds_unless_nearly_all_speaks_against_it():
 def test_without_labels_nothing_is_claimed():
     asset = cabinet().with_labels({p.id: PartLabel.UNKNOWN for p in cabinet().parts})
     assert up_from_parts(asset.parts, asset.box) is None
-    assert not any(front_votes(asset.parts, (), asset.box, "+Z").values())
+    assert not any(front_votes(asset.parts, asset.box, "+Z").values())
     frame = settle_frame(reading_of(asset, np.eye(4)), LoadOptions())
     assert (frame.up, frame.front) == ("+Y", "+Z")
     assert any("--up changes it" in said for said in frame.assumed)

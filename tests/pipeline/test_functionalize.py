@@ -34,7 +34,7 @@ def asset() -> Asset:
 
 @pytest.fixture(scope="module")
 def result(asset: Asset) -> Functionalized:
-    return functionalize(asset, MotionSource.AUTO, builtin_gallery())
+    return functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
 
 
 def test_every_source_but_auto_has_its_row() -> None:
@@ -42,12 +42,10 @@ def test_every_source_but_auto_has_its_row() -> None:
 
 
 def test_auto_takes_the_first_that_can_answer(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
-    bare = asset.without_annotation()
-    assert AUTO_ORDER == (MotionSource.ANNOTATION, MotionSource.NETWORK, MotionSource.RULE)
-    assert choose_source(asset, MotionSource.AUTO) is MotionSource.ANNOTATION
+    assert AUTO_ORDER == (MotionSource.NETWORK, MotionSource.RULE)
     for has_weights, chosen in ((False, MotionSource.RULE), (True, MotionSource.NETWORK)):
         monkeypatch.setattr("grafu.pipeline.functionalize.has_shipped_weights", lambda has=has_weights: has)
-        assert choose_source(bare, MotionSource.AUTO) is chosen
+        assert choose_source(asset, MotionSource.AUTO) is chosen
         assert choose_source(asset, MotionSource.RULE) is MotionSource.RULE
 
 
@@ -101,13 +99,13 @@ def test_annotated_joints_are_built(asset: Asset, result: Functionalized) -> Non
 
 def test_the_rule_needs_no_annotation(asset: Asset) -> None:
     bare = replace(asset, joints=())
-    found = functionalize(bare, MotionSource.AUTO, builtin_gallery())
+    found = functionalize(bare, MotionSource.RULE, builtin_gallery())
 
     assert {j.type for j in found.object.moving_joints} == {JointType.REVOLUTE, JointType.PRISMATIC}
 
 
 def test_the_same_input_gives_the_same_object(asset: Asset, result: Functionalized) -> None:
-    again = functionalize(asset, MotionSource.AUTO, builtin_gallery())
+    again = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
 
     assert again.object == result.object
 

@@ -45,13 +45,29 @@ class Motion:
 @final
 @dataclass(frozen=True)
 class Body:
-    """Links that hang together rigidly; `parent` is the link of the body that carries it, no `motion` is static."""
+    """Links that hang together rigidly; `parent` is the link of the body that carries it.
+
+    A body with a `motion` moves so. One without stands still, unless it `is_loose`: then the input says that it moves,
+    but not how.
+    """
 
     name: str
     link: str
     visuals: tuple[Visual, ...]
     motion: Motion | None = None
     parent: str | None = None
+    is_loose: bool = False
+
+
+@final
+@dataclass(frozen=True)
+class BodyParts:
+    """What the bodies of an input come to; `grouped` says that it tells itself which pieces make up what moves."""
+
+    parts: tuple[Part, ...]
+    joints: tuple[AnnotatedJoint, ...]
+    grouped: bool
+    notes: list[str]
 
 
 @final
@@ -65,9 +81,10 @@ class _Draft:
     visuals: tuple[Visual, ...]
     carrier: str | None = None
     motion: Motion | None = None
+    is_mover: bool = False
 
 
-def parts_of_bodies(bodies: list[Body], up: int) -> tuple[tuple[Part, ...], tuple[AnnotatedJoint, ...], list[str]]:
+def parts_of_bodies(bodies: list[Body], up: int) -> BodyParts:
     """Returns the parts and joints of the bodies, and notes on what was decided.
 
     Args:
@@ -83,18 +100,20 @@ def parts_of_bodies(bodies: list[Body], up: int) -> tuple[tuple[Part, ...], tupl
         drafts += _moving(body, carrier, up) if body.link in movers else _static(body, carrier, bool(movers), notes)
     drafts = [d for d in drafts if any(not s.is_empty for v in d.visuals for s in v.surfaces)]
     ids = unique_ids((d.name, d.label is PartLabel.HANDLE) for d in drafts)
-    mover_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.motion}
+    mover_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.is_mover}
     body_of = {v.link: body.link for body in bodies for v in body.visuals}
     by_body = {body_of[link]: i for link, i in mover_ids.items()}
     parts = tuple(_part(d, i, by_body) for d, i in zip(drafts, ids, strict=True))
     joints = tuple(_joint(d.motion, i) for d, i in zip(drafts, ids, strict=True) if d.motion)
-    return parts, joints, notes
+    return BodyParts(parts, joints, bool(movers), notes)
 
 
 def _is_mover(body: Body, notes: list[str]) -> bool:
-    if body.motion is None or not body.visuals:
+    if not body.visuals or (body.motion is None and not body.is_loose):
         return False
     names = [body.name, *(v.name for v in body.visuals)]
+    if body.motion is None and _spoken_label(body, body.visuals) is PartLabel.UNKNOWN:
+        return False
     if all(is_control(n) or label_of(n) is PartLabel.HANDLE for n in names) or is_control(body.name):
         notes.append(f"{body.name} ({body.link}) is annotated to move, but is no door or drawer: kept in place")
         return False
@@ -115,24 +134,37 @@ def _carrier(body: Body, by_link: dict[str, Body], movers: set[str]) -> str | No
 def _moving(body: Body, carrier: str | None, up: int) -> list[_Draft]:
     handles = [v for v in body.visuals if label_of(v.name) is PartLabel.HANDLE]
     rest = tuple(v for v in body.visuals if v not in handles) or body.visuals
-    label = _mover_label(body, rest, up)
-    drafts = [_Draft(body.name, label, "annotation", rest, carrier, body.motion)]
+    label, labelled_by = _mover_label(body, rest, up)
+    drafts = [_Draft(body.name, label, labelled_by, rest, carrier, body.motion, is_mover=True)]
     if len(rest) + len(handles) == len(body.visuals):
         drafts += [_Draft(v.name, PartLabel.HANDLE, "name", (v,), body.link) for v in handles]
     return drafts
 
 
-def _mover_label(body: Body, rest: tuple[Visual, ...], up: int) -> PartLabel:
-    if body.motion is not None and body.motion.type is JointType.REVOLUTE:
-        return PartLabel.DOOR
-    spoken = Counter(label_of(name) for name in (body.name, *(v.name for v in rest)))
+def _mover_label(body: Body, rest: tuple[Visual, ...], up: int) -> tuple[PartLabel, str]:
+    """Returns whether a moving body is a door or a drawer, and what says so: its names, or else its joint."""
+    spoken = _spoken_label(body, rest)
+    stated = spoken if body.motion is None else _label_of_motion(spoken, rest, body.motion, up)
+    return stated, "name" if stated is spoken else "joint"
+
+
+def _spoken_label(body: Body, rest: tuple[Visual, ...]) -> PartLabel:
+    """Returns the label that most names of a body give, of door and drawer; `unknown` where none says either."""
+    names = (body.name, *(v.name for v in rest))
+    spoken = Counter(label_of(name) for name in names)
     if spoken[PartLabel.DOOR] or spoken[PartLabel.DRAWER]:
         return PartLabel.DOOR if spoken[PartLabel.DOOR] > spoken[PartLabel.DRAWER] else PartLabel.DRAWER
-    if {"slide", "sliding"} & {w for n in (body.name, *(v.name for v in rest)) for w in words(n)}:
+    sliding = {"slide", "sliding"} & {word for name in names for word in words(name)}
+    return PartLabel.DOOR if sliding else PartLabel.UNKNOWN
+
+
+def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: Motion, up: int) -> PartLabel:
+    """Returns what a body is by its joint: what turns is a door, whatever it is called; names tell slides apart."""
+    if motion.type is JointType.REVOLUTE:
         return PartLabel.DOOR
-    return (
-        PartLabel.DOOR if body.motion is not None and _slides_in_its_plane(rest, body.motion, up) else PartLabel.DRAWER
-    )
+    if spoken is not PartLabel.UNKNOWN:
+        return spoken
+    return PartLabel.DOOR if _slides_in_its_plane(rest, motion, up) else PartLabel.DRAWER
 
 
 def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: Motion, up: int) -> bool:

@@ -81,7 +81,7 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
         return _Choice(options.front, "stated by the user")
     convention = reading.convention
     stated = convention.front if convention.front is not None and convention.front[1] != up[1] else None
-    votes = front_votes(reading.parts, reading.joints, whole, up)
+    votes = front_votes(reading.parts, whole, up)
     usual = "+X" if reading.kind == "urdf" and up[1] != "X" else _USUAL_FRONT[up]
     front, why = decide_front(votes, stated, usual)
     reasons = {

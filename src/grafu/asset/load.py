@@ -54,7 +54,7 @@ def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
     kind, place = detect(path)
     reading = cleaned(READERS[kind](place, options))
     _check_parts(reading, path, options)
-    reading = reading if reading.joints else _joined(reading)
+    reading = reading if reading.grouped else _joined(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
     parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))

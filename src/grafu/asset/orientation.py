@@ -1,18 +1,20 @@
-"""Which way is up and where the front is, from labelled boxes and annotated joints. It applies no transform."""
+"""Which way is up and where the front is, from labelled boxes. It applies no transform and asks no joints."""
 
 import numpy as np
 
 from grafu.asset.options import DIRECTIONS
-from grafu.asset.part import AnnotatedJoint, Part
+from grafu.asset.part import Part
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.box import Box
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _LYING = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)
 _STANDING = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.DOOR, PartLabel.DIVIDER)
 
 # Movers smaller than this share of the object (a tap, a lever) do not tell where its front is.
 _TELLING = 0.2
+# Nor does a bulky part that ends farther inside than this share of the object's largest side.
+_REACHES = 0.05
 # Evidence overrules a convention only where it is nearly unanimous.
 _UNANIMOUS, _NEGLIGIBLE = 0.7, 0.1
 
@@ -50,21 +52,17 @@ def up_from_parts(parts: tuple[Part, ...], whole: Box) -> str | None:
     return spelled(axis, bool(sense[axis] >= 0))
 
 
-def front_votes(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], whole: Box, up: str) -> dict[str, float]:
+def front_votes(parts: tuple[Part, ...], whole: Box, up: str) -> dict[str, float]:
     """Returns how much speaks for each horizontal direction as the front.
 
-    Doors and drawers vote for the side that they face (drawers with a joint: that they open to), handles for the side
-    that they stick out of, back panels for the opposite side.
+    Doors and drawers vote for the side that they face, handles for the side that they stick out of, back panels for
+    the opposite side.
     """
     votes = {d: 0.0 for d in DIRECTIONS if d[1] != up[1]}
-    opens = {j.part: _opening(j) for j in joints if j.type is JointType.PRISMATIC}
     for part in parts:
         if part.label in (PartLabel.DOOR, PartLabel.DRAWER):
-            slides_sideways = part.label is PartLabel.DOOR and part.id in opens
-            if slides_sideways or part.box.size.max() < _TELLING * whole.size.max():
-                continue
-            facing = _along(opens[part.id], votes) if part.id in opens and part.label is PartLabel.DRAWER else None
-            _add(votes, facing or _side(part, whole, votes), 1.0)
+            if part.box.size.max() >= _TELLING * whole.size.max():
+                _add(votes, _side(part, whole, votes), 1.0)
         elif part.label is PartLabel.HANDLE:
             _add(votes, _nearest_side(part.box, whole, votes), 0.5)
         elif part.label is PartLabel.BACK_PANEL:
@@ -89,15 +87,6 @@ def _add(votes: dict[str, float], direction: str | None, weight: float) -> None:
         votes[direction] += weight
 
 
-def _opening(joint: AnnotatedJoint) -> Vec3:
-    return joint.axis.direction * (1.0 if abs(joint.upper) >= abs(joint.lower) else -1.0)
-
-
-def _along(direction: Vec3, votes: dict[str, float]) -> str | None:
-    best = max(votes, key=lambda d: float(vector(d) @ direction))
-    return best if vector(best) @ direction > 0.8 else None
-
-
 def _side(part: Part, whole: Box, votes: dict[str, float]) -> str | None:
     """Returns the side of the object that a part's thin axis faces, or for a bulky part the side nearest to it."""
     horizontal = sorted({"XYZ".index(d[1]) for d in votes})
@@ -110,11 +99,11 @@ def _side(part: Part, whole: Box, votes: dict[str, float]) -> str | None:
 
 
 def _nearest_side(box: Box, whole: Box, votes: dict[str, float]) -> str | None:
-    """Returns the side of the object whose face lies nearest to the part's, or None where two are equally near."""
+    """Returns the side of the object that a part reaches most nearly, or None where it reaches two or none."""
     gaps = {}
     for direction in votes:
         axis = "XYZ".index(direction[1])
         outward = whole.high[axis] - box.high[axis] if direction[0] == "+" else box.low[axis] - whole.low[axis]
         gaps[direction] = float(outward) / max(float(whole.size.max()), 1e-12)
     first, second = sorted(gaps.values())[:2]
-    return min(gaps, key=lambda d: gaps[d]) if second - first > 0.01 else None
+    return min(gaps, key=lambda d: gaps[d]) if second - first > 0.01 and first <= _REACHES else None

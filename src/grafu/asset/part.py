@@ -6,6 +6,7 @@ from typing import Literal, final
 
 import numpy as np
 
+from grafu.asset.labels import label_of
 from grafu.errors import AssetError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
@@ -32,7 +33,8 @@ class PartSource:
 class Part:
     """One part, its surfaces in the object frame (metres, Z up, front -Y).
 
-    `id` is unique and safe in URDF and USD. `labelled_by` says what the label rests on. `rides_on` is the id of the
+    `id` is unique and safe in URDF and USD. `labelled_by` says what the label rests on ("joint":
+    what the input says of its motion). `rides_on` is the id of the
     moving part that carries this one, where the input says so (a handle in a door's link, a knob on a drawer).
     """
 
@@ -40,7 +42,7 @@ class Part:
     label: PartLabel
     surfaces: tuple[Surface, ...]
     source: PartSource
-    labelled_by: Literal["name", "annotation", "user", "prediction", "none"] = "none"
+    labelled_by: Literal["name", "annotation", "joint", "user", "prediction", "none"] = "none"
     rides_on: str | None = None
 
     @cached_property
@@ -141,10 +143,20 @@ class Asset:
         return float(self.box.size.max())
 
     def without_annotation(self) -> "Asset":
-        """Returns the same parts without the joints and riders that the input stated."""
-        return replace(self, parts=tuple(replace(p, rides_on=None) for p in self.parts), joints=())
+        """Returns the same parts without the joints and riders that the input stated, and what joints alone labelled.
+
+        That a part is one part, and what it is called, is no annotation of its motion.
+        """
+        return replace(self, parts=tuple(_without_annotation(part) for part in self.parts), joints=())
 
     def with_labels(self, labels: dict[str, PartLabel]) -> "Asset":
         """Returns the same asset with some parts relabelled by the user or a prediction."""
         parts = tuple(replace(p, label=labels[p.id]) if p.id in labels else p for p in self.parts)
         return replace(self, parts=parts)
+
+
+def _without_annotation(part: Part) -> Part:
+    if part.labelled_by != "joint":
+        return replace(part, rides_on=None)
+    label = label_of(part.source.name)
+    return replace(part, rides_on=None, label=label, labelled_by="none" if label is PartLabel.UNKNOWN else "name")

@@ -42,10 +42,10 @@ def read_partnet_mobility(folder: Path, options: LoadOptions) -> Reading:
         bodies, notes = _bodies_from_json(folder, options)
     else:
         bodies, notes = _bodies_from_urdf(folder, options)
-    parts, joints, said = parts_of_bodies(bodies, up=1)
-    return Reading(
-        "partnet-mobility", parts, CONVENTION, joints, _furniture(folder, options), tuple(dict.fromkeys(notes + said))
-    )
+    made = parts_of_bodies(bodies, up=1)
+    said = tuple(dict.fromkeys(notes + made.notes))
+    furniture = _furniture(folder, options)
+    return Reading("partnet-mobility", made.parts, CONVENTION, made.joints, furniture, said, made.grouped)
 
 
 def _load_json(path: Path, options: LoadOptions) -> Any:
@@ -136,8 +136,9 @@ def _json_body(
             visuals.append(Visual(f"{part['name']}-{part['id']}", surfaces, name, _file(stems)))
     parent = f"link_{link['parent']}" if link["parent"] is not None and link["parent"] >= 0 else None
     motion = _json_motion(link)
-    label = f"{link['name']}_{link['id']}" if motion else link["name"]
-    return Body(label, name, tuple(visuals), motion, parent)
+    is_loose = parent is not None and "joint" not in link
+    label = f"{link['name']}_{link['id']}" if motion or is_loose else link["name"]
+    return Body(label, name, tuple(visuals), motion, parent, is_loose)
 
 
 def _file(stems: list[str]) -> str:
@@ -145,7 +146,7 @@ def _file(stems: list[str]) -> str:
 
 
 def _json_motion(link: dict[str, Any]) -> Motion | None:
-    joint = _TYPES.get(link["joint"])
+    joint = _TYPES.get(link.get("joint", ""))
     stated = link.get("jointData", {}).get("axis", {})
     direction = _numbers(stated.get("direction"))
     if joint is None or direction is None or not any(direction):

@@ -36,3 +36,4 @@ class Reading:
     joints: tuple[AnnotatedJoint, ...] = ()
     furniture: Furniture | None = None
     notes: tuple[str, ...] = ()
+    grouped: bool = False  # whether the input says which pieces make up what moves

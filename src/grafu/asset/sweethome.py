@@ -46,8 +46,11 @@ def read_sweethome(path: Path, found: MeshFile) -> Reading:
             notes.append(f"{pieces[0].name} names no {key[0]} group {key[1]}: kept in place")
         visuals = tuple(Visual(p.name, p.surfaces, pieces[0].name, path.name) for p in pieces)
         bodies.append(Body(pieces[0].name, pieces[0].name, visuals, motion))
-    parts, joints, said = parts_of_bodies(bodies, up=1)
-    return Reading("mesh file", parts, CONVENTION, joints, notes=tuple(dict.fromkeys(notes + said)))
+    made = parts_of_bodies(bodies, up=1)
+    notes = [*notes, *made.notes]
+    return Reading(
+        "mesh file", made.parts, CONVENTION, made.joints, notes=tuple(dict.fromkeys(notes)), grouped=made.grouped
+    )
 
 
 def _key(match: re.Match[str]) -> tuple[str, str]:

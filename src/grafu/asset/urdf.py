@@ -28,6 +28,7 @@ _MOVING = {
     "continuous": JointType.REVOLUTE,
     "prismatic": JointType.PRISMATIC,
 }
+_LOOSE = "floating"  # the link moves, the file does not say how
 
 
 @final
@@ -73,8 +74,9 @@ def read_urdf(path: Path, options: LoadOptions) -> Reading:
         UnreadableAsset: if the file is no URDF, its joints do not form a tree, or no shape could be read.
     """
     found = read_bodies(path, options)
-    parts, joints, said = parts_of_bodies(list(found.bodies), up=2)
-    return Reading("urdf", parts, CONVENTION, joints, notes=tuple(dict.fromkeys((*found.notes, *said))))
+    made = parts_of_bodies(list(found.bodies), up=2)
+    notes = tuple(dict.fromkeys((*found.notes, *made.notes)))
+    return Reading("urdf", made.parts, CONVENTION, made.joints, notes=notes, grouped=made.grouped)
 
 
 def read_bodies(path: Path, options: LoadOptions, mesh_frame: bool = False) -> UrdfBodies:
@@ -191,7 +193,7 @@ def _moves(joint: _JointElement) -> bool:
 
 def _head(tree: _Tree, link: str) -> str:
     """Returns the topmost link that this one is rigidly fixed to."""
-    while link in tree.above and not _moves(tree.above[link]):
+    while link in tree.above and not _moves(tree.above[link]) and tree.above[link].kind != _LOOSE:
         link = tree.above[link].parent
     return link
 
@@ -225,11 +227,14 @@ def _body(tree: _Tree, head: str, visuals: tuple[Visual, ...], T_base_root: Mat4
     joint = tree.above.get(head)
     if joint is None:
         return Body(head, visuals[0].link if visuals else head, visuals)
-    parent = _head(tree, joint.parent)
+    above = _head(tree, joint.parent)
+    parent = above if above in tree.above else None
+    if joint.kind == _LOOSE:
+        return Body(head, head, visuals, parent=parent, is_loose=True)
     T = T_base_root @ tree.T_root_link[head]
     axis = Axis(T[:3, 3], T[:3, :3] @ np.array(joint.axis))
     motion = Motion(_MOVING[joint.kind], axis, joint.lower, joint.upper, joint.limited)
-    return Body(head, head, visuals, motion, parent if parent in tree.above else None)
+    return Body(head, head, visuals, motion, parent)
 
 
 def _materials(robot: Any) -> dict[str, Any]:
@@ -237,8 +242,10 @@ def _materials(robot: Any) -> dict[str, Any]:
 
 
 def _kind_notes(tree: _Tree) -> list[str]:
-    odd = [j for j in tree.above.values() if j.kind not in _MOVING and j.kind != "fixed"]
+    loose = [j for j in tree.above.values() if j.kind == _LOOSE]
+    odd = [j for j in tree.above.values() if j.kind not in _MOVING and j.kind not in ("fixed", _LOOSE)]
     zero = [j for j in tree.above.values() if j.kind in _MOVING and not any(j.axis)]
     extra = [f"link {name} hangs on no joint and is kept in place" for name in tree.roots[1:]]
     said = [f"joint {j.name} is {j.kind}, which is not built: {j.child} is kept in place" for j in odd]
+    said += [f"joint {j.name} is {j.kind}: how {j.child} moves is not said" for j in loose]
     return said + [f"joint {j.name} has a zero axis: {j.child} is kept in place" for j in zero] + extra

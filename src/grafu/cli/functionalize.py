@@ -40,8 +40,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         choices=tuple(MotionSource),
         default=MotionSource.AUTO,
         metavar="SOURCE",
-        help="where motions come from: annotation (the input's own joints), network (trained, reads no annotation), "
-        "rule (labels, boxes and handles), or auto: the first of these that can answer (default: auto)",
+        help="where motions come from: network (trained), rule (labels, boxes and handles), auto (the network, or the "
+        "rule without weights), or annotation: the input's own joints, which the others do not read (default: auto)",
     )
     parser.add_argument(
         "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"

@@ -77,7 +77,7 @@ MOTIONS: dict[MotionSource, Motion] = {
     MotionSource.NETWORK: Motion(
         complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
     ),
-    MotionSource.RULE: Motion(lambda _, graph: complete_by_rule(graph), _plan_completion),
+    MotionSource.RULE: Motion(lambda _, graph: complete_by_rule(graph), _plan_completion, reads_annotation=False),
 }
 
 

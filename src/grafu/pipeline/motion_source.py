@@ -8,11 +8,10 @@ class MotionSource(StrEnum):
 
     AUTO = "auto"  # the first of `AUTO_ORDER` that can answer
     ANNOTATION = "annotation"  # the joints that the input states
-    NETWORK = "network"  # the trained network; it reads no annotation
+    NETWORK = "network"  # the trained network
     RULE = "rule"  # carpenters' rules on labels, boxes and handles
 
 
-AUTO_ORDER = (MotionSource.ANNOTATION, MotionSource.NETWORK, MotionSource.RULE)
-"""What `auto` tries: the annotation where the input has one, the network where its weights came with the package.
-
-Without the first it reads no annotation: this line is the one place that decides it."""
+AUTO_ORDER = (MotionSource.NETWORK, MotionSource.RULE)
+"""What `auto` tries: the network, where its weights came with the package. Neither reads an annotation, so that an input
+gives the same with its joints and without."""
