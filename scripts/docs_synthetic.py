@@ -11,7 +11,8 @@ from grafu.data.corruption.strategies import STRATEGIES, probabilities
 from grafu.synth import carpentry, cutting, habits, naming, style
 from grafu.synth.families.table import FAMILIES
 from grafu.synth.habits import HABITS
-from grafu.synth.traditions import TRADITIONS, Tradition
+from grafu.synth.tradition import Tradition
+from grafu.synth.traditions import TRADITIONS
 
 SYNTH = "../src/grafu/synth"
 HEAD = """\

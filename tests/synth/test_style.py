@@ -3,8 +3,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from grafu.synth.assortment import mixed
 from grafu.synth.style import LIGHT, LIGHT_FRONT, chunky, draw_style, pushed
-from grafu.synth.traditions import TRADITIONS, mixed
+from grafu.synth.traditions import TRADITIONS
 
 
 def styles(name, draws=300):

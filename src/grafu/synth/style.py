@@ -11,13 +11,15 @@ from typing import Literal, final
 
 import numpy as np
 
+from grafu.synth.assortment import KNOBS
 from grafu.synth.chance import Span, between, chance, only, pick, spread
 from grafu.synth.finish import Finish
 from grafu.synth.finishes import draw_finish
 from grafu.synth.hold import Grip, HandleStyle
 from grafu.synth.layout import CURVED, Between, DrawerBox, LeafStyle
 from grafu.synth.setting import Mount
-from grafu.synth.traditions import KNOBS, TRADITIONS, Tradition, TraditionName
+from grafu.synth.tradition import Tradition, TraditionName
+from grafu.synth.traditions import TRADITIONS
 
 Carry = Literal["reach", "middle", "corner", "top line", "middle line"]
 

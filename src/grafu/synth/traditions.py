@@ -1,107 +1,28 @@
 """Ways of building furniture: for each, tables of what its makers choose. It draws nothing itself.
 
-The tables state weights. Where they come from is said beside them: trade sizes, what is sold, and the habits seen in
-the real development models. A tradition correlates the choices, for a shaker leaf on a hairpin leg is rare.
+The tables state weights: what is sold, and the habits seen in the real development models. A tradition correlates the
+choices, for a shaker leaf on a hairpin leg is rare.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Literal, final
-
-from grafu.synth.chance import Span
-from grafu.synth.construction import BaseKind, TopKind
-from grafu.synth.hold import HandleStyle
-from grafu.synth.layout import Between, DrawerBox, LeafStyle
-from grafu.synth.legs import LegShape
-from grafu.synth.setting import Mount
-
-TraditionName = Literal[
-    "frameless", "face frame", "shaker", "mid-century", "office", "minimal", "ornate", "flat-pack", "appliance"
-]
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Tradition:
-    """What the makers of one tradition choose: tables of weights, spans in metres, shares from 0 to 1.
-
-    `leaf` is a piece's door style, and the share `plain_drawers` of pieces has slab drawer fronts beside it. `bare`
-    is the share drawn with the fewest parts that still make a piece (46408 has 8, 49182 has 10), `framed` that with a
-    face frame, `moulded` with a moulding. `opening` is how far doors swing, degrees.
-    """
-
-    panel: Mapping[float, float]
-    front: Mapping[float, float]
-    back: Mapping[float, float]
-    mount: Mapping[Mount, float]
-    gap: Span
-    leaf: Mapping[LeafStyle, float]
-    handle: Mapping[HandleStyle, float]
-    box: Mapping[DrawerBox, float]
-    between: Mapping[Between, float]
-    base: Mapping[BaseKind, float]
-    leg: Mapping[LegShape, float]
-    top: Mapping[TopKind, float]
-    bare: float = 0.22
-    plain_drawers: float = 0.3
-    framed: float = 0.0
-    moulded: float = 0.0
-    muntin: float = 0.1
-    overhang: Span = (0.0, 0.03)
-    opening: Span = (90.0, 120.0)
-
-
-# Melamine board is sold in 15, 16, 18, 19 and 22 mm, plywood in 9, 12, 18; solid wood in 20 and 22. The bare models of
-# modelling sites round them (20, 25) or exaggerate them (30 to 50).
-MELAMINE = {0.01: 1.0, 0.012: 1.5, 0.013: 1.0, 0.015: 1.0, 0.016: 4.0, 0.018: 5.0, 0.019: 3.0, 0.022: 0.7}
-PLYWOOD = {0.009: 3.5, 0.012: 4.0, 0.016: 2.0, 0.019: 3.0}
-SOLID = {0.018: 2.0, 0.02: 4.0, 0.022: 3.0, 0.025: 2.0, 0.03: 0.7, 0.035: 0.5}
-ROUNDED = {0.01: 1.0, 0.015: 1.5, 0.018: 3.0, 0.02: 4.0, 0.025: 2.0, 0.03: 1.5, 0.04: 1.0, 0.05: 0.7}
-
-# Backs are hardboard of 3 to 5 mm, thin plywood, or a board like the case (solid furniture, 49182: 35 mm).
-THIN_BACK = {0.003: 3.0, 0.004: 3.0, 0.006: 2.0, 0.009: 1.5, 0.018: 0.5}
-ANY_BACK = {0.003: 2.0, 0.006: 2.0, 0.01: 1.5, 0.018: 2.0, 0.025: 0.7}
-
-# Modelled drawers: two in three are whole boxes, the others were simplified in one way or another.
-BOXES: dict[DrawerBox, float] = {
-    "whole": 6.0,
-    "no bottom": 0.8,
-    "shell": 1.0,
-    "front only": 1.2,
-    "floating": 1.0,
-    "four walls": 1.0,
-}
-CRUDE_BOXES: dict[DrawerBox, float] = {"whole": 4.0, "no bottom": 0.5, "shell": 2.0, "front only": 3.5}
-
-# Real handles: thin bars on modern kitchens, arched bars and cups on framed ones, knobs and bails on old furniture.
-# About one front in ten has none: it is pushed, or held by a grip or its edge.
-Handles = Mapping[HandleStyle, float]
-BARS: Handles = {
-    "bar-round": 3.0, "bar-square": 2.0, "bar-slim": 3.0, "bar-tee": 3.0, "bar-strip": 1.0, "bar-profile": 1.0
-}  # fmt: skip
-CLASSIC_BARS: Handles = {"bar-arched": 4.0, "bar-round": 2.0, "bar-tee": 1.0, "bar-square": 1.0}
-CUPS: Handles = {"cup-shell": 3.0, "cup-square": 1.0, "cup-slim": 1.0}
-KNOBS: Handles = {
-    "knob-round": 4.0,
-    "knob-flat": 2.0,
-    "knob-mushroom": 2.0,
-    "knob-square": 1.0,
-    "knob-cone": 1.0,
-    "knob-turned": 1.0,
-}
-OLD_KNOBS: Handles = {"knob-round": 3.0, "knob-turned": 3.0, "knob-mushroom": 2.0, "knob-flat": 1.0}
-DROPS: Handles = {"bail": 3.0, "ring": 2.0, "bar-arched": 1.0}
-NONE: Handles = {"none": 1.0}
-
-
-def mixed(*shares: tuple[float, Handles]) -> dict[HandleStyle, float]:
-    """Returns one table in which each of the given tables has its share."""
-    table: dict[HandleStyle, float] = {}
-    for share, handles in shares:
-        for handle, weight in handles.items():
-            table[handle] = table.get(handle, 0.0) + share * weight / sum(handles.values())
-    return table
-
+from grafu.synth.assortment import (
+    ANY_BACK,
+    BARS,
+    BOXES,
+    CLASSIC_BARS,
+    CRUDE_BOXES,
+    CUPS,
+    DROPS,
+    KNOBS,
+    MELAMINE,
+    NONE,
+    OLD_KNOBS,
+    PLYWOOD,
+    ROUNDED,
+    SOLID,
+    THIN_BACK,
+    mixed,
+)
+from grafu.synth.tradition import Tradition, TraditionName
 
 TRADITIONS: dict[TraditionName, Tradition] = {
     "frameless": Tradition(
@@ -118,8 +39,6 @@ TRADITIONS: dict[TraditionName, Tradition] = {
         base={"plinth": 0.3, "toe kick": 0.35, "legs": 0.15, "none": 0.2},
         leg={"round": 3.0, "pad": 1.0, "square": 1.0},
         top={"between": 0.5, "over": 0.28, "none": 0.07, "stretchers": 0.15},
-        muntin=0.02,
-        overhang=(0.0, 0.03),
     ),
     "face frame": Tradition(
         panel=PLYWOOD,
@@ -205,7 +124,6 @@ TRADITIONS: dict[TraditionName, Tradition] = {
         base={"plinth": 0.3, "none": 0.35, "legs": 0.25, "sled": 0.1},
         leg={"caster": 4.0, "round": 2.0, "pad": 2.0, "square": 1.0},
         top={"over": 0.65, "between": 0.35},
-        muntin=0.02,
         overhang=(0.0, 0.01),
     ),
     "minimal": Tradition(
@@ -222,7 +140,6 @@ TRADITIONS: dict[TraditionName, Tradition] = {
         base={"none": 0.45, "plinth": 0.2, "legs": 0.25, "sled": 0.05, "posts": 0.05},
         leg={"square": 4.0, "round": 3.0, "block": 2.0, "cone": 1.0, "splayed": 1.0, "hairpin": 1.0},
         top={"between": 0.6, "over": 0.4},
-        muntin=0.02,
         overhang=(0.0, 0.02),
     ),
     "ornate": Tradition(

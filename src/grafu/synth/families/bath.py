@@ -14,7 +14,7 @@ from grafu.synth.families.built import cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_stack
 from grafu.synth.layout import Layout
 from grafu.synth.style import draw_style
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 BATH: Mapping[TraditionName, float] = {"frameless": 0.62, "minimal": 0.15, "flat-pack": 0.15, "shaker": 0.08}
 HUNG = Build(

@@ -16,7 +16,7 @@ from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, 
 from grafu.synth.inside import Inside
 from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
 from grafu.synth.style import chunky, draw_style, pushed
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 BEDROOM: Mapping[TraditionName, float] = {
     "shaker": 0.24, "mid-century": 0.18, "flat-pack": 0.22, "minimal": 0.18, "ornate": 0.14, "frameless": 0.04

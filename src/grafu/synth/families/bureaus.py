@@ -13,7 +13,7 @@ from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
 from grafu.synth.layout import Door, Layout, Pair, Rect
 from grafu.synth.style import draw_style
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 HOME: Mapping[TraditionName, float] = {"ornate": 0.35, "shaker": 0.35, "mid-century": 0.3}
 STAND = Site(hand=0.9)

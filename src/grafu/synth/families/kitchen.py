@@ -17,7 +17,7 @@ from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_siz
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
 from grafu.synth.layout import Bay, Blank, Door, Layout, Pair, Row, Stack
 from grafu.synth.style import Style, chunky, draw_style, pushed
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 KITCHEN: Mapping[TraditionName, float] = {
     "frameless": 0.42,

@@ -13,7 +13,7 @@ from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
 from grafu.synth.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
 from grafu.synth.style import draw_style
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 LIVING: Mapping[TraditionName, float] = {
     "shaker": 0.22, "mid-century": 0.26, "minimal": 0.2, "ornate": 0.14, "flat-pack": 0.14, "frameless": 0.04

@@ -12,7 +12,7 @@ from grafu.synth.chance import between, chance, count, pick
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.layout import Blank, Door, Drawer, Layout, Pair, Stack
 from grafu.synth.style import draw_style, pushed
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 OFFICE: Mapping[TraditionName, float] = {"office": 0.5, "minimal": 0.2, "flat-pack": 0.2, "shaker": 0.1}
 STAND = Site(hand=0.9)

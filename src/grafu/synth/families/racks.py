@@ -15,7 +15,7 @@ from grafu.synth.families.layouts import drawer_stack
 from grafu.synth.layout import Bay, Door, Layout, Stack
 from grafu.synth.rack import Rack
 from grafu.synth.style import Style, draw_style
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 RACKS: Mapping[TraditionName, float] = {"minimal": 0.6, "flat-pack": 0.4}
 PLAIN = Build(

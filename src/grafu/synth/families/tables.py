@@ -17,7 +17,7 @@ from grafu.synth.layout import Bay, Between, Door, Drawer, Layout, Rect, Row, St
 from grafu.synth.legs import Leg, LegShape
 from grafu.synth.style import Style, draw_style, pushed
 from grafu.synth.table import Table
-from grafu.synth.traditions import TraditionName
+from grafu.synth.tradition import TraditionName
 
 HOME: Mapping[TraditionName, float] = {
     "shaker": 0.3, "mid-century": 0.22, "ornate": 0.2, "minimal": 0.18, "flat-pack": 0.1
