@@ -22,7 +22,7 @@ from grafu.realization.plan import JointRequest
 from grafu.realization.rail.place import place_rails
 from grafu.realization.rail.search import DrawerSearch, drawer_search
 from grafu.realization.report import Clearance, Skipped, SkipReason
-from grafu.realization.scene import Scene
+from grafu.realization.scene import Scene, Way
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
@@ -129,5 +129,6 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
 
 def _built(request: JointRequest, found: _Found, wanted: float) -> Built:
     placement, scene, clearances = found
-    with_hardware = scene.with_hardware(request.moving, placement.dynamic, placement.static)
-    return Built(request, placement, with_hardware, clearances, wanted)
+    way = Way(placement.axis, request.type, placement.upper)
+    with_joint = scene.with_joint(request.moving, way, placement.dynamic, placement.static)
+    return Built(request, placement, with_joint, clearances, wanted)

@@ -15,7 +15,8 @@ from grafu.vocabulary import MechanismClass
 class Placement:
     """The hardware of one joint in the object frame at rest: rectified axis, opening (radians or metres), both ends.
 
-    `in_way` names the movers that the part meets at rest on its way.
+    `in_way` names the movers that the part meets at rest on its way, `struck_by` those that run into the hardware on
+    theirs; `notes` say what was left out for their sake.
     """
 
     axis: Axis
@@ -27,6 +28,8 @@ class Placement:
     dynamic: tuple[Visual, ...]
     static: tuple[Visual, ...]
     in_way: tuple[str, ...]
+    struck_by: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def nearest_part(hardware: Visual, scene: Scene, mounts: tuple[str, ...]) -> str:

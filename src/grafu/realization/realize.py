@@ -20,6 +20,7 @@ from grafu.realization.build import Built, build_joint
 from grafu.realization.clearance.make import adopt
 from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
+from grafu.realization.expectation import expected_ways
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
 from grafu.realization.order import Moving, Order, order_joints
@@ -32,6 +33,9 @@ from grafu.vocabulary import JointType
 _GAP_POSES = 5  # hardware slides or turns along itself: a gap, where there is one, opens steadily
 _TOUCHING = 1e-4
 _MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
+
+
+_Outcomes = tuple[list[Built], list[Skipped], Scene]
 
 
 @final
@@ -50,20 +54,45 @@ def realize(
     started = perf_counter()
     requests = _in_order(plan.joints)
     scene, closed = _closed_scene(asset, requests, config)
-    built: list[Built] = []
-    skipped = [Skipped(r.part, SkipReason.NO_MOTION, r.why) for r in plan.refused]
-    for request in requests:
-        outcome = build_joint(request, scene, gallery, config)
-        if isinstance(outcome, Skipped):
-            skipped.append(outcome)
-            continue
-        scene = outcome.scene
-        built.append(outcome)
+    built, failed, scene = _build_fairly(requests, scene, gallery, config)
+    skipped = [*(Skipped(r.part, SkipReason.NO_MOTION, r.why) for r in plan.refused), *failed]
     orders = order_joints([_moving(b) for b in built], scene, config)
     installed = [_installed(b, orders[b.request.moving], scene, closed, config) for b in built]
     articulated = _assembled(asset, scene, built, orders)
     timings = (("realize", perf_counter() - started),)
     return Realized(articulated, RealizationReport((*installed, *skipped), timings))
+
+
+def _build_fairly(requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig) -> _Outcomes:
+    """Returns what came of all requests, each joint keeping out of the expected ways of those built after it.
+
+    Doors for which that left no place are given the way that was asked for, and all is built again; the first try
+    stands unless the second builds more.
+    """
+    ways = expected_ways(requests, scene, config)
+    first = _build_all(requests, replace(scene, ways=ways), gallery, config)
+    left = {skip.request for skip in first[1]}
+    asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
+    if not asked or not first[0]:
+        return first
+    wider = {r.moving: replace(ways[r.moving], axis=r.axis) for r in asked}
+    second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config)
+    return second if len(second[1]) < len(first[1]) else first
+
+
+def _build_all(requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig) -> _Outcomes:
+    """Returns the joints built, those that were not, and the scene with all hardware."""
+    built: list[Built] = []
+    skipped: list[Skipped] = []
+    for request in requests:
+        outcome = build_joint(request, scene, gallery, config)
+        if isinstance(outcome, Skipped):
+            skipped.append(outcome)
+            scene = replace(scene, ways={name: way for name, way in scene.ways.items() if name != request.moving})
+            continue
+        scene = outcome.scene
+        built.append(outcome)
+    return built, skipped, scene
 
 
 def _in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
@@ -132,6 +161,7 @@ def _installed(
         largest_gap=gap,
         after=waits,
         clearances=(*closed.get(request.moving, ()), *built.clearances),
+        notes=placement.notes,
     )
 
 

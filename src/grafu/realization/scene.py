@@ -14,9 +14,11 @@ import numpy as np
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.vocabulary import JointType
 
 
 @final
@@ -26,6 +28,20 @@ class Mover:
 
     id: str
     members: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Way:
+    """How a mover moves: about or along `axis`, from rest to `upper` (radians or metres).
+
+    `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built.
+    """
+
+    axis: Axis
+    type: JointType
+    upper: float
+    is_built: bool = True
 
 
 @final
@@ -40,12 +56,17 @@ class Obstacle:
 @final
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """All parts in their rest pose. `hardware` holds installed visuals by the id of the mover, or "" for static."""
+    """All parts in their rest pose.
+
+    `hardware` holds installed visuals by the id of the mover, or "" for static; `ways` holds what is known of the
+    movers' motions.
+    """
 
     parts: Mapping[str, Part]
     movers: Mapping[str, Mover]
     unit: float
     hardware: tuple[tuple[str, Visual], ...] = ()
+    ways: Mapping[str, Way] = field(default_factory=dict)
     _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
         default_factory=dict, repr=False
     )
@@ -79,6 +100,12 @@ class Scene:
             self._merged[key] = (meshes, merge_meshes(meshes))
         return self._merged[key][1]
 
+    def equipped_mesh(self, mover_id: str) -> TriangleMesh:
+        """Returns the mover with all that rides on it and the hardware that it carries so far, as one mesh."""
+        hardware = [visual.mesh for visual in self.hardware_of(mover_id)]
+        bare = self.moving_mesh(mover_id)
+        return merge_meshes([bare, *hardware]) if hardware else bare
+
     def moving_body(self, mover_id: str, depth: float, axes: Mat3) -> MovingBody:
         """Returns the mover as a body that tells a touch from a penetration deeper than `depth` metres."""
         mesh = self.moving_mesh(mover_id)
@@ -88,9 +115,9 @@ class Scene:
         return self._bodies[key][1]
 
     def other_movers(self, mover_id: str) -> tuple[Obstacle, ...]:
-        """Returns the other movers as obstacles, at rest, without hardware."""
+        """Returns the other movers as obstacles, at rest, with the hardware that they carry."""
         others = (other for other in self.movers if other != mover_id)
-        return tuple(Obstacle(other, MeshCollider(self.moving_mesh(other))) for other in others)
+        return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
 
     def distance_to_static(self, mesh: TriangleMesh, enough: float) -> float:
         """Returns the distance of a mesh from the static parts; anything up to `enough` counts as found."""
@@ -112,10 +139,10 @@ class Scene:
         """Returns the scene with some parts in a new shape."""
         return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
 
-    def with_hardware(self, mover_id: str, dynamic: Iterable[Visual], static: Iterable[Visual]) -> "Scene":
-        """Returns the scene with hardware added to a mover and to the static body."""
+    def with_joint(self, mover_id: str, way: Way, dynamic: Iterable[Visual], static: Iterable[Visual]) -> "Scene":
+        """Returns the scene with a mover's way, and hardware added to it and to the static body."""
         added = [(mover_id, v) for v in dynamic] + [("", v) for v in static]
-        return replace(self, hardware=(*self.hardware, *added))
+        return replace(self, hardware=(*self.hardware, *added), ways={**self.ways, mover_id: way})
 
     def static_mesh_near(self, box: Box, margin: float) -> TriangleMesh:
         """Returns the static triangles whose own boxes come within `margin` of a box."""

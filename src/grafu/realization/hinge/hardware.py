@@ -1,4 +1,7 @@
-"""Is a fitted hinge in anything's way, and does it hold on to both of its parts. It chooses nothing."""
+"""Is a fitted hinge in anything's way, and does it hold on to both of its parts. It chooses nothing.
+
+What cuts into parts is no hinge at all; one that another door or drawer would run into is returned with their names.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -14,6 +17,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.realization.hinge.fit import FittedHinge
+from grafu.realization.hinge.neighbours import Neighbour
 from grafu.realization.limits import Motion, in_the_way, is_free, swept_box
 from grafu.realization.scene import Obstacle, Scene
 from grafu.realization.support_block import METAL, Footing, block, shortest_bridge
@@ -35,7 +39,7 @@ class Site:
     scene: Scene
     static_rays: RayCaster
     obstacles: tuple[Obstacle, ...]
-    neighbours: tuple[Obstacle, ...]
+    neighbours: tuple[Neighbour, ...]
     motion: Motion
     upper: float
     depth: float
@@ -46,10 +50,14 @@ class Site:
 @final
 @dataclass(frozen=True)
 class InstalledHinge:
-    """One hinge with its support blocks, found to hold on both sides and to be in nothing's way."""
+    """One hinge with its support blocks, found to hold on both sides and to cut into no part.
+
+    `struck_by` names the other movers that would run into it on their way.
+    """
 
     static: tuple[Visual, ...]
     dynamic: tuple[Visual, ...]
+    struck_by: tuple[str, ...] = ()
 
 
 def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge | None:
@@ -57,13 +65,21 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
     static, dynamic = _anchored_static(hinge, pin, site), _anchored_dynamic(hinge, site)
     if static is None or dynamic is None:
         return None
-    installed = InstalledHinge(static, dynamic)
-    return installed if is_out_of_the_way(installed, site) else None
+    return judged_hinge(InstalledHinge(static, dynamic), site)
 
 
-def is_out_of_the_way(hinge: InstalledHinge, site: Site) -> bool:
-    """Whether neither end cuts into the other side's parts anywhere, nor into other movers at rest."""
-    return not (_static_in_the_way(hinge.static, site) or _dynamic_in_the_way(hinge.dynamic, site))
+def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
+    """Returns the hinge with who would run into it; None where an end cuts into the other side or a mover at rest."""
+    if _static_in_the_way(hinge.static, site) or _dynamic_in_the_way(hinge.dynamic, site):
+        return None
+    static, dynamic = (merge_meshes([v.mesh for v in end]) for end in (hinge.static, hinge.dynamic))
+    struck_by = [n.id for n in site.neighbours if n.runs_into(static) or _strikes_closed(n, dynamic, site)]
+    return replace(hinge, struck_by=tuple(struck_by))
+
+
+def _strikes_closed(neighbour: Neighbour, dynamic: TriangleMesh, site: Site) -> bool:
+    """Whether a neighbour runs into the moving end while the door is closed, though not into the door itself."""
+    return neighbour.runs_into(dynamic) and not neighbour.runs_into(site.door)
 
 
 def _static_in_the_way(static: tuple[Visual, ...], site: Site) -> bool:
@@ -73,7 +89,8 @@ def _static_in_the_way(static: tuple[Visual, ...], site: Site) -> bool:
         return True
     body = MovingBody(merge_meshes([v.mesh for v in static]), site.depth)
     body.place(np.eye(4))
-    return any(body.penetrates(o.collider) for o in (*site.neighbours, *site.scene.static_hardware))
+    others = (*(n.at_rest for n in site.neighbours), *(o.collider for o in site.scene.static_hardware))
+    return any(body.penetrates(other) for other in others)
 
 
 def _dynamic_in_the_way(dynamic: tuple[Visual, ...], site: Site) -> bool:
@@ -84,7 +101,7 @@ def _dynamic_in_the_way(dynamic: tuple[Visual, ...], site: Site) -> bool:
     if not is_free(body, site.motion, site.upper, near, _POSES):
         return True
     body.place(np.eye(4))
-    return any(body.penetrates(o.collider) for o in site.neighbours)
+    return any(body.penetrates(n.at_rest) for n in site.neighbours)
 
 
 def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:

@@ -1,7 +1,8 @@
 """Pivots: two discs face to face at an end of a door, one on the door, one on what stands above or below it.
 
-They carry whatever turns about an axis through itself (a tap, a revolving shelf), and inset doors whose seams leave no
-room for leaves. Discs grow from the part that they belong to; where part and body are apart they become posts.
+They carry whatever turns about an axis through itself (a tap, a revolving shelf), and doors whose seams leave no room
+for leaves. Discs grow from the part that they belong to; where part and body are apart they become posts. Beside the
+end of an overlay door, where nothing stands, the static disc sits on a plate that reaches back to the case.
 """
 
 from collections.abc import Iterator
@@ -16,22 +17,30 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.candidates import PinCandidate
-from grafu.realization.support_block import METAL
+from grafu.realization.support_block import METAL, Footing, block
 from grafu.vocabulary import PartLabel
 
 _SEGMENTS = 24
 _LET_IN = 0.0015  # how deep a disc is let into its own part, metres
+_PLATE = 0.002  # thickness of a plate beside a door's end, metres
+_PLATE_PLAY = 0.001  # between the door's end and the plate
+_PLATE_REACH = 0.025  # how far behind the door's back it reaches, and how far inwards the case may stand there
+
+
+PivotEnd = tuple[tuple[Visual, ...], tuple[Visual, ...]]
 
 
 def pivot_ends(
     frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, reach: float
-) -> list[tuple[Visual, Visual]]:
+) -> list[PivotEnd]:
     """Returns (static, dynamic) discs at each end of the pin where the door and, within `reach`, the body are met."""
-    found = []
+    found: list[PivotEnd] = []
     casters = RayCaster(door), RayCaster(static)
     for sign in (1.0, -1.0):
         met = _met_by_rays(frame, pin, casters, sign, reach) or _met_by_corners(frame, pin, (door, static), sign, reach)
         if met is None:
+            plated = _plated_end(frame, pin, casters, sign)
+            found += [plated] if plated else []
             continue
         on_door, on_body, radius = met
         gap = sign * (on_body - on_door)
@@ -39,8 +48,47 @@ def pivot_ends(
         wide = replace(pin, radius=radius)
         static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * _LET_IN)
         dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * _LET_IN, middle)
-        found.append((_visual("hinge_static", static_disc), _visual("hinge_dynamic", dynamic_disc)))
+        found.append(((_visual("hinge_static", static_disc),), (_visual("hinge_dynamic", dynamic_disc),)))
     return found
+
+
+def _plated_end(
+    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float
+) -> PivotEnd | None:
+    """Returns the discs beside an end of a door where the body has nothing, the static one on a plate.
+
+    The plate lies beside the door's end and reaches back along it; a block joins it to what stands behind the door.
+    """
+    door, static = casters
+    start = np.array([[x, y, sign * (frame.length / 2 + 0.01)] for x, y in _ring(pin)])
+    to_door = robust_median(door.along(frame.to_object(start), frame.direction(0.0, 0.0, -sign)), 0.02, 0.6)
+    if not np.isfinite(to_door):
+        return None
+    on_door = frame.length / 2 + 0.01 - to_door
+    inner, outer = on_door + _PLATE_PLAY, on_door + _PLATE_PLAY + _PLATE
+    back = -frame.thickness - _PLATE_REACH
+    middle = sign * (on_door + _PLATE_PLAY / 2)
+    plate = Footing(
+        frame.to_object(vec3(pin.x, (pin.y + pin.radius + back) / 2, sign * inner)[None])[0],
+        frame.direction(0.0, 0.0, sign),
+        frame.direction(pin.radius, 0.0, 0.0),
+        frame.direction(0.0, (pin.y + pin.radius - back) / 2, 0.0),
+    )
+    foot = Footing(
+        frame.to_object(vec3(pin.x, back + 0.4 * _PLATE_REACH, sign * inner)[None])[0],
+        frame.direction(0.0, 0.0, -sign),
+        frame.direction(0.9 * pin.radius, 0.0, 0.0),
+        frame.direction(0.0, 0.36 * _PLATE_REACH, 0.0),
+    )
+    gap = foot.gap(static, _PLATE_REACH)
+    if not np.isfinite(gap):
+        return None
+    still = (
+        _visual("hinge_static", _disc(frame, pin, middle, sign * outer)),
+        block("hinge_plate", plate, _PLATE, METAL),
+        block("support_hinge", foot, gap, METAL),
+    )
+    return still, (_visual("hinge_dynamic", _disc(frame, pin, sign * (on_door - _LET_IN), middle)),)
 
 
 def _met_by_rays(

@@ -1,15 +1,18 @@
 """Places the hinges of one door: a search over pins, classes and templates, judged by sweeping real meshes.
 
 The best by (free through the wanted opening, out of its neighbours' way, class preference C > F > P, nearness to the
-initial axis) is taken, and its pin becomes the rectified axis.
+initial axis) is taken, and its pin becomes the rectified axis. Hardware that another mover would run into on its way is
+left out as long as something else holds the door; the placement notes it.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from grafu.articulation.articulated_object import Visual
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.realization.hinge.fit import fit_hinge, hinge_count, hinge_heights, hinge_size
-from grafu.realization.hinge.hardware import InstalledHinge, Site, install, is_out_of_the_way
+from grafu.realization.hinge.hardware import InstalledHinge, Site, install, judged_hinge
 from grafu.realization.hinge.pivot import pivot_ends
 from grafu.realization.hinge.search import DoorSearch, JudgedPin
 from grafu.realization.limits import in_the_way, motion_about
@@ -21,24 +24,52 @@ _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -
 _LEAST_SHARE = 0.3  # an opening below this share of the wanted one is no motion
 PIVOT = "pivot"
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
+_STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
 
 def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
-    """Returns the best placement that works; None where no pin can be given hardware."""
+    """Returns the best placement that works; None where no pin can be given hardware.
+
+    Where others would run into every placement, it is the first of those that spare the joints that stand already.
+    """
+    struck: list[Placement] = []
+    for placement in _placements(search, gallery):
+        if not placement.struck_by and (not struck or placement.upper >= search.config.restricted * search.wanted):
+            return _noted(placement, struck)
+        struck.append(placement)
+    if not struck:
+        return None
+    ways = search.scene.ways
+    least = min(struck, key=lambda p: sum(ways[name].is_built for name in p.struck_by))
+    hit = [name for name in least.struck_by if ways[name].is_built]
+    noted = _noted(least, [p for p in struck if p.template != least.template])
+    return replace(noted, notes=(*noted.notes, *(f"{name} runs into its hardware" for name in hit)))
+
+
+def _noted(placement: Placement, left_out: Sequence[Placement]) -> Placement:
+    """Returns the placement with notes on what was left out because others would run into it."""
+    templates: dict[tuple[str, ...], list[str]] = {}
+    for other in left_out:
+        name = f"{other.template} at another pin" if other.template == placement.template else other.template
+        if other.struck_by and name not in templates.setdefault(other.struck_by, []):
+            templates[other.struck_by].append(name)
+    notes = [f"{' or '.join(which)} would stand in the way of {', '.join(of)}" for of, which in templates.items()]
+    return replace(placement, notes=tuple(notes))
+
+
+def _placements(search: DoorSearch, gallery: Gallery) -> Iterator[Placement]:
+    """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
     tried = 0
     for judged in search.in_order():
         if judged.free < _LEAST_SHARE * search.wanted or tried > _ENOUGH:
-            break
+            return
         tried += judged.pin.preference > 3
         install_at = _with_pivots if judged.pin.is_pivot else _with_hardware
-        placed = install_at(judged, search, gallery)
-        if placed is not None:
-            return placed
-    return None
+        yield from install_at(judged, search, gallery)
 
 
-def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Placement | None:
-    """Returns the placement of the first template of the pin's class whose hinges all fit; None where none does."""
+def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Iterator[Placement]:
+    """Yields the placements of the templates of the pin's class whose hinges all fit."""
     count = hinge_count(search.frame.length)
     for model in gallery.hinges_of(judged.pin.mechanism):
         size = hinge_size(model, search.frame, judged.pin, count)
@@ -46,32 +77,32 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> P
             continue
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
         if upper < _LEAST_SHARE * search.wanted:
-            return None
+            return
         site = _site(judged, upper, search)
         hinges = _installed(model, judged.pin, site, count, search)
         if hinges:
-            return _placement(judged, model.id, upper, hinges, search)
-    return None
+            yield _placement(judged, model.id, upper, hinges, search)
 
 
-def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Placement | None:
-    """Returns the placement on discs at the door's ends; None where neither end meets the static body."""
+def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[Placement]:
+    """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
     if upper < _LEAST_SHARE * search.wanted:
-        return None
+        return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
     near = search.scene.static_mesh_near(door.box, 0.25 * float(door.box.size.max()))
     ends = pivot_ends(search.frame, judged.pin, door, near, 0.2 * search.frame.length)
-    held = [InstalledHinge((static,), (dynamic,)) for static, dynamic in ends]
-    held = [hinge for hinge in held if is_out_of_the_way(hinge, site)]
-    return _placement(judged, PIVOT, upper, held, search) if held else None
+    judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
+    held = [hinge for hinge in judgements if hinge is not None]
+    free = [hinge for hinge in held if not hinge.struck_by]
+    if held:
+        yield _placement(judged, PIVOT, upper, free or held, search)
 
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
     box = search.scene.parts[search.request.moving].box
     unit = search.scene.unit
-    others = tuple(o for o in search.neighbours if o.collider.box.overlaps(box, 0.1 * unit))
     return Site(
         frame=search.frame,
         door=search.scene.moving_mesh(search.request.moving),
@@ -79,7 +110,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         scene=search.scene,
         static_rays=search.static_rays,
         obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
-        neighbours=others,
+        neighbours=search.movers_around,
         motion=motion_about(judged.axis, JointType.REVOLUTE),
         upper=upper,
         depth=search.depth,
@@ -99,11 +130,24 @@ def _installed(
     for z in hinge_heights(search.frame.length, count):
         shifts = (s * search.frame.length for s in _HEIGHT_SHIFTS)
         tries = (install(fit_hinge(model, size, search.frame, pin, z + shift), pin, site) for shift in shifts)
-        placed = next((hinge for hinge in tries if hinge is not None), None)
+        placed = _first_unstruck(hinge for hinge in tries if hinge is not None)
         if placed is None:
             return []
         hinges.append(placed)
     return hinges
+
+
+def _first_unstruck(hinges: Iterator[InstalledHinge]) -> InstalledHinge | None:
+    """Returns the first of a few hinges that no neighbour runs into, else the first of all."""
+    few = list(islice(_until_unstruck(hinges), _STRUCK))
+    return min(few, key=lambda hinge: len(hinge.struck_by) > 0, default=None)
+
+
+def _until_unstruck(hinges: Iterator[InstalledHinge]) -> Iterator[InstalledHinge]:
+    for hinge in hinges:
+        yield hinge
+        if not hinge.struck_by:
+            return
 
 
 def _placement(
@@ -122,6 +166,7 @@ def _placement(
         dynamic=tuple(dynamic),
         static=tuple(static),
         in_way=judged.neighbours,
+        struck_by=tuple(sorted({name for hinge in hinges for name in hinge.struck_by})),
     )
 
 

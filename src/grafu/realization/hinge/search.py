@@ -21,6 +21,7 @@ from grafu.realization.hinge.candidates import (
     turns_about_itself,
 )
 from grafu.realization.hinge.fit import barrel_radius
+from grafu.realization.hinge.neighbours import Neighbour, neighbours_of
 from grafu.realization.hinge.survey import survey
 from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, sweep, swept_box, widest_free
 from grafu.realization.plan import JointRequest
@@ -76,18 +77,34 @@ class DoorSearch:
         return RayCaster(self.scene.static_mesh_near(box, 0.25 * float(box.size.max())))
 
     @cached_property
+    def movers_around(self) -> tuple[Neighbour, ...]:
+        """The other movers, with the ways that they take or are expected to take."""
+        return neighbours_of(self.request.moving, self.scene, self.depth)
+
+    @cached_property
     def ruled(self) -> list[JudgedPin]:
         """The pins of the hinge classes that the surroundings allow, best first."""
         if turns_about_itself(self.frame, self.request.axis):
             return []
-        tol = self._tolerances
-        return self._judged(ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol))
+        return self._judged(self._allowed)
 
     @cached_property
     def others(self) -> list[JudgedPin]:
         """Pivots and makeshift pins, best first."""
         tol = self._tolerances
         return self._judged([*pivot_pins(self.frame, self.request.axis, tol), *makeshift_pins(self.frame, tol)])
+
+    @property
+    def expected_axis(self) -> Axis:
+        """The axis of the first hinge class that the surroundings allow, unswept; else the one that was asked for."""
+        if turns_about_itself(self.frame, self.request.axis) or not self._allowed:
+            return self.request.axis
+        return self.frame.axis_at(self._allowed[0].x, self._allowed[0].y)
+
+    @cached_property
+    def _allowed(self) -> list[PinCandidate]:
+        tol = self._tolerances
+        return ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
 
     @property
     def _tolerances(self) -> Tolerances:

@@ -1,0 +1,30 @@
+"""How movers may be expected to move before their joints are built, so that hardware keeps out of their way.
+
+A door is expected to turn about the first pin that its surroundings allow, else about the axis that was asked for; a
+drawer slides. It sweeps nothing: what is built later may differ.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.search import door_search
+from grafu.realization.plan import JointRequest
+from grafu.realization.rail.search import drawer_search
+from grafu.realization.scene import Scene, Way
+from grafu.vocabulary import JointType
+
+
+def expected_ways(requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig) -> dict[str, Way]:
+    """Returns the expected way of every mover that a joint is asked for; none for drawers that no rails can carry."""
+    return dict(_ways(requests, scene, config))
+
+
+def _ways(requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig) -> Iterator[tuple[str, Way]]:
+    for request in requests:
+        if request.type is JointType.REVOLUTE:
+            door = door_search(request, scene, config)
+            yield request.moving, Way(door.expected_axis, request.type, door.wanted, is_built=False)
+            continue
+        drawer = drawer_search(request, scene, config)
+        if drawer is not None:
+            yield request.moving, Way(drawer.axis, request.type, drawer.wanted, is_built=False)

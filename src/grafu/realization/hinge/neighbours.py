@@ -1,0 +1,59 @@
+"""The other movers around a joint: what they are at rest, and whether they run into hardware on their way.
+
+It chooses nothing; whose ways are known, and whose are only expected, the scene says.
+"""
+
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.mesh import TriangleMesh
+from grafu.realization.hinge.border import part_axes
+from grafu.realization.limits import Motion, is_free, motion_about, swept_box
+from grafu.realization.scene import Obstacle, Scene, Way
+
+_POSES = 19
+
+
+@final
+class Neighbour:
+    """Another mover with what rides on it and its hardware, prepared for queries; not a value.
+
+    `way` is None where nobody knows how it moves; `depth` is the tolerated penetration in metres.
+    """
+
+    def __init__(self, mover_id: str, scene: Scene, depth: float) -> None:
+        self.id = mover_id
+        self.way: Way | None = scene.ways.get(mover_id)
+        self.mesh: TriangleMesh = scene.equipped_mesh(mover_id)
+        self.at_rest = MeshCollider(self.mesh)
+        self._part, self._depth = scene.parts[mover_id].mesh, depth
+
+    def runs_into(self, standing: TriangleMesh) -> bool:
+        """Whether it cuts into a standing mesh anywhere on its way."""
+        if self.way is None or not self._swept.overlaps(standing.box):
+            return False
+        obstacle = Obstacle(self.id, MeshCollider(standing))
+        return not is_free(self._body, self._motion, self.way.upper, [obstacle], _POSES)
+
+    @cached_property
+    def _motion(self) -> Motion:
+        assert self.way is not None
+        return motion_about(self.way.axis, self.way.type)
+
+    @cached_property
+    def _swept(self) -> Box:
+        assert self.way is not None
+        return swept_box(self.mesh.box, self._motion, self.way.upper)
+
+    @cached_property
+    def _body(self) -> MovingBody:
+        return MovingBody(self.mesh, self._depth, np.asarray(part_axes(self._part)))
+
+
+def neighbours_of(mover_id: str, scene: Scene, depth: float) -> tuple[Neighbour, ...]:
+    """Returns all other movers; `depth` is the tolerated penetration in metres."""
+    return tuple(Neighbour(other, scene, depth) for other in scene.movers if other != mover_id)
