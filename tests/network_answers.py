@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from grafu.completion.features import LABELS, GraphFeatures, graph_features
+from grafu.completion.features import GraphFeatures, graph_features
 from grafu.completion.scores import Scores
 from grafu.geometry.box import Box
-from grafu.graph.arrays import KINDS, NULL
+from grafu.graph.arrays import KINDS, LABELS, NULL
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import EdgeKind, PartLabel
 

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.completion.decode_config import ADDABLE, DecodeConfig
-from grafu.completion.features import LABELS, FeatureConfig, GraphFeatures
+from grafu.completion.features import FeatureConfig, GraphFeatures
 from grafu.completion.network import complete_by_network
 from grafu.completion.scores import Scores
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.graph.arrays import KINDS
+from grafu.graph.arrays import KINDS, LABELS
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import relabelled

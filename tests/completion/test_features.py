@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from grafu.completion.features import LABELS, FeatureConfig, GraphFeatures, graph_features, mirrored
+from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.points_grouping import box_points, farthest_points, group_points, resampled
 from grafu.geometry.box import Box
-from grafu.graph.arrays import ATTACHED, CONTACT, HINGE, NULL, RAIL
+from grafu.graph.arrays import ATTACHED, CONTACT, HINGE, LABELS, NULL, RAIL
 from grafu.graph.edit import mirrored as mirrored_graph
 from grafu.graph.edit import scaled, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode

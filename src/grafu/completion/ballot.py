@@ -1,8 +1,12 @@
 """Weighted votes for a closed list of choices, and the verdict with its runner-up. It knows no furniture."""
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar, final
+
+import numpy as np
+
+from grafu.geometry.arrays import Scalars
 
 Choice = TypeVar("Choice", bound=Hashable)
 
@@ -43,3 +47,17 @@ class Ballot(Generic[Choice]):
         if len(ranked) == 1:
             return Verdict(ranked[0][0], shares[0])
         return Verdict(ranked[0][0], shares[0], ranked[1][0], shares[1])
+
+
+def verdict_of(choices: Sequence[Choice], weights: Scalars) -> Verdict[Choice]:
+    """Returns the choice of the largest weight and the next; scores are shares of all weights, ties fall to the first.
+
+    There is at least one choice, and no weight is negative.
+    """
+    total = float(weights.sum())
+    shares = weights / total if total > 0 else np.full(len(choices), 1.0 / len(choices))
+    order = np.argsort(-shares, kind="stable").tolist()
+    scores = np.minimum(shares, 1.0).tolist()
+    if len(order) == 1:
+        return Verdict(choices[0], scores[0])
+    return Verdict(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
+from grafu.completion.answers import move_parts
 from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.labelling import choose_labels
@@ -16,7 +17,7 @@ from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
 from grafu.completion.view import View
 from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
-from grafu.graph.edges import Attached, Edge
+from grafu.graph.edges import Attached
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
@@ -72,22 +73,13 @@ def read_graph(
 def complete_reading(graph: FunctionalGraph, reading: Reading, added: Sequence[NewPart]) -> GraphCompletion:
     """Returns the completion of `graph`: every door and drawer moves, or there is a reason why not."""
     view = reading.view
-    edges: list[Edge] = []
-    decisions = [*(d for part in added for d in part.decisions), *reading.decisions]
-    refused = list(reading.refused)
     scene = Scene(view.graph)
-    stated = {hinge.child for hinge in view.graph.hinges} | {rail.child for rail in view.graph.rails}
-    for node in view.graph.labelled(PartLabel.DOOR, PartLabel.DRAWER):
-        if node.id in stated:
-            continue
-        is_door = node.label is PartLabel.DOOR
-        answer = choose_hinge(node, view, scene) if is_door else choose_rails(node, view)
-        if isinstance(answer, RefusedMotion):
-            refused.append(answer)
-            continue
-        found, why = answer
-        edges += found if isinstance(found, tuple) else (found,)
-        decisions += why
-    completed = with_edges(view.graph, edges)
-    names = tuple(part.node.id for part in added)
-    return GraphCompletion(graph, completed, "network", names, tuple(decisions), tuple(refused))
+    motions = move_parts(scene, lambda door: choose_hinge(door, view, scene), lambda drawer: choose_rails(drawer, view))
+    return GraphCompletion(
+        graph,
+        with_edges(view.graph, motions.edges),
+        "network",
+        tuple(part.node.id for part in added),
+        (*(d for part in added for d in part.decisions), *reading.decisions, *motions.decisions),
+        (*reading.refused, *motions.refused),
+    )

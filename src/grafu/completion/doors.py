@@ -9,11 +9,12 @@ from typing import cast
 
 import numpy as np
 
+from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.ballot import Ballot, Verdict
-from grafu.completion.rows import across_axis, pair_side, row_size, slides_past
+from grafu.completion.rows import across_axis, pair_side, row_size
 from grafu.completion.scene import CARRIES, Scene, offset_share
 from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, Question, RefusedMotion
+from grafu.graph.completion import Decision, RefusedMotion
 from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import (
@@ -35,13 +36,8 @@ _WIDE, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.8, 2.2
 _EDGE, _UPRIGHT = 0.5, 0.7
 
 
-def hang_door(door: PartNode, scene: Scene) -> tuple[Hinge, tuple[Decision, ...]] | RefusedMotion:
+def hang_door(door: PartNode, scene: Scene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none."""
-    other = slides_past(door, scene)
-    if other is not None:
-        return RefusedMotion(
-            door.id, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built"
-        )
     if not scene.supports:
         return RefusedMotion(door.id, "there is no static part to hang it on: label the parts that stand still")
     thin = door.box.thin_axis
@@ -52,11 +48,11 @@ def hang_door(door: PartNode, scene: Scene) -> tuple[Hinge, tuple[Decision, ...]
     sign = sign_for_opening(thin, border.choice, front.choice)
     flipped = "" if front.runner_up is None else str(1 - sign)
     decisions = (
-        _decision(door, "border", border),
+        decision_of(door.id, "border", border),
         Decision(door.id, "sign", str(sign), front.score, flipped, front.runner_up_score),
-        _decision(door, "mount", mount),
+        decision_of(door.id, "mount", mount),
     )
-    return Hinge(mount.choice, door.id, border.choice, sign), decisions
+    return (Hinge(mount.choice, door.id, border.choice, sign),), decisions
 
 
 def vote_front(door: PartNode, scene: Scene) -> Verdict[SignedAxis]:
@@ -200,8 +196,3 @@ def _border_box(box: Box, border: HingeBorder) -> Box:
     low, high = box.low.copy(), box.high.copy()
     low[face // 2] = high[face // 2] = box.face_center(face)[face // 2]
     return Box(low, high)
-
-
-def _decision(door: PartNode, question: Question, verdict: Verdict[HingeBorder] | Verdict[str]) -> Decision:
-    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
-    return Decision(door.id, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)

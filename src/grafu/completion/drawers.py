@@ -6,10 +6,11 @@ between two flanks where there are two, else on whatever is near.
 
 import numpy as np
 
+from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.ballot import Ballot, Verdict
 from grafu.completion.scene import CARRIES, Scene
 from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, Question, RefusedMotion
+from grafu.graph.completion import RefusedMotion
 from grafu.graph.edges import Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import code_to_direction, opposite, signed_axis
@@ -20,7 +21,7 @@ _REACH = 0.15
 _LEAST_FLANK = 0.05
 
 
-def run_drawer(drawer: PartNode, scene: Scene) -> tuple[tuple[Rail, ...], tuple[Decision, ...]] | RefusedMotion:
+def run_drawer(drawer: PartNode, scene: Scene) -> MotionAnswer:
     """Returns the rails of a drawer with how sure each choice is, or why it gets none."""
     if not scene.supports:
         return RefusedMotion(drawer.id, "there is no static part to run it on: label the parts that stand still")
@@ -29,7 +30,8 @@ def run_drawer(drawer: PartNode, scene: Scene) -> tuple[tuple[Rail, ...], tuple[
     if not mounts:
         return RefusedMotion(drawer.id, "no static part is near enough to carry a rail")
     rails = tuple(Rail(mount.choice, drawer.id, way.choice) for mount in mounts)
-    return rails, (_decision(drawer, "slide", way), *(_decision(drawer, "mount", mount) for mount in mounts))
+    decisions = (decision_of(drawer.id, "mount", mount) for mount in mounts)
+    return rails, (decision_of(drawer.id, "slide", way), *decisions)
 
 
 def vote_way(drawer: PartNode, scene: Scene) -> Verdict[SignedAxis]:
@@ -126,8 +128,3 @@ def _elect(scores: dict[str, float]) -> Verdict[str] | None:
     for node_id, score in scores.items():
         ballot.vote(node_id, 3.0 * score)
     return ballot.verdict()
-
-
-def _decision(drawer: PartNode, question: Question, verdict: Verdict[SignedAxis] | Verdict[str]) -> Decision:
-    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
-    return Decision(drawer.id, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)

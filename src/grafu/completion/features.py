@@ -15,10 +15,6 @@ from grafu.completion.points_grouping import box_points, group_points, resampled
 from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
 from grafu.graph.arrays import graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.vocabulary import PartLabel
-
-# The place in this list is a label's code (`grafu.graph.arrays`); `unknown` is the last.
-LABELS: tuple[PartLabel, ...] = tuple(PartLabel)
 
 
 @final
@@ -47,7 +43,7 @@ class FeatureConfig:
 class GraphFeatures(ArrayValue):
     """What is seen of n nodes, in the order of the graph; codes are those of `grafu.graph.arrays`.
 
-    `labels` are places in `LABELS`. `boxes` are centre and half size, `anchors` a part's points spread farthest apart,
+    `boxes` are centre and half size, `anchors` a part's points spread farthest apart,
     `groups` the nearest points of each anchor, relative to it; all in the normalised frame, in which an object point x
     (metres) is (x - origin) / scale: the object stands on z = 0, centred in x and y, its largest side 1. `edges` are
     symmetric, null where there is none and on the diagonal.
@@ -83,11 +79,6 @@ def object_frame(graph: FunctionalGraph) -> tuple[Float64[np.ndarray, "3"], floa
     box = graph.box
     size = float(box.size.max())
     return np.array([box.center[0], box.center[1], box.low[2]]), size if size > 0 else 1.0
-
-
-def edge_codes(graph: FunctionalGraph) -> Int64[np.ndarray, "n n"]:
-    """Returns the kinds of a graph's edges as the features hold them."""
-    return graph_arrays(graph).edges
 
 
 def mirrored(features: GraphFeatures, across: int) -> GraphFeatures:

@@ -5,7 +5,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.completion.scene import BoxStack
+from grafu.completion.scene import NodeBoxes
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, RefusedMotion
@@ -31,7 +31,7 @@ class Attachments:
 
 def attach_handles(graph: FunctionalGraph) -> Attachments:
     """Returns the graph with an attached edge per handle; handles that are attached already stay as they are."""
-    movable = BoxStack(graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
+    movable = NodeBoxes(graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
     held = {edge.child for edge in graph.attachments}
     edges: list[Attached] = []
     decisions: list[Decision] = []
@@ -49,7 +49,7 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
     return Attachments(with_edges(graph, edges), tuple(decisions), tuple(refused))
 
 
-def _misfits(handle: PartNode, parts: BoxStack, graph: FunctionalGraph) -> list[float]:
+def _misfits(handle: PartNode, parts: NodeBoxes, graph: FunctionalGraph) -> list[float]:
     """Returns how badly a handle fits each part, as a share of the object: its gap, and how far it hangs over."""
     unit = max(float(graph.box.size.max()), 1e-9)
     touching = [part.id in graph.neighbours[handle.id] for part in parts.nodes]
@@ -57,7 +57,7 @@ def _misfits(handle: PartNode, parts: BoxStack, graph: FunctionalGraph) -> list[
     return ((parts.gaps(handle.box) + overhang) / unit - 0.002 * np.array(touching)).tolist()
 
 
-def _shares_in_front(handle: Box, parts: BoxStack) -> Scalars:
+def _shares_in_front(handle: Box, parts: NodeBoxes) -> Scalars:
     """Returns for each part the largest share of the handle that one of its faces lies behind, seen along an axis."""
     inside = parts.overlap_shares(handle)
     return np.max([np.delete(inside, axis, axis=1).prod(axis=1) for axis in range(3)], axis=0)

@@ -5,11 +5,11 @@ Labels that the input states are kept, whatever the network says.
 
 import numpy as np
 
+from grafu.completion.answers import decision_of
+from grafu.completion.ballot import verdict_of
 from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
-from grafu.completion.features import LABELS
-from grafu.completion.view import decision_of, verdict_of
-from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, RAIL
+from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, LABELS, RAIL, UNKNOWN
 from grafu.graph.completion import Decision
 from grafu.graph.edges import Contact, ends_of
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
@@ -53,7 +53,7 @@ def _allowed(graph: FunctionalGraph, node_id: str, chosen: dict[str, PartLabel])
     """Returns 1 for each label, but `unknown`, that the stated edges at a node allow; for all where they allow none."""
     edges = [e for e in graph.edges if node_id in ends_of(e) and not isinstance(e, Contact)]
     allowed = np.ones(len(LABELS))
-    allowed[LABELS.index(PartLabel.UNKNOWN)] = 0.0
+    allowed[UNKNOWN] = 0.0
     for k, label in enumerate(LABELS[:-1]):
         settled = {**chosen, node_id: label}
         ends = ([settled.get(end, graph.node(end).label) for end in ends_of(edge)] for edge in edges)

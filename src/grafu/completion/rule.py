@@ -4,16 +4,15 @@ It looks at labels, boxes and contacts. Every door leaves with a hinge or a refu
 handle with its door or drawer. Edges that the input states already are kept as they are.
 """
 
+from grafu.completion.answers import move_parts
 from grafu.completion.doors import hang_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.guess import guess_labels
 from grafu.completion.handles import attach_handles
 from grafu.completion.scene import Scene
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
-from grafu.graph.edges import Edge
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.vocabulary import PartLabel
 
 
 def complete_by_rule(graph: FunctionalGraph) -> GraphCompletion:
@@ -25,30 +24,12 @@ def complete_by_rule(graph: FunctionalGraph) -> GraphCompletion:
     labels, label_decisions = guess_labels(graph)
     attached = attach_handles(relabelled(graph, labels))
     scene = Scene(attached.graph)
-    edges, decisions, refused = _move_parts(scene)
+    motions = move_parts(scene, lambda door: hang_door(door, scene), lambda drawer: run_drawer(drawer, scene))
     return GraphCompletion(
         graph,
-        with_edges(scene.graph, edges),
+        with_edges(scene.graph, motions.edges),
         "rule",
         (),
-        (*label_decisions, *attached.decisions, *decisions),
-        (*attached.refused, *refused),
+        (*label_decisions, *attached.decisions, *motions.decisions),
+        (*attached.refused, *motions.refused),
     )
-
-
-def _move_parts(scene: Scene) -> tuple[list[Edge], list[Decision], list[RefusedMotion]]:
-    edges: list[Edge] = []
-    decisions: list[Decision] = []
-    refused: list[RefusedMotion] = []
-    stated = {h.child for h in scene.graph.hinges} | {r.child for r in scene.graph.rails}
-    for node in scene.graph.labelled(PartLabel.DOOR, PartLabel.DRAWER):
-        if node.id in stated:
-            continue
-        answer = hang_door(node, scene) if node.label is PartLabel.DOOR else run_drawer(node, scene)
-        if isinstance(answer, RefusedMotion):
-            refused.append(answer)
-            continue
-        found, why = answer
-        edges += found if isinstance(found, tuple) else (found,)
-        decisions += why
-    return edges, decisions, refused

@@ -31,7 +31,7 @@ CARRIES: Mapping[PartLabel, float] = {
 
 
 @final
-class BoxStack:
+class NodeBoxes:
     """The boxes of some nodes as arrays, so that one of them is compared with all at once; not a value."""
 
     def __init__(self, nodes: Sequence[PartNode]) -> None:
@@ -73,16 +73,16 @@ class Scene:
         return tuple(n for n in self.graph.nodes if n.label.is_support)
 
     @cached_property
-    def support_boxes(self) -> BoxStack:
+    def support_boxes(self) -> NodeBoxes:
         """The boxes of the supports."""
-        return BoxStack(self.supports)
+        return NodeBoxes(self.supports)
 
     @cached_property
-    def blocker_boxes(self) -> BoxStack:
+    def blocker_boxes(self) -> NodeBoxes:
         """The boxes of what a drawer cannot pass through: solid static parts and other drawers."""
         passable = (PartLabel.FACE_FRAME, PartLabel.MISC)
         solid = (n for n in self.graph.nodes if n.label.is_support and n.label not in passable)
-        return BoxStack([*solid, *self.graph.labelled(PartLabel.DRAWER)])
+        return NodeBoxes([*solid, *self.graph.labelled(PartLabel.DRAWER)])
 
     @cached_property
     def body(self) -> Box:

@@ -4,19 +4,18 @@ A motion is a property of the part, while the network answers for each pair: ans
 may carry it, each by how likely it does. What moves ends with its edges or with the reason why not.
 """
 
-from typing import cast
-
 import numpy as np
 
+from grafu.completion.answers import MotionAnswer, decision_of
+from grafu.completion.ballot import verdict_of
 from grafu.completion.beliefs import softmax
 from grafu.completion.doors import vote_front
-from grafu.completion.rows import slides_past
 from grafu.completion.scene import Scene
-from grafu.completion.view import View, decision_of, verdict_of
+from grafu.completion.view import View
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL
 from grafu.graph.completion import Decision, RefusedMotion
-from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, AxisSign, Hinge, HingeBorder, Rail, SignedAxis
+from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
 
@@ -47,16 +46,11 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
     return chosen[:-1] * (0.05 + view.beliefs.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
-def choose_hinge(door: PartNode, view: View, scene: Scene) -> tuple[Hinge, tuple[Decision, ...]] | RefusedMotion:
+def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none.
 
     `scene` is the same graph with its handles attached: where they sit says which face is the front.
     """
-    other = slides_past(door, scene)
-    if other is not None:
-        return RefusedMotion(
-            door.id, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built"
-        )
     if not len(view.supports):
         return RefusedMotion(door.id, _NO_SUPPORT)
     slot, slots = view.place[door.id], view.within_reach(door, view.supports)
@@ -69,16 +63,16 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> tuple[Hinge, tuple
     border = verdict_of(BORDERS, motion.sum(axis=1))
     sign = verdict_of(SIGNS, motion[border.choice])
     mount = verdict_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
-    edge = Hinge(mount.choice, door.id, cast(HingeBorder, border.choice), cast(AxisSign, sign.choice))
+    edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
     decisions = (
         decision_of(door.id, "border", border),
         decision_of(door.id, "sign", sign),
         decision_of(door.id, "mount", mount),
     )
-    return edge, decisions
+    return (edge,), decisions
 
 
-def choose_rails(drawer: PartNode, view: View) -> tuple[tuple[Rail, ...], tuple[Decision, ...]] | RefusedMotion:
+def choose_rails(drawer: PartNode, view: View) -> MotionAnswer:
     """Returns the rails of a drawer, on two flanks where two parts carry it, or why it gets none."""
     if not len(view.supports):
         return RefusedMotion(drawer.id, _NO_SUPPORT)
@@ -88,9 +82,8 @@ def choose_rails(drawer: PartNode, view: View) -> tuple[tuple[Rail, ...], tuple[
         return RefusedMotion(drawer.id, f"the network sees no part that carries it: rails at most {railed.max():.2f}")
     shares = railed @ view.beliefs.slide[slot, slots] / railed.sum()
     slide = verdict_of(SIGNED_AXES, shares)
-    axis = cast(SignedAxis, slide.choice)
-    groups = _by_flank(drawer, axis, slots, railed, view)
-    rails = tuple(Rail(view.ids(group)[0], drawer.id, axis) for group in groups)
+    groups = _by_flank(drawer, slide.choice, slots, railed, view)
+    rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (
         decision_of(drawer.id, "mount", verdict_of(view.ids(group), view.beliefs.edge[slot, group, RAIL]))
         for group in groups

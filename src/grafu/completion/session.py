@@ -11,9 +11,10 @@ from typing import Any, final
 
 import numpy as np
 
-from grafu.completion.features import LABELS, FeatureConfig, GraphFeatures
+from grafu.completion.features import FeatureConfig, GraphFeatures
 from grafu.completion.scores import SCORE_NAMES, Scores
 from grafu.errors import WeightsError
+from grafu.graph.arrays import LABELS
 
 GraphNetwork = Callable[[GraphFeatures], Scores]
 

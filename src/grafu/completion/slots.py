@@ -5,11 +5,14 @@ from typing import final
 
 import numpy as np
 
+from grafu.completion.answers import decision_of
+from grafu.completion.ballot import verdict_of
 from grafu.completion.decode_config import ADDABLE
-from grafu.completion.features import LABELS, object_frame
+from grafu.completion.features import object_frame
 from grafu.completion.selection import parent_shares
-from grafu.completion.view import View, decision_of, verdict_of
+from grafu.completion.view import View
 from grafu.geometry.box import Box
+from grafu.graph.arrays import LABEL_CODES
 from grafu.graph.completion import Decision
 from grafu.graph.edges import Contact
 from grafu.graph.edit import with_edges
@@ -17,7 +20,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import ParsingConfig, near_pairs
 from grafu.vocabulary import PartLabel
 
-_ADDABLE = [LABELS.index(label) for label in ADDABLE]
+_ADDABLE = [LABEL_CODES[label] for label in ADDABLE]
 # Thinner boxes are errors of the regression (the authors': half sizes of at least 0.005 of the object).
 _LEAST_HALF = 0.005
 # Both boxes are grown by this share of the object before they are compared: thin boards seldom overlap exactly.

@@ -1,21 +1,16 @@
 """A graph beside what the network believes about it, and what selecting among parts asks again and again."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar, final
+from typing import final
 
 import numpy as np
 from jaxtyping import Int64
 
-from grafu.completion.ballot import Verdict
 from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
 from grafu.geometry.arrays import Indices, Scalars
-from grafu.graph.completion import Decision, Question
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-
-Choice = TypeVar("Choice", str, int)
 
 
 @final
@@ -75,23 +70,3 @@ class View:
     def ids(self, slots: Indices) -> tuple[str, ...]:
         """Returns the ids of the nodes in these slots."""
         return tuple(self.graph.nodes[k].id for k in slots.tolist())
-
-
-def verdict_of(choices: Sequence[Choice], weights: Scalars) -> Verdict[Choice]:
-    """Returns the choice of the largest weight and the next; scores are shares of all weights, ties fall to the first.
-
-    There is at least one choice, and no weight is negative.
-    """
-    total = float(weights.sum())
-    shares = weights / total if total > 0 else np.full(len(choices), 1.0 / len(choices))
-    order = np.argsort(-shares, kind="stable").tolist()
-    scores = np.minimum(shares, 1.0).tolist()
-    if len(order) == 1:
-        return Verdict(choices[0], scores[0])
-    return Verdict(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
-
-
-def decision_of(part: str, question: Question, verdict: Verdict[str] | Verdict[int]) -> Decision:
-    """Returns a verdict as the answer to a question about a part."""
-    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
-    return Decision(part, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)

@@ -11,17 +11,18 @@ from typing import Any, final
 
 import numpy as np
 
-from grafu.data.shards_arrays import DEFECT_KINDS, EDGE_KINDS, LABELS, ModelArrays, arrays_to_record, record_to_arrays
+from grafu.data.shards_arrays import DEFECT_KINDS, ModelArrays, arrays_to_record, record_to_arrays
 from grafu.data.shards_file import read_array_file, write_array_file
 from grafu.data.shards_record import Record
 from grafu.errors import UnreadableAsset
+from grafu.graph.arrays import KINDS, LABELS
 from grafu.synth.specimen import Defect
 from grafu.version import __version__
 
 SCHEMA = "grafu.shard/1"
 MODELS_PER_SHARD = 1000
 
-_WORDS = {"labels": list(LABELS), "edge_kinds": list(EDGE_KINDS), "defect_kinds": list(DEFECT_KINDS)}
+_WORDS = {"labels": list(LABELS), "edge_kinds": list(KINDS), "defect_kinds": list(DEFECT_KINDS)}
 _NO_WORDS = np.zeros(0, np.uint32)
 
 

@@ -14,18 +14,14 @@ from grafu.data.shards_points import Boxes, Codes, codes_to_points, points_to_co
 from grafu.data.shards_record import Record
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
+from grafu.graph.arrays import KIND_CODES, KINDS, LABEL_CODES, LABELS
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.synth.specimen import Defect, DefectKind
-from grafu.vocabulary import EdgeKind, PartLabel
+from grafu.vocabulary import EdgeKind
 
-LABELS: tuple[PartLabel, ...] = tuple(PartLabel)
-EDGE_KINDS: tuple[EdgeKind, ...] = tuple(EdgeKind)
 DEFECT_KINDS: tuple[DefectKind, ...] = get_args(DefectKind)
 ABSENT = 255  # the given label of a node that is not given
-
-_LABEL_CODES = {label: code for code, label in enumerate(LABELS)}
-_EDGE_CODES = {kind: code for code, kind in enumerate(EDGE_KINDS)}
 
 EdgeArray = UInt16[np.ndarray, "edges 4"]
 GivenEdgeArray = UInt16[np.ndarray, "given_edges 4"]
@@ -37,9 +33,9 @@ ByteArray = UInt8[np.ndarray, " parts"]
 class ModelArrays:
     """One model: arrays along its nodes (in the truth's order) and its edges.
 
-    `labels` are places in `LABELS`, `given_labels` too, or `ABSENT`. `boxes` hold low and high corner, metres. A row of
-    `edges` (the truth's) and `given_edges` is: place of the first node (the parent), of the second (the child), place
-    of the kind in `EDGE_KINDS`, motion: 2 * border + sign of a hinge, signed axis of a rail, else 0 (official.md 3).
+    `labels` are codes (`grafu.graph.arrays`), `given_labels` too, or `ABSENT`. `boxes` hold low and high corner,
+    metres. A row of `edges` (the truth's) and `given_edges` is: place of the first node (the parent), of the second
+    (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, else 0 (official.md 3).
     `points` are coded as in `shards_points`, `counts` of them for each node.
     """
 
@@ -66,7 +62,7 @@ def record_to_arrays(record: Record) -> ModelArrays:
     """
     nodes = record.truth.nodes
     places = {node.id: place for place, node in enumerate(nodes)}
-    given = {node.id: _LABEL_CODES[node.label] for node in record.given.nodes}
+    given = {node.id: LABEL_CODES[node.label] for node in record.given.nodes}
     boxes = np.array([(n.box.low, n.box.high) for n in nodes], dtype=np.float64).reshape(-1, 2, 3)
     counts = np.array([0 if n.points is None else len(n.points.points) for n in nodes], dtype=np.int32)
     clouds = [n.points.points for n in nodes if n.points is not None]
@@ -75,7 +71,7 @@ def record_to_arrays(record: Record) -> ModelArrays:
         record.family,
         tuple(places),
         tuple(n.source_name for n in nodes),
-        np.array([_LABEL_CODES[n.label] for n in nodes], dtype=np.uint8),
+        np.array([LABEL_CODES[n.label] for n in nodes], dtype=np.uint8),
         np.array([given.get(n.id, ABSENT) for n in nodes], dtype=np.uint8),
         np.array([n.id in record.removable for n in nodes], dtype=np.bool_),
         boxes,
@@ -135,7 +131,7 @@ def _edge_array(edges: Sequence[Edge], places: dict[str, int]) -> EdgeArray:
     rows = []
     for edge in edges:
         a, b = ends_of(edge)
-        rows.append((places[a], places[b], _EDGE_CODES[kind_of(edge)], _motion_code(edge)))
+        rows.append((places[a], places[b], KIND_CODES[kind_of(edge)], _motion_code(edge)))
     return np.array(rows, dtype=np.uint16).reshape(-1, 4)
 
 
@@ -146,7 +142,7 @@ def _motion_code(edge: Edge) -> int:
 
 
 def _edges(rows: EdgeArray, ids: Sequence[str]) -> tuple[Edge, ...]:
-    return tuple(_edge(ids[a], ids[b], EDGE_KINDS[kind], code) for a, b, kind, code in rows.tolist())
+    return tuple(_edge(ids[a], ids[b], KINDS[kind], code) for a, b, kind, code in rows.tolist())
 
 
 def _edge(first: str, second: str, kind: EdgeKind, code: int) -> Edge:

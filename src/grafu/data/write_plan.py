@@ -18,10 +18,11 @@ import numpy as np
 
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
 from grafu.data.shards import MODELS_PER_SHARD
-from grafu.data.shards_arrays import ABSENT, LABELS, ModelArrays, record_to_arrays
+from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
 from grafu.data.shards_record import record_of
 from grafu.data.stream import shard_paths
 from grafu.errors import ExportError, UnreadableAsset
+from grafu.graph.arrays import LABELS
 from grafu.synth.check import faults_in
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen

@@ -16,13 +16,14 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import EdgeKind, PartLabel
 
 KINDS = (EdgeKind.CONTACT, EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED)
+KIND_CODES = {kind: code for code, kind in enumerate(KINDS)}
 CONTACT, HINGE, RAIL, ATTACHED, NULL = range(5)
 NONE = -1  # there is no such motion, or it is not known
-LABEL_CODES = {label: code for code, label in enumerate(PartLabel)}
+LABELS: tuple[PartLabel, ...] = tuple(PartLabel)  # the place is the code; `unknown` is the last
+LABEL_CODES = {label: code for code, label in enumerate(LABELS)}
 DOOR, DRAWER, HANDLE, UNKNOWN = (
     LABEL_CODES[label] for label in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE, PartLabel.UNKNOWN)
 )
-_KIND_CODES = {kind: code for code, kind in enumerate(KINDS)}
 
 
 @final
@@ -54,7 +55,7 @@ def graph_arrays(graph: FunctionalGraph) -> GraphArrays:
     motion = np.full((3, count), NONE)
     for edge in graph.edges:
         first, second = (place[end] for end in ends_of(edge))
-        edges[first, second] = edges[second, first] = _KIND_CODES[kind_of(edge)]
+        edges[first, second] = edges[second, first] = KIND_CODES[kind_of(edge)]
         child[second, first] = not isinstance(edge, Contact)
         motion[:, second] = np.maximum(motion[:, second], _motion(edge))
     lows = np.array([n.box.low for n in graph.nodes]).reshape(-1, 3)

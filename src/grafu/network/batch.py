@@ -13,15 +13,13 @@ from jaxtyping import Bool, Float32, Int64
 from torch import Tensor
 from torch.nn.functional import pad
 
-from grafu.network.config import EDGE_COUNT
-
-NULL = EDGE_COUNT - 1
+from grafu.graph.arrays import NULL
 
 
 @final
 @dataclass(frozen=True)
 class GraphBatch:
-    """Graphs of up to n nodes: codes of labels and edges, boxes (centre, half size) in the normalised frame.
+    """Graphs of up to n nodes: codes as in `grafu.graph.arrays`, boxes (centre, half size) in the normalised frame.
 
     `mask` marks true nodes; what padding holds is never seen. Row `point_index` of `anchors` and `groups` holds the
     points of a node: centres of groups in the normalised frame, and each group's points relative to its centre.

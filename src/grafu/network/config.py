@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from typing import Literal, final
 
-from grafu.vocabulary import EdgeKind, PartLabel
+from grafu.graph.arrays import KINDS, LABELS
 
-LABEL_COUNT = len(PartLabel)  # 13 categories and `unknown`, coded in the order of `PartLabel`
-EDGE_COUNT = len(EdgeKind) + 1  # contact, hinge, rail, attached, null (official codes)
+LABEL_COUNT = len(LABELS)  # 13 categories and `unknown`
+EDGE_COUNT = len(KINDS) + 1  # contact, hinge, rail, attached, null
 
 PointsFrame = Literal["object", "part"]
 PairFeatures = Literal["signed", "unsigned"]

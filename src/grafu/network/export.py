@@ -17,11 +17,11 @@ from jaxtyping import Float32, Int64
 from torch import Tensor, nn
 from torch.nn.functional import pad
 
+from grafu.graph.arrays import LABELS
 from grafu.network.batch import one_graph
 from grafu.network.config import LABEL_COUNT
 from grafu.network.grafu import GraFu
 from grafu.network.predictions import Predictions
-from grafu.vocabulary import PartLabel
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
@@ -42,7 +42,7 @@ def onnx_bytes(model: GraFu, *, points: int, anchors: int, neighbours: int, half
     facts = {
         "config": asdict(model.config),
         "features": {"points": points, "anchors": anchors, "neighbours": neighbours},
-        "labels": [label.value for label in PartLabel],
+        "labels": [label.value for label in LABELS],
     }
     onnx.helper.set_model_props(proto, {key: json.dumps(value) for key, value in facts.items()})
     onnx.checker.check_model(proto)

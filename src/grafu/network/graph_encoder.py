@@ -1,4 +1,4 @@
-"""The graph encoder: four layers over the fully connected graph, nodes and edges refining each other."""
+"""The graph encoder: layers over the fully connected graph, nodes and edges refining each other."""
 
 from typing import final
 
@@ -30,7 +30,8 @@ class GraphEncoder(nn.Module):
     def forward(self, batch: GraphBatch) -> tuple[Float[Tensor, "b n h"], Float[Tensor, "b n n e"]]:
         """Returns the encoded nodes and edges."""
         nodes, edges = self.into_hidden(self.nodes(batch)), self.edges(batch)
-        for layer, update in zip(self.layers, [*self.updates, None], strict=False):
+        for number, layer in enumerate(self.layers):
             nodes = layer(nodes, edges, batch.mask)
-            edges = edges if update is None else update(nodes, edges)
+            if number < len(self.updates):
+                edges = self.updates[number](nodes, edges)
         return self.norm(nodes), edges

@@ -5,9 +5,8 @@ from typing import NamedTuple, final
 from jaxtyping import Float
 from torch import Tensor, nn
 
+from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.network.pair_heads import HEAD, PairHead
-
-BORDERS, SIGNS, SLIDES = 4, 2, 6
 
 
 class MotionAnswers(NamedTuple):
@@ -24,9 +23,9 @@ class MotionHeads(nn.Module):
 
     def __init__(self, hidden: int, terms: int) -> None:
         super().__init__()
-        self.border = PairHead(hidden, terms, HEAD, BORDERS)
-        self.sign = PairHead(hidden, terms, HEAD, SIGNS)
-        self.slide = PairHead(hidden, terms, HEAD, SLIDES)
+        self.border = PairHead(hidden, terms, HEAD, len(BORDERS))
+        self.sign = PairHead(hidden, terms, HEAD, len(SIGNS))
+        self.slide = PairHead(hidden, terms, HEAD, len(SIGNED_AXES))
 
     def forward(self, slots: Float[Tensor, "b s h"], terms: Float[Tensor, "b s s t"]) -> MotionAnswers:
         """Returns the answers for all pairs (i, j), i being what moves."""

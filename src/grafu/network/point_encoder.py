@@ -12,6 +12,7 @@ from jaxtyping import Float
 from torch import Tensor, nn
 
 from grafu.network.config import PointsFrame
+from grafu.network.perceptron import perceptron
 
 FIRST = (3, 32, 64)  # widths of the stages and of the head (official.md 5)
 SECOND = (67, 64, 128)
@@ -27,7 +28,7 @@ class PointEncoder(nn.Module):
         self.frame = frame
         self.first = _stage(*FIRST)
         self.second = _stage(*SECOND)
-        self.head = nn.Sequential(nn.Linear(SECOND[-1], HEAD), nn.GELU(), nn.Linear(HEAD, width))
+        self.head = perceptron(SECOND[-1], HEAD, width)
 
     def forward(self, anchors: Float[Tensor, "u g 3"], groups: Float[Tensor, "u g k 3"]) -> Float[Tensor, "u width"]:
         """Returns a latent of each part; the order of groups and of their points does not matter."""

@@ -7,7 +7,8 @@ from typing import final
 import numpy as np
 import torch
 
-from grafu.network.batch import NULL, GraphBatch
+from grafu.graph.arrays import NULL
+from grafu.network.batch import GraphBatch
 from grafu.training.lesson import Copy, Lesson
 from grafu.training.padding import padded
 from grafu.training.targets import TargetBatch, mirrored_targets, stack_targets

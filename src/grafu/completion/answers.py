@@ -1,0 +1,65 @@
+"""What is answered about parts: a verdict as a decision, and of every door and drawer its edges or the reason against.
+
+Rules and network share it; it decides nothing itself but that a sliding door is not hung.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, final
+
+from grafu.completion.ballot import Verdict
+from grafu.completion.rows import slides_past
+from grafu.completion.scene import Scene
+from grafu.graph.completion import Decision, Question, RefusedMotion
+from grafu.graph.edges import Edge
+from grafu.graph.functional_graph import PartNode
+from grafu.vocabulary import PartLabel
+
+MotionAnswer = tuple[tuple[Edge, ...], tuple[Decision, ...]] | RefusedMotion
+"""The edges that a part moves by, with how sure each choice is; or why there are none."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Motions:
+    """The answers about all doors and drawers of a graph."""
+
+    edges: tuple[Edge, ...]
+    decisions: tuple[Decision, ...]
+    refused: tuple[RefusedMotion, ...]
+
+
+def move_parts(
+    scene: Scene, hang: Callable[[PartNode], MotionAnswer], run: Callable[[PartNode], MotionAnswer]
+) -> Motions:
+    """Returns what `hang` says of each door and `run` of each drawer; those whose motion an edge states are passed by.
+
+    A door that slides past another is refused unasked.
+    """
+    edges: list[Edge] = []
+    decisions: list[Decision] = []
+    refused: list[RefusedMotion] = []
+    stated = {hinge.child for hinge in scene.graph.hinges} | {rail.child for rail in scene.graph.rails}
+    for node in scene.graph.labelled(PartLabel.DOOR, PartLabel.DRAWER):
+        if node.id in stated:
+            continue
+        answer = _hung(node, scene, hang) if node.label is PartLabel.DOOR else run(node)
+        if isinstance(answer, RefusedMotion):
+            refused.append(answer)
+        else:
+            edges += answer[0]
+            decisions += answer[1]
+    return Motions(tuple(edges), tuple(decisions), tuple(refused))
+
+
+def decision_of(part: str, question: Question, verdict: Verdict[Any]) -> Decision:
+    """Returns a verdict as the answer to a question about a part."""
+    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
+    return Decision(part, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)
+
+
+def _hung(door: PartNode, scene: Scene, hang: Callable[[PartNode], MotionAnswer]) -> MotionAnswer:
+    other = slides_past(door, scene)
+    if other is None:
+        return hang(door)
+    return RefusedMotion(door.id, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built")
