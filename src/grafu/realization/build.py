@@ -83,7 +83,7 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
     if found is None:
         return _skipped(request, search.free_share(), scene, config)
-    return _built(request, found, search.wanted)
+    return _built(request, found, request.reference or search.wanted)
 
 
 def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearance, ...]) -> _Found | None:

@@ -4,10 +4,11 @@ A joint that runs into a closed neighbour waits for it, if the neighbour, open, 
 wait; else its opening ends where the neighbour begins, and the report says so.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
+from grafu.articulation.waiting import all_before
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.config import RealizationConfig
@@ -45,7 +46,7 @@ def order_joints(movings: Sequence[Moving], scene: Scene, config: RealizationCon
         after, upper = [], moving.upper
         for name in moving.in_way:
             other = by_id.get(name)
-            waits_for_us = moving.mover in _all_before(name, waits)
+            waits_for_us = moving.mover in all_before(name, waits)
             if other is not None and not waits_for_us and _free_of(moving, _open(other, scene), scene, config):
                 after.append(name)
             else:
@@ -53,17 +54,6 @@ def order_joints(movings: Sequence[Moving], scene: Scene, config: RealizationCon
         waits[moving.mover] = set(after)
         orders[moving.mover] = Order(tuple(after), upper)
     return orders
-
-
-def _all_before(name: str, waits: Mapping[str, set[str]]) -> set[str]:
-    found: set[str] = set()
-    queue = [name]
-    while queue:
-        for before in waits.get(queue.pop(), ()):
-            if before not in found:
-                found.add(before)
-                queue.append(before)
-    return found
 
 
 def _open(other: Moving, scene: Scene) -> Obstacle:

@@ -17,6 +17,7 @@ from grafu.realization.hinge.survey import Surroundings
 from grafu.vocabulary import MechanismClass
 
 _INSIDE = 0.1  # an axis nearer to a side than this share of the part runs along its border
+MAKESHIFT = 5  # the preference of what is no hinge class: after C, F, P, what is let in, and pivots
 _CHUNKY = 0.45  # a part thicker than this share of its width is no door panel
 
 
@@ -158,7 +159,7 @@ def makeshift_pins(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate
     room = max(4 * tol.radius, min(0.1 * frame.width, 8 * tol.radius))
     for x in (0.0, step, -step, 2 * step, 4 * step, -2 * step):
         for y in (tol.radius, step + tol.radius, 2 * step + tol.radius):
-            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, 5)
+            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, MAKESHIFT)
     for x in (-tol.radius, -step - tol.radius):
         for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
-            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, 6)
+            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, MAKESHIFT + 1)

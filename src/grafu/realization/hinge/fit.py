@@ -21,7 +21,7 @@ from grafu.vocabulary import PartLabel
 _LENGTH_SHARE = 0.12
 _RADIUS_SHARE = 0.22
 _RADIUS = 0.0036  # of a common 60 mm butt hinge
-_SMALLEST = 0.001
+SMALLEST = 0.001
 
 
 @final
@@ -37,7 +37,7 @@ class FittedHinge:
 
 def barrel_radius(frame: BorderFrame) -> float:
     """Returns the barrel radius that suits a door, metres; a door drawn without thickness counts as a thin board."""
-    return max(_SMALLEST, min(_RADIUS, _RADIUS_SHARE * frame.board))
+    return max(SMALLEST, min(_RADIUS, _RADIUS_SHARE * frame.board))
 
 
 def hinge_count(length: float) -> int:

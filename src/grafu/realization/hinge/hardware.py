@@ -31,8 +31,9 @@ _LAP = 0.002  # how far it laps over the leaf that it carries on
 @final
 @dataclass(frozen=True, eq=False)
 class Site:
-    """What hinge hardware is judged against: the door, what is static, the other movers at rest, the motion."""
+    """What hinge hardware is judged against: the door, what is static, the other movers and their ways, the motion."""
 
+    mover: str
     frame: BorderFrame
     door: TriangleMesh
     door_body: MovingBody
@@ -52,7 +53,8 @@ class Site:
 class InstalledHinge:
     """One hinge with its support blocks, found to hold on both sides and to cut into no part.
 
-    `struck_by` names the other movers that would run into it on their way.
+    `struck_by` names the other movers that would run into it on their way, and its own where its ends cut into one
+    another.
     """
 
     static: tuple[Visual, ...]
@@ -74,7 +76,26 @@ def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
         return None
     static, dynamic = (merge_meshes([v.mesh for v in end]) for end in (hinge.static, hinge.dynamic))
     struck_by = [n.id for n in site.neighbours if n.runs_into(static) or _strikes_closed(n, dynamic, site)]
+    if _blocks_itself(hinge, site):
+        struck_by.append(site.mover)
     return replace(hinge, struck_by=tuple(struck_by))
+
+
+def _blocks_itself(hinge: InstalledHinge, site: Site) -> bool:
+    """Whether a support block of one end cuts into the other end; without blocks the template keeps them apart."""
+    static, dynamic = ([v.mesh for v in end] for end in (hinge.static, hinge.dynamic))
+    pairs = [(static, dynamic[1:]), (static[1:], dynamic[:1])]
+    return any(
+        not is_free(
+            MovingBody(merge_meshes(moving), site.depth),
+            site.motion,
+            site.upper,
+            [Obstacle("hinge", MeshCollider(merge_meshes(still)))],
+            _POSES,
+        )
+        for still, moving in pairs
+        if still and moving
+    )
 
 
 def _strikes_closed(neighbour: Neighbour, dynamic: TriangleMesh, site: Site) -> bool:

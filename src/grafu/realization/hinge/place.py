@@ -7,7 +7,6 @@ left out as long as something else holds the door; the placement notes it.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
 
 from grafu.articulation.articulated_object import Visual
 from grafu.realization.hinge.candidates import PinCandidate
@@ -35,25 +34,33 @@ def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
     struck: list[Placement] = []
     for placement in _placements(search, gallery):
         if not placement.struck_by and (not struck or placement.upper >= search.config.restricted * search.wanted):
-            return _noted(placement, struck)
+            return _noted(placement, struck, search.request.moving)
         struck.append(placement)
     if not struck:
         return None
+    least = min(struck, key=lambda p: len(_built_ones(p.struck_by, search)))
+    noted = _noted(least, [p for p in struck if p.template != least.template], search.request.moving)
+    hits = (f"{name} runs into its hardware" for name in _built_ones(least.struck_by, search))
+    return replace(noted, notes=(*noted.notes, *hits))
+
+
+def _built_ones(movers: Sequence[str], search: DoorSearch) -> list[str]:
+    """Returns those movers whose joints stand."""
     ways = search.scene.ways
-    least = min(struck, key=lambda p: sum(ways[name].is_built for name in p.struck_by))
-    hit = [name for name in least.struck_by if ways[name].is_built]
-    noted = _noted(least, [p for p in struck if p.template != least.template])
-    return replace(noted, notes=(*noted.notes, *(f"{name} runs into its hardware" for name in hit)))
+    return [name for name in movers if name in ways and ways[name].is_built]
 
 
-def _noted(placement: Placement, left_out: Sequence[Placement]) -> Placement:
-    """Returns the placement with notes on what was left out because others would run into it."""
+def _noted(placement: Placement, left_out: Sequence[Placement], mover: str) -> Placement:
+    """Returns the placement with notes on what was left out because others, or its own ends, would run into it."""
     templates: dict[tuple[str, ...], list[str]] = {}
     for other in left_out:
         name = f"{other.template} at another pin" if other.template == placement.template else other.template
         if other.struck_by and name not in templates.setdefault(other.struck_by, []):
             templates[other.struck_by].append(name)
-    notes = [f"{' or '.join(which)} would stand in the way of {', '.join(of)}" for of, which in templates.items()]
+    notes = []
+    for struck_by, which in templates.items():
+        others = ["its own door" if name == mover else name for name in struck_by]
+        notes.append(f"{' or '.join(which)} would stand in the way of {', '.join(others)}")
     return replace(placement, notes=tuple(notes))
 
 
@@ -104,6 +111,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
     box = search.scene.parts[search.request.moving].box
     unit = search.scene.unit
     return Site(
+        mover=search.request.moving,
         frame=search.frame,
         door=search.scene.moving_mesh(search.request.moving),
         door_body=search.body,
@@ -126,28 +134,28 @@ def _installed(
     size = hinge_size(model, search.frame, pin, count)
     if size is None:
         return []
-    hinges: list[InstalledHinge] = []
+    placed: dict[float, InstalledHinge] = {}
     for z in hinge_heights(search.frame.length, count):
-        shifts = (s * search.frame.length for s in _HEIGHT_SHIFTS)
-        tries = (install(fit_hinge(model, size, search.frame, pin, z + shift), pin, site) for shift in shifts)
-        placed = _first_unstruck(hinge for hinge in tries if hinge is not None)
-        if placed is None:
+        levels = [float(z) + share * search.frame.length for share in _HEIGHT_SHIFTS]
+        free = (level for level in levels if all(abs(level - other) > size.length for other in placed))
+        tries = ((level, install(fit_hinge(model, size, search.frame, pin, level), pin, site)) for level in free)
+        found = _first_unstruck((level, hinge) for level, hinge in tries if hinge is not None)
+        if found is None:
             return []
-        hinges.append(placed)
-    return hinges
+        placed[found[0]] = found[1]
+    return list(placed.values())
 
 
-def _first_unstruck(hinges: Iterator[InstalledHinge]) -> InstalledHinge | None:
-    """Returns the first of a few hinges that no neighbour runs into, else the first of all."""
-    few = list(islice(_until_unstruck(hinges), _STRUCK))
-    return min(few, key=lambda hinge: len(hinge.struck_by) > 0, default=None)
-
-
-def _until_unstruck(hinges: Iterator[InstalledHinge]) -> Iterator[InstalledHinge]:
-    for hinge in hinges:
-        yield hinge
+def _first_unstruck(hinges: Iterator[tuple[float, InstalledHinge]]) -> tuple[float, InstalledHinge] | None:
+    """Returns the first of a few hinges, each with its height, that no neighbour runs into; else the first of all."""
+    few: list[tuple[float, InstalledHinge]] = []
+    for level, hinge in hinges:
+        few.append((level, hinge))
         if not hinge.struck_by:
-            return
+            return level, hinge
+        if len(few) == _STRUCK:
+            break
+    return few[0] if few else None
 
 
 def _placement(

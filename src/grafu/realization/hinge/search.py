@@ -1,7 +1,7 @@
 """One door's search: which pins there are, and what a sweep of the bare door says of each. It installs nothing."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import radians
 from typing import final
@@ -13,6 +13,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import BorderFrame, border_frame, part_axes
 from grafu.realization.hinge.candidates import (
+    MAKESHIFT,
     PinCandidate,
     Tolerances,
     makeshift_pins,
@@ -20,7 +21,7 @@ from grafu.realization.hinge.candidates import (
     ruled_pins,
     turns_about_itself,
 )
-from grafu.realization.hinge.fit import barrel_radius
+from grafu.realization.hinge.fit import SMALLEST, barrel_radius
 from grafu.realization.hinge.neighbours import Neighbour, neighbours_of
 from grafu.realization.hinge.survey import survey
 from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, sweep, swept_box, widest_free
@@ -28,6 +29,7 @@ from grafu.realization.plan import JointRequest
 from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType
 
+_SLIM = 0.5  # barrel radius of a slim hinge, a share of what suits the door
 _NEARLY = 0.05  # a pin that leaves this share of the wanted opening blocked is still as good as free
 
 
@@ -44,6 +46,11 @@ class JudgedPin:
     free: float
     neighbours: tuple[str, ...]
     rank: tuple[float, int, int, float]
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether the door opens about it as wanted, or nearly so, past everything."""
+        return self.rank[0] <= _NEARLY and not self.neighbours
 
 
 @final
@@ -94,6 +101,18 @@ class DoorSearch:
         tol = self._tolerances
         return self._judged([*pivot_pins(self.frame, self.request.axis, tol), *makeshift_pins(self.frame, tol)])
 
+    @cached_property
+    def slim(self) -> list[JudgedPin]:
+        """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams.
+
+        One that is let in holds by a tongue of half a millimetre: it comes after the pivots.
+        """
+        if turns_about_itself(self.frame, self.request.axis):
+            return []
+        tol = replace(self._tolerances, radius=max(_SLIM * self._tolerances.radius, SMALLEST))
+        pins = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
+        return self._judged([replace(pin, preference=MAKESHIFT) if pin.let_in else pin for pin in pins])
+
     @property
     def expected_axis(self) -> Axis:
         """The axis of the first hinge class that the surroundings allow, unswept; else the one that was asked for."""
@@ -112,15 +131,18 @@ class DoorSearch:
         return Tolerances(self.config.contact * unit, self.config.flush * unit, barrel_radius(self.frame))
 
     def in_order(self) -> Iterator[JudgedPin]:
-        """Yields all pins: those of a hinge class that leave the door free, then everything by rank.
+        """Yields all pins: those of a hinge class that leave the door free, then slim ones, then everything by rank.
 
         What is no board turns about the axis that was asked for, if anything can carry it there.
         """
-        first = [judged for judged in self.ruled if judged.rank[0] <= _NEARLY and not judged.neighbours]
+        first = [judged for judged in self.ruled if judged.is_clear]
         if turns_about_itself(self.frame, self.request.axis):
             first = [judged for judged in self.others if judged.pin.is_pivot]
         yield from first
-        yield from sorted((j for j in (*self.ruled, *self.others) if j not in first), key=lambda j: j.rank)
+        slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.let_in]
+        yield from slim
+        rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in slim)
+        yield from sorted(rest, key=lambda j: j.rank)
 
     def best(self) -> JudgedPin:
         """Returns the best pin by the sweep alone."""

@@ -19,6 +19,7 @@ from grafu.realization.hinge.border import part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
 _BOARD = 0.15  # what is less deep than this share of its smaller side is a front without a container
+_THICKEST, _SLAT = 0.03, 0.1  # metres, share of its longer side: low fronts are thick for their height
 _SHORTEST = 0.3  # a body shorter than this share of the drawer's depth is no container (official 7.4)
 
 
@@ -142,8 +143,14 @@ def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> Bod
 
 
 def is_board(frame: DrawerFrame) -> bool:
-    """Whether a drawer is a mere front: much less deep than it is wide and high."""
-    return frame.depth < _BOARD * min(frame.width, frame.height)
+    """Whether a drawer is a mere front: much less deep than it is wide and high, or as thin as boards are."""
+    as_thin = min(_THICKEST, _SLAT * max(frame.width, frame.height))
+    return frame.depth < max(_BOARD * min(frame.width, frame.height), as_thin)
+
+
+def is_shallow(frame: DrawerFrame) -> bool:
+    """Whether a drawer may be a mere front with its pull, drawn as one: much less deep than wide or high."""
+    return frame.depth < _BOARD * max(frame.width, frame.height)
 
 
 def _median(values: np.ndarray) -> float:

@@ -10,7 +10,7 @@ from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MovingBody
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
@@ -25,12 +25,14 @@ from grafu.realization.limits import (
     widest_free,
 )
 from grafu.realization.plan import JointRequest
-from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_board
+from grafu.realization.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_shallow
 from grafu.realization.rail.spots import front_only_region
 from grafu.realization.scene import Obstacle, Scene
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, PartLabel
 
 _FLAT = 0.2  # a board is thinner than this share of its smaller side
+_FLUSH = 1e-3  # metres by which a rider may stand out and still count as behind a drawer's front side
+_DEEPER = 3.0  # a shallow drawer before a case so many times as deep is a front with its pull, not a container
 _TRAVEL = 0.77  # of the depth: what rails over 0.9 of a body travel with a lap of 15 %
 
 
@@ -47,10 +49,10 @@ class DrawerSearch:
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Obstacle, ...]
 
-    @property
+    @cached_property
     def mesh(self) -> TriangleMesh:
-        """The drawer without what rides on it."""
-        return self.scene.parts[self.request.moving].mesh
+        """What rails may hold on to: the drawer, and what rides behind its front side (walls, runners of its own)."""
+        return carried_mesh(self.request, self.scene)
 
     @property
     def box(self) -> Box:
@@ -71,16 +73,19 @@ class DrawerSearch:
     def static_rays(self) -> RayCaster:
         """The static body around the drawer and behind it, prepared for rays."""
         near = 0.5 * float(self.mesh.box.size.max())
-        margin = self.scene.unit if is_board(self.frame) else near
+        margin = self.scene.unit if is_shallow(self.frame) else near
         return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin))
 
     @cached_property
     def region(self) -> BodyRegion | None:
         """Where rails may run: along the container, or behind a front that has none; None where there is no depth."""
         container = body_region(self.mesh, self.frame, self.config.body_tolerance)
-        if container is not None:
+        if container is not None and not is_shallow(self.frame):
             return container
-        return front_only_region(self.frame, self.static_rays, 1.5 * self.scene.unit)
+        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.unit)
+        if container is None or (behind is not None and behind.length > _DEEPER * container.length):
+            return behind
+        return container
 
     @property
     def reach(self) -> float:
@@ -122,13 +127,23 @@ def slides_in_its_plane(mesh: TriangleMesh, direction: Vec3) -> bool:
     return bool(is_upright and is_flat and abs(float(axes[:, thin] @ direction)) < _FLAT)
 
 
+def carried_mesh(request: JointRequest, scene: Scene) -> TriangleMesh:
+    """Returns a drawer with those riders that do not stand out before its front; handles never count."""
+    drawer, slide = scene.parts[request.moving], np.asarray(request.axis.direction)
+    front = float((drawer.mesh.vertices @ slide).max()) + _FLUSH
+    riders = [scene.parts[member] for member in scene.movers[request.moving].members if member != request.moving]
+    behind = [r.mesh for r in riders if r.label is not PartLabel.HANDLE and (r.mesh.vertices @ slide).max() <= front]
+    return merge_meshes([drawer.mesh, *behind]) if behind else drawer.mesh
+
+
 def drawer_search(
     request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
 ) -> DrawerSearch | None:
     """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle."""
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
-    frame = drawer_frame(mesh, direction, slides_in_its_plane(mesh, direction))
+    lying = slides_in_its_plane(mesh, direction)
+    frame = drawer_frame(mesh if lying else carried_mesh(request, scene), direction, lying)
     if frame is None:
         return None
     body = scene.moving_body(request.moving, config.depth * scene.unit, part_axes(mesh))

@@ -20,6 +20,7 @@ _COMMON_RAIL = 0.0127  # the thickness that ball-bearing slides share
 _DYNAMIC_REACH = 0.86  # share of a rail's thickness that its moving member takes, from the drawer's side
 _MOST_LET_IN = 0.5  # a rail let in deeper than this share would have its static member cut into the drawer
 _GRID = (12, 5)
+_LEVELS = 7  # heights at which the room behind a mere front is felt for
 
 
 @final
@@ -122,18 +123,32 @@ def front_only_region(frame: DrawerFrame, static: RayCaster, reach: float) -> Bo
     """
     front_depth, thickness = frame.depth, _COMMON_RAIL
     inset = 0.02 * frame.width
-    z = np.linspace(-0.3, 0.3, 5) * frame.height
-    back = _reach_along(frame, static, (0.0, front_depth + 1e-3), z, 1, reach)
-    depth = min(back, reach) - 0.01
-    if not np.isfinite(back) or depth < 0.5 * frame.height:
+    z, depth = _free_behind(frame, static, front_depth + 1e-3, reach)
+    if depth < 0.5 * frame.height:
         return None
-    middle = front_depth + 0.4 * depth
-    sides = [_reach_along(frame, static, (0.0, middle), z, 0, reach, sign) for sign in (-1.0, 1.0)]
+    deep = (front_depth + np.array([0.005, 0.015, 0.4 * depth])).tolist()  # a face frame leaves the narrowest passage
+    sides = [_reach_along(frame, static, (0.0, y), z, 0, reach, sign) for y in deep for sign in (-1.0, 1.0)]
     half = min(*sides, frame.width / 2 - inset) - thickness
     if half <= 0.1 * frame.width:
         return None
     start = front_depth - 2e-4
-    return BodyRegion(-half, half, start, start + depth, -0.3 * frame.height, 0.3 * frame.height, True)
+    return BodyRegion(-half, half, start, start + depth, float(z[0]), float(z[-1]), True)
+
+
+def _free_behind(frame: DrawerFrame, static: RayCaster, start: float, reach: float) -> tuple[np.ndarray, float]:
+    """Returns the heights behind a front at which it is free to the back, and how deep, metres; 0 where nowhere.
+
+    A front may overlap the case's boards above and below: the longest run of heights that are as free as the middle.
+    """
+    z = np.linspace(-0.3, 0.3, _LEVELS) * frame.height
+    depths = np.array([_reach_along(frame, static, (0.0, start), z[k : k + 1], 1, reach) for k in range(_LEVELS)])
+    middle = float(depths[_LEVELS // 2])
+    if not np.isfinite(middle):
+        return z, 0.0
+    shallow = np.flatnonzero(depths < 0.8 * middle)
+    low = int(max(shallow[shallow < _LEVELS // 2], default=-1)) + 1
+    high = int(min(shallow[shallow > _LEVELS // 2], default=_LEVELS)) - 1
+    return z[low : high + 1], float(depths[low : high + 1].min()) - 0.01
 
 
 def _reach_along(
