@@ -9,7 +9,7 @@ from rich.markup import escape
 from grafu.cli.progress import with_progress
 from grafu.cli.tables import plain_table, wide_console
 from grafu.data.gallery import gallery_page
-from grafu.data.statistics import Comparison, Spread, compare
+from grafu.data.statistics import Comparison, compare, number_text
 from grafu.data.stream import stream_specimens
 from grafu.errors import ExportError, UnreadableAsset
 from grafu.export.files import write_files
@@ -53,9 +53,9 @@ def _print_comparison(comparison: Comparison) -> None:
     table = plain_table("measure", "made: 5 · 50 · 95 %", "real: 5 · 50 · 95 %", "real within", "verdict", "outside")
     for row in comparison.rows:
         within = "" if row.within is None else f"{row.within:.0%}"
-        names = [f"{name} {_number(value, row.is_share)}" for name, value in row.outliers[:_OUTLIERS]]
+        names = [f"{name} {number_text(value, row.is_share)}" for name, value in row.outliers[:_OUTLIERS]]
         more = [f"and {len(row.outliers) - _OUTLIERS} more"] if len(row.outliers) > _OUTLIERS else []
-        spreads = (_spread(row.synthetic, row.is_share), _spread(row.real, row.is_share))
+        spreads = ("" if spread is None else spread.text(row.is_share) for spread in (row.synthetic, row.real))
         table.add_row(escape(row.measure), *spreads, within, row.verdict, escape(", ".join(names + more)))
     console = wide_console()
     console.print(table)
@@ -70,14 +70,3 @@ def _sum(comparison: Comparison) -> str:
         return made
     inside = len(comparison.rows) - len(comparison.failing)
     return f"{made} and {comparison.real} real ones: in {inside} of {len(comparison.rows)} measures the real lie within"
-
-
-def _spread(spread: Spread | None, is_share: bool) -> str:
-    if spread is None:
-        return ""
-    ends = (spread.median,) if spread.low == spread.high else (spread.low, spread.median, spread.high)
-    return " · ".join(_number(number, is_share) for number in ends)
-
-
-def _number(number: float, is_share: bool) -> str:
-    return f"{number:.0%}" if is_share else f"{number:.3g}"

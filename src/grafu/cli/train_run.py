@@ -8,7 +8,7 @@ from typing import Any
 
 from grafu.cli.messages import complain
 from grafu.cli.progress import with_progress
-from grafu.errors import ExportError
+from grafu.export.whole_file import whole_file
 from grafu.training.checkpoint import load_best
 from grafu.training.config import CONFIGS, TrainingConfig
 from grafu.training.exporting import exported
@@ -61,15 +61,8 @@ def export_weights(folder: Path, target: Path) -> int:
     """
     best = load_best(folder)
     content = exported(best)
-    fresh = target.with_name(f".{target.name}.new")
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(target) as fresh:
         fresh.write_bytes(content)
-        os.replace(fresh, target)
-    except OSError as error:
-        raise ExportError(f"cannot write the output `{target}`: {error.strerror}") from error
-    finally:
-        fresh.unlink(missing_ok=True)
     score = best.figures["score"]
     print(f"written to {target}: {len(content) / 1e6:.1f} MB, the weights of step {best.step} (score {score:.4f})")
     return EXIT_DONE

@@ -10,12 +10,12 @@ import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-from uuid import uuid4
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 import numpy as np
 
-from grafu.errors import ExportError, UnreadableAsset
+from grafu.errors import UnreadableAsset
+from grafu.export.whole_file import whole_file
 
 _DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip file can state: the time of writing must not change the bytes
 _LOCAL_HEADER = 30  # bytes of a zip member's header before its name; name and extra length stand at 26 and 28
@@ -28,23 +28,15 @@ def write_array_file(arrays: Mapping[str, np.ndarray], texts: Mapping[str, Any],
     Raises:
         ExportError: if it cannot be written.
     """
-    fresh = path.with_name(f".{path.name}.{uuid4().hex[:8]}.new")
-    try:
-        with fresh.open("wb") as file:
-            with ZipFile(file, "w", ZIP_STORED) as archive:
-                for name, value in texts.items():
-                    archive.writestr(_member(f"{name}.json", ZIP_DEFLATED), json.dumps(value, ensure_ascii=False))
-                for name, array in arrays.items():
-                    with archive.open(_member(f"{name}.npy", ZIP_STORED), "w", force_zip64=True) as member:
-                        np.lib.format.write_array(member, np.ascontiguousarray(array), allow_pickle=False)
-            file.flush()
-            os.fsync(file.fileno())
-        fresh.replace(path)
-    except OSError as error:
-        reason = error.strerror or type(error).__name__
-        raise ExportError(f"cannot write `{path}`: {reason}; nothing of it was written") from error
-    finally:
-        fresh.unlink(missing_ok=True)
+    with whole_file(path) as fresh, fresh.open("wb") as file:
+        with ZipFile(file, "w", ZIP_STORED) as archive:
+            for name, value in texts.items():
+                archive.writestr(_member(f"{name}.json", ZIP_DEFLATED), json.dumps(value, ensure_ascii=False))
+            for name, array in arrays.items():
+                with archive.open(_member(f"{name}.npy", ZIP_STORED), "w", force_zip64=True) as member:
+                    np.lib.format.write_array(member, np.ascontiguousarray(array), allow_pickle=False)
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def read_array_file(path: Path, mapped: str, verify: bool = True) -> tuple[dict[str, np.ndarray], dict[str, Any]]:

@@ -45,6 +45,11 @@ class Spread:
         """Returns the spread of at least one number."""
         return cls(*(float(x) for x in np.percentile(numbers, [_LOW, 50.0, _HIGH])))
 
+    def text(self, is_share: bool) -> str:
+        """Returns its numbers as they stand in a table, one where all are the same."""
+        numbers = (self.median,) if self.low == self.high else (self.low, self.median, self.high)
+        return " · ".join(number_text(number, is_share) for number in numbers)
+
     def holds(self, number: float) -> bool:
         """Whether a number lies between the 5 % and the 95 % point, but for rounding."""
         slack = _ROUNDING * max(abs(self.low), abs(self.high)) + 1e-9
@@ -195,18 +200,11 @@ def _grouped(tallies: np.ndarray, size: int) -> Spread:
 
 def _markdown_row(row: StatisticsRow) -> str:
     within = "" if row.within is None else f"{row.within:.0%}"
-    outside = ", ".join(f"{name} {_number(value, row.is_share)}" for name, value in row.outliers)
-    cells = [row.measure, _spread(row.synthetic, row), _spread(row.real, row), within, row.verdict, outside]
-    return "| " + " | ".join(cells) + " |"
+    outside = ", ".join(f"{name} {number_text(value, row.is_share)}" for name, value in row.outliers)
+    made, real = ("none" if spread is None else spread.text(row.is_share) for spread in (row.synthetic, row.real))
+    return "| " + " | ".join([row.measure, made, real, within, row.verdict, outside]) + " |"
 
 
-def _spread(spread: Spread | None, row: StatisticsRow) -> str:
-    if spread is None:
-        return "none"
-    if spread.low == spread.high:
-        return _number(spread.median, row.is_share)
-    return " · ".join(_number(n, row.is_share) for n in (spread.low, spread.median, spread.high))
-
-
-def _number(number: float, is_share: bool) -> str:
+def number_text(number: float, is_share: bool) -> str:
+    """Returns a number of a measure as it stands in a table."""
     return f"{number:.0%}" if is_share else f"{number:.3g}"

@@ -18,6 +18,7 @@ from grafu.data.statistics_fronts import Front, boxes_of, doors_of, drawers_of, 
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.groups import joined_groups
 from grafu.vocabulary import PartLabel
 
 _FLAT = 1e-4  # share of the object's largest side under which a part has no thickness: half a millimetre in 5 m
@@ -105,7 +106,7 @@ def _label_shares(asset: Asset) -> dict[str, float]:
 def _graph_values(graph: FunctionalGraph, unit: float) -> dict[str, float]:
     values = {
         "contacts per node": 2 * len(graph.edges) / len(graph.nodes),
-        "connected components": float(_components(graph)),
+        "connected components": float(len(joined_groups(graph.neighbours))),
     }
     if graph.edges:
         depths = [-float(graph.node(a).box.axis_gaps(graph.node(b).box).max()) for a, b in map(ends_of, graph.edges)]
@@ -113,17 +114,6 @@ def _graph_values(graph: FunctionalGraph, unit: float) -> dict[str, float]:
         values["boxes overlap, median"] = float(np.median(overlaps))
         values["boxes overlap, largest"] = float(overlaps.max())
     return values
-
-
-def _components(graph: FunctionalGraph) -> int:
-    left, count = {n.id for n in graph.nodes}, 0
-    while left:
-        queue, count = [left.pop()], count + 1
-        while queue:
-            reached = left.intersection(graph.neighbours[queue.pop()])
-            left -= reached
-            queue += reached
-    return count
 
 
 def _front_values(word: str, fronts: tuple[Front, ...], unit: float) -> dict[str, float]:

@@ -6,13 +6,11 @@ The digest tells another generator, whatever its version says. This module write
 """
 
 import json
-import os
 import shutil
 from dataclasses import asdict, dataclass
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, Literal, final
-from uuid import uuid4
 
 import numpy as np
 
@@ -22,6 +20,7 @@ from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
 from grafu.data.shards_record import record_of
 from grafu.data.stream import shard_paths
 from grafu.errors import ExportError, UnreadableAsset
+from grafu.export.whole_file import write_whole
 from grafu.graph.arrays import LABELS
 from grafu.synth.check import faults_in
 from grafu.synth.generate import make_specimen
@@ -164,18 +163,14 @@ def _digest(arrays: ModelArrays) -> str:
 
 def _write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
     """Removes the models of an earlier run, and states what comes now."""
-    fresh = folder / f".{MANIFEST}.{uuid4().hex[:8]}.new"
     try:
         for path in shard_paths(folder):
             path.unlink()
-        for name in (UNFUNCTIONAL, FUNCTIONAL, GEOMETRY, SPLITS):
-            shutil.rmtree(folder / name, ignore_errors=True)
-        fresh.write_text(json.dumps(manifest, indent=1) + "\n", encoding="utf-8")
-        os.replace(fresh, folder / MANIFEST)
     except OSError as error:
         raise ExportError(f"cannot write the output `{folder}`: {error.strerror}") from error
-    finally:
-        fresh.unlink(missing_ok=True)
+    for name in (UNFUNCTIONAL, FUNCTIONAL, GEOMETRY, SPLITS):
+        shutil.rmtree(folder / name, ignore_errors=True)
+    write_whole(json.dumps(manifest, indent=1) + "\n", folder / MANIFEST)
 
 
 def _read_manifest(folder: Path) -> dict[str, Any]:

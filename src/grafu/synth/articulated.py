@@ -6,6 +6,7 @@ It moves nothing and draws nothing: the joints are those that the asset states.
 from collections.abc import Mapping
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.articulation.waiting import all_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.synth.clashes import Clashes, clashes_of
 
@@ -39,21 +40,11 @@ def articulated_of(whole: Asset) -> ArticulatedObject:
 
 def _waits_for(part: str, clashes: Clashes, waits: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
     """Returns the moving parts that must be open before a part moves, none of which waits for that part itself."""
-    others = [other for other in clashes.movers_hit(part) if part not in _all_before(other, waits)]
+    others = [other for other in clashes.movers_hit(part) if part not in all_before(other, waits)]
     if not others:
         return ()
     still_hit = {clashes.carrier(hit) for hit in clashes.hits(part, others)}
     return tuple(other for other in others if other not in still_hit)
-
-
-def _all_before(part: str, waits: Mapping[str, tuple[str, ...]]) -> set[str]:
-    found, queue = set[str](), [part]
-    while queue:
-        for before in waits.get(queue.pop(), ()):
-            if before not in found:
-                found.add(before)
-                queue.append(before)
-    return found
 
 
 def _joint(joint: AnnotatedJoint, root: str, after: tuple[str, ...]) -> Joint:

@@ -18,6 +18,7 @@ from grafu.articulation.sweep import values_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.edges import Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.groups import joined_groups
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.synth.articulated import articulated_of
 from grafu.synth.clashes import clashes_of
@@ -249,16 +250,7 @@ def _attachment_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
 
 def _unreached(truth: FunctionalGraph) -> tuple[str, ...]:
     """Returns the nodes outside the largest group that edges join."""
-    largest, left = set[str](), {node.id for node in truth.nodes}
-    while len(left) > len(largest):
-        group, queue = set[str](), [min(left)]
-        while queue:
-            node = queue.pop()
-            if node not in group:
-                group.add(node)
-                queue += truth.neighbours[node]
-        left -= group
-        largest = max(largest, group, key=len)
+    largest = max(joined_groups(truth.neighbours), key=len, default=frozenset[str]())
     return tuple(node.id for node in truth.nodes if node.id not in largest)
 
 

@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import final
 
 from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
+from grafu.export.whole_file import write_whole
 from grafu.training.ablation import Experiment
 from grafu.training.checkpoint import has_progress, load_best, read_config
 from grafu.training.config import TrainingConfig
 from grafu.training.loop import RunOptions, train
 from grafu.training.source import Source
-from grafu.training.whole_file import write_whole
 from grafu.training.workers import joined_workers
 
 SCHEMA = "grafu.ablation/1"

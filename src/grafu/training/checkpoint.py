@@ -4,19 +4,18 @@ DIR/last.pt    everything that the next step depends on
 DIR/best.pt    the weights that did best in validation, their config and figures
 """
 
-import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from pickle import UnpicklingError
 from typing import Any, final
-from uuid import uuid4
 
 import torch
 from pydantic import TypeAdapter, ValidationError
 from torch import Tensor
 
-from grafu.errors import ExportError, UnreadableAsset
+from grafu.errors import UnreadableAsset
+from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
 from grafu.training.config import TrainingConfig
@@ -158,12 +157,5 @@ def _read(path: Path, progress: Progress | None = None) -> dict[str, Any]:
 
 
 def _write(state: Mapping[str, Any], path: Path) -> None:
-    fresh = path.with_name(f".{path.name}.{uuid4().hex[:8]}.new")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(path) as fresh:
         torch.save(state, fresh)
-        os.replace(fresh, path)
-    except OSError as error:
-        raise ExportError(f"cannot write `{path}`: {error.strerror}") from error
-    finally:
-        fresh.unlink(missing_ok=True)

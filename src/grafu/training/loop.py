@@ -17,6 +17,7 @@ import torch
 from torch import nn
 
 from grafu.errors import ExportError
+from grafu.export.whole_file import write_whole
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
 from grafu.training.batching import TrainingBatch
@@ -107,7 +108,7 @@ def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool)
             raise ExportError(f"`{folder}` holds a run already: choose another --out, or give --resume")
         load_progress(progress, config, folder)
     elif workers.is_first:
-        _write_config(config, folder)
+        write_whole(json.dumps(asdict(config), indent=1) + "\n", folder / "config.json")
     workers.share_weights(network)
     return progress
 
@@ -212,11 +213,3 @@ def multiplies_bfloat16(device: torch.device) -> bool:
     if device.type == "cuda":
         return torch.cuda.is_bf16_supported()
     return device.type == "cpu" and torch.cpu._is_amx_tile_supported()
-
-
-def _write_config(config: TrainingConfig, folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "config.json").write_text(json.dumps(asdict(config), indent=1) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise ExportError(f"cannot write the output `{folder}`: {error.strerror}; nothing was trained") from error

@@ -8,7 +8,7 @@ from releases import functional, put, put_model, unfunctional
 
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.data.furfun.ply import mesh_to_ply, read_ply
-from grafu.data.furfun.points import box_points, resampled
+from grafu.data.furfun.points import drawn_from, drawn_on_box
 from grafu.errors import UnreadableAsset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -129,7 +129,7 @@ lengths = st.floats(0.0, 3.0).filter(lambda x: x == 0 or x > 1e-6)
 @given(st.tuples(lengths, lengths, lengths), st.integers(1, 300))
 def test_points_on_a_box_lie_on_its_faces(size, count):
     box = Box(np.array([1.0, 2.0, 3.0]), np.array([1.0, 2.0, 3.0]) + np.array(size))
-    points = box_points(box, count, np.random.default_rng(count))
+    points = drawn_on_box(box, count, np.random.default_rng(count))
     on_face = np.isclose(points, box.low, atol=1e-9) | np.isclose(points, box.high, atol=1e-9)
     assert len(points) == count
     assert np.all(on_face.any(axis=1))
@@ -137,7 +137,7 @@ def test_points_on_a_box_lie_on_its_faces(size, count):
 
 
 def test_faces_of_a_box_get_points_by_their_area():
-    points = box_points(Box(np.zeros(3), np.array([1.0, 2.0, 0.01])), 20000, np.random.default_rng(0))
+    points = drawn_on_box(Box(np.zeros(3), np.array([1.0, 2.0, 0.01])), 20000, np.random.default_rng(0))
     broad = np.isclose(points[:, 2], 0.0) | np.isclose(points[:, 2], 0.01)
     assert abs(broad.mean() - 2 / 2.03) < 0.005
 
@@ -145,7 +145,7 @@ def test_faces_of_a_box_get_points_by_their_area():
 @given(st.integers(1, 40), st.integers(1, 40))
 def test_resampling_repeats_only_where_it_must(have, want):
     points = np.arange(3.0 * have).reshape(-1, 3)
-    found = resampled(points, want, np.random.default_rng(0))
+    found = drawn_from(points, want, np.random.default_rng(0))
     assert len(found) == want
     if have >= want:
         assert len(np.unique(found, axis=0)) == want

@@ -3,13 +3,14 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 from grafu.asset.mesh_files import read_bytes
 from grafu.asset.options import Limits
 from grafu.data.furfun.points import PointFolder
 from grafu.errors import GraphError, UnreadableAsset
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.groups import joined_groups
 from grafu.graph.json_values import Json
 from grafu.graph.official_json import graph_from_official
 from grafu.graph.serialize import load_json
@@ -86,24 +87,14 @@ def why_skipped(data: Json, whole: bool) -> str:
     if not whole or not isinstance(listed, dict | list) or not isinstance(edges, list):
         return ""  # whoever reads a damaged graph is told
     ids = [str(n.get("id")) if isinstance(n, Mapping) else str(n) for n in listed]
-    pieces = _count_pieces(ids, [e for e in edges if isinstance(e, Mapping)])
-    return f"its functional graph falls into {pieces} pieces" if pieces > 1 else ""
-
-
-def _count_pieces(ids: list[str], edges: list[Mapping[str, Any]]) -> int:
-    root = {i: i for i in ids}
-
-    def find(i: str) -> str:
-        while root[i] != i:
-            root[i] = root[root[i]]
-            i = root[i]
-        return i
-
+    neighbours: dict[str, list[str]] = {i: [] for i in ids}
     for edge in edges:
-        src, dst = str(edge.get("src")), str(edge.get("dst"))
-        if src in root and dst in root:
-            root[find(src)] = find(dst)
-    return sum(root[i] == i for i in root)
+        src, dst = (str(edge.get(end)) if isinstance(edge, Mapping) else "" for end in ("src", "dst"))
+        if src in neighbours and dst in neighbours:
+            neighbours[src].append(dst)
+            neighbours[dst].append(src)
+    pieces = len(joined_groups(neighbours))
+    return f"its functional graph falls into {pieces} pieces" if pieces > 1 else ""
 
 
 def _kinds(data: Json) -> dict[frozenset[str], str]:

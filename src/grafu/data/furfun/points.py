@@ -46,8 +46,8 @@ class PointFolder:
             return sample_surface(found, self._count, seed)
         if found is None or not len(found):
             self.boxed.append(node_id)
-            return PointCloud(box_points(box, self._count, np.random.default_rng(seed)))
-        return PointCloud(resampled(found, self._count, np.random.default_rng(seed)))
+            return PointCloud(drawn_on_box(box, self._count, np.random.default_rng(seed)))
+        return PointCloud(drawn_from(found, self._count, np.random.default_rng(seed)))
 
     def _read(self, node_id: str) -> TriangleMesh | Points | None:
         if Path(node_id).name != node_id:  # a node's name is no path: it leads to no file
@@ -76,14 +76,14 @@ def read_npy(data: bytes, where: str) -> Points:
     return values.astype(np.float64)
 
 
-def resampled(points: Points, count: int, rng: np.random.Generator) -> Float[np.ndarray, "count 3"]:
+def drawn_from(points: Points, count: int, rng: np.random.Generator) -> Float[np.ndarray, "count 3"]:
     """Returns `count` of the points: without repetition, or with it where there are fewer."""
     if len(points) == count:  # what we wrote is read as it was
         return points
     return points[rng.choice(len(points), count, replace=len(points) < count)]
 
 
-def box_points(box: Box, count: int, rng: np.random.Generator) -> Points:
+def drawn_on_box(box: Box, count: int, rng: np.random.Generator) -> Points:
     """Returns `count` points spread evenly over the faces of a box; a flat box has its two broad faces."""
     size = box.size
     areas = np.array([size[1] * size[2], size[0] * size[2], size[0] * size[1]])

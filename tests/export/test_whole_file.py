@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from grafu.errors import ExportError
-from grafu.training.whole_file import write_whole
+from grafu.export.whole_file import write_whole
 
 
 def test_a_file_is_written_and_nothing_else(tmp_path: Path) -> None:
