@@ -1,5 +1,6 @@
 """Rails: a mirrored pair beside the container, held on both sides, whatever the drawer hangs in."""
 
+from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -8,6 +9,7 @@ from judging import hardware, installed, made_kind, realized, realized_kind
 from small_scenes import box, drawer, scene, sliding
 
 from grafu.asset.edit import yawed
+from grafu.asset.part import Part
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
 from grafu.synth.cabinet import Cabinet, make_cabinet
@@ -101,3 +103,59 @@ def test_a_drawer_that_opens_to_the_back_is_no_trouble():
     outcome = installed(realized(scene(*parts, joints=(sliding("drawer", (0.0, 1.0, 0.0)),))))["drawer"]
     np.testing.assert_allclose(outcome.axis.direction, [0.0, 1.0, 0.0], atol=1e-9)
     assert outcome.opening == pytest.approx(0.3, abs=0.02)
+
+
+def case_around(low: float, *, depth: float = 0.45) -> list[Part]:
+    """Walls, back and floor of a case 0.44 m wide inside, its floor at `low`."""
+    return [
+        box("side_left", (-0.24, -0.2, 0.0), (-0.22, depth - 0.2, 0.3)),
+        box("side_right", (0.22, -0.2, 0.0), (0.24, depth - 0.2, 0.3)),
+        box("back", (-0.22, depth - 0.22, 0.0), (0.22, depth - 0.2, 0.3)),
+        box("floor", (-0.22, -0.2, 0.0), (0.22, depth - 0.22, low)),
+    ]
+
+
+def test_a_container_of_parts_that_ride_behind_the_front_carries_the_rails():
+    front = box("drawer", (-0.21, -0.22, 0.03), (0.21, -0.2, 0.25))
+    walls = [
+        box("board_left", (-0.2, -0.2, 0.04), (-0.19, 0.2, 0.2), rides_on="drawer"),
+        box("board_right", (0.19, -0.2, 0.04), (0.2, 0.2, 0.2), rides_on="drawer"),
+        box("board_back", (-0.19, 0.19, 0.04), (0.19, 0.2, 0.2), rides_on="drawer"),
+    ]
+    result = realized(scene(*case_around(0.02), front, *walls, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)))
+    moving, _ = hardware(result, "drawer")
+    for low, high in boxes(moving, "rail"):
+        assert min(abs(low[0]), abs(high[0])) == pytest.approx(0.2, abs=3e-3)
+        assert high[1] - low[1] == pytest.approx(0.36, rel=0.1)
+
+
+@pytest.mark.parametrize("height", [0.05, 0.2], ids=["low and thick", "before the floor's edge"])
+def test_a_mere_front_slides_as_far_as_the_case_is_deep(height):
+    front = box("drawer", (-0.24, -0.22, 0.02), (0.24, -0.2, 0.02 + height))
+    pull = box("drawer_pull", (-0.1, -0.25, 0.03), (0.1, -0.22, 0.04))
+    whole = replace(front, surfaces=(*front.surfaces, *pull.surfaces))  # drawn as one, as some makers do
+    asset = scene(*case_around(0.02 + height / 4), whole, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
+    outcome = installed(realized(asset))["drawer"]
+    assert outcome.opening >= 0.25
+    assert not outcome.restricted
+    assert outcome.collision_share == 0
+
+
+def test_a_mere_front_passes_the_stiles_of_a_face_frame():
+    front = box("drawer", (-0.22, -0.24, 0.03), (0.22, -0.22, 0.25))
+    stiles = [
+        box("stile_left", (-0.24, -0.22, 0.0), (-0.19, -0.2, 0.3)),
+        box("stile_right", (0.19, -0.22, 0.0), (0.24, -0.2, 0.3)),
+    ]
+    result = realized(scene(*case_around(0.02), *stiles, front, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)))
+    moving, _ = hardware(result, "drawer")
+    assert installed(result)["drawer"].opening >= 0.25
+    assert np.abs(boxes(moving, "rail")[:, :, 0]).max() <= 0.19
+
+
+def test_a_drawer_that_cannot_go_as_far_as_asked_is_said_to_be_restricted():
+    asset = drawer()
+    asked = replace(asset, joints=(sliding("drawer", (0.0, -1.0, 0.0), upper=0.6),))
+    outcome = installed(realized(asked))["drawer"]
+    assert outcome.opening < 0.7 * 0.6
+    assert outcome.restricted

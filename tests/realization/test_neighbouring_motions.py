@@ -1,7 +1,10 @@
 """Hardware keeps out of the way of the doors and drawers beside it: fronts over one another with a 2 mm seam."""
 
+from itertools import pairwise
+
 import pytest
-from judging import hardware, installed, realized
+from judging import hardware, installed, realized, realized_kind
+from small_scenes import box, hinged, scene
 
 from grafu.asset.part import Asset
 from grafu.metrics.collision import CollisionConfig, collision_shares
@@ -56,13 +59,25 @@ def test_an_overlay_flap_between_others_hangs_on_plates_beside_its_ends():
     result = realized(asset)
     door, outcome = asset.part("door_2").box, installed(result)["door_2"]
     assert (outcome.template, outcome.count) == ("pivot", 2)
-    moving, still = hardware(result, "door_2")
+    _, still = hardware(result, "door_2")
     plates = [visual.mesh.box for visual in still if visual.name.endswith("_plate")]
     assert sorted(bool(box.low[0] > door.high[0]) for box in plates) == [False, True]
     assert all(box.high[0] < door.low[0] or box.low[0] > door.high[0] for box in plates)
     assert all(box.high[1] > door.high[1] for box in plates)  # they reach back past the door
 
 
-def test_a_flap_alone_keeps_its_hinges_in_front():
-    outcome = installed(realized(stacked("flap over a drawer", "inset")))["door"]
-    assert outcome.notes == () or outcome.template == "pivot"
+def test_where_nothing_is_in_the_way_nothing_is_noted():
+    results = [realized_kind(kind) for kind in ("overlay pair", "drop-down flap", "half-overlay doors on one divider")]
+    outcomes = [outcome for result in results for outcome in result.report.installed]
+    assert [outcome.notes for outcome in outcomes] == [()] * len(outcomes)
+    assert {outcome.template for outcome in outcomes} == {"butt"}
+
+
+def test_the_hinges_of_a_short_door_keep_apart():
+    door = box("door", (0.0, -0.02, 0.0), (0.3, 0.0, 0.1))
+    side = box("side", (-0.02, -0.02, 0.0), (-0.002, 0.3, 0.1))
+    bar = box("bar", (-0.02, -0.3, 0.0), (-0.002, -0.02, 0.05))  # takes the lower hinge's place in front
+    result = realized(scene(door, side, bar, joints=(hinged(),)))
+    moving, _ = hardware(result, "door")
+    spans = sorted((v.mesh.box.low[2], v.mesh.box.high[2]) for v in moving if v.name.startswith("hinge"))
+    assert all(one[1] <= other[0] + 1e-6 for one, other in pairwise(spans))

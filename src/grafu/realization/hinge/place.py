@@ -39,9 +39,8 @@ def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
     if not struck:
         return None
     least = min(struck, key=lambda p: len(_built_ones(p.struck_by, search)))
-    noted = _noted(least, [p for p in struck if p.template != least.template], search.request.moving)
     hits = (f"{name} runs into its hardware" for name in _built_ones(least.struck_by, search))
-    return replace(noted, notes=(*noted.notes, *hits))
+    return replace(least, notes=tuple(hits))
 
 
 def _built_ones(movers: Sequence[str], search: DoorSearch) -> list[str]:
