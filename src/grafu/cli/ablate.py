@@ -4,12 +4,11 @@ import argparse
 from pathlib import Path
 
 from grafu.cli.input_options import positive_count
-from grafu.cli.messages import complain
 from grafu.cli.synth import whole_number
 from grafu.cli.train import CONFIGS
+from grafu.cli.training_options import add_training_options, training_packages
 
 KINDS = ("losses", "folds")
-EXIT_BAD_INPUT = 2
 
 _DESCRIPTION = """\
 Trains one network for each experiment, all for the same number of steps, and writes their figures to DIR/table.md and
@@ -47,21 +46,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         metavar="S",
         help="every experiment once with each: which weights and models (default: 1)",
     )
-    parser.add_argument(
-        "--data",
-        default="synth",
-        metavar="DIR",
-        help="models to train on: `synth`, made on the spot; or a folder of shards or of a FurFun release "
-        "(default: synth)",
-    )
+    add_training_options(parser)
     parser.add_argument(
         "--jobs", type=positive_count, metavar="J", help="runs at once (default: as many as cores, up to 8)"
     )
     parser.add_argument(
         "--threads", type=positive_count, default=1, metavar="T", help="threads that each run computes on (default: 1)"
-    )
-    parser.add_argument(
-        "--device", choices=("auto", "cpu", "cuda"), default="auto", help="what computes (default: auto)"
     )
     parser.set_defaults(run=run)
     return parser
@@ -73,11 +63,6 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong, or files cannot be read or written.
     """
-    try:
+    with training_packages():
         from grafu.cli.ablate_run import run_ablation
-    except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] not in ("torch", "onnx"):
-            raise
-        complain(f"ablations need `{error.name}`, which is not installed: pip install 'grafu[train]'")
-        return EXIT_BAD_INPUT
     return run_ablation(options)

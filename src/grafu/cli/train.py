@@ -4,11 +4,10 @@ import argparse
 from pathlib import Path
 
 from grafu.cli.input_options import positive_count
-from grafu.cli.messages import complain
 from grafu.cli.synth import whole_number
+from grafu.cli.training_options import add_training_options, training_packages
 
 CONFIGS = ("base", "paper", "small", "tiny")
-EXIT_BAD_INPUT = 2
 
 _DESCRIPTION = """\
 Trains the network that completes functional graphs, and keeps in DIR what it needs to go on, the weights that did best
@@ -39,13 +38,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "tiny: to see that all works (default: base)",
     )
     parser.add_argument("--resume", action="store_true", help="go on where the run in DIR was cut, if there is one")
-    parser.add_argument(
-        "--data",
-        default="synth",
-        metavar="DIR",
-        help="models to train on: `synth`, made on the spot; or a folder of shards or of a FurFun release "
-        "(default: synth)",
-    )
+    add_training_options(parser)
     parser.add_argument(
         "--steps", type=positive_count, metavar="N", help="how many steps in all (default: the config's)"
     )
@@ -62,9 +55,6 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--threads", type=positive_count, metavar="T", help="threads that compute (default: one per core)"
     )
     parser.add_argument(
-        "--device", choices=("auto", "cpu", "cuda"), default="auto", help="what computes (default: auto)"
-    )
-    parser.add_argument(
         "--export", type=Path, metavar="FILE", help="write the best weights of DIR as ONNX, train nothing"
     )
     parser.set_defaults(run=run)
@@ -77,11 +67,6 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong, or files cannot be read or written.
     """
-    try:
+    with training_packages():
         from grafu.cli.train_run import export_weights, run_training
-    except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] not in ("torch", "onnx"):
-            raise
-        complain(f"training needs `{error.name}`, which is not installed: pip install 'grafu[train]'")
-        return EXIT_BAD_INPUT
     return export_weights(options.out, options.export) if options.export else run_training(options)
