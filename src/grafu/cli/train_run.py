@@ -13,7 +13,7 @@ from grafu.training.checkpoint import load_best
 from grafu.training.config import CONFIGS, TrainingConfig
 from grafu.training.exporting import exported
 from grafu.training.loop import RunOptions, StepReport, train
-from grafu.training.source import RESERVED_SEEDS, Source, SynthSource, source_in
+from grafu.training.source import Source, source_to_train_on
 from grafu.training.workers import Workers, has_device, joined_workers, use_threads
 
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
@@ -31,10 +31,7 @@ def run_training(options: argparse.Namespace) -> int:
     if not has_device(options.device):
         complain(f"`--device` must be one that is there: torch finds no `{options.device}`")
         return EXIT_BAD_INPUT
-    source = _source(options, config)
-    if source.maker_seed in RESERVED_SEEDS:
-        complain(f"it must not be trained on {source.name}: made with seed {source.maker_seed}, it judges the weights")
-        return EXIT_BAD_INPUT
+    source = source_to_train_on(options.data, config.seed, config.features.points)
     use_threads(options.threads)
     jobs = options.jobs or min(_MOST_JOBS, os.cpu_count() or 1)
     with joined_workers(options.device) as workers:
@@ -71,12 +68,6 @@ def export_weights(folder: Path, target: Path) -> int:
 def _config(options: argparse.Namespace) -> TrainingConfig:
     asked: dict[str, Any] = {name: getattr(options, name) for name in ("steps", "seed")}
     return replace(CONFIGS[options.config], **{name: value for name, value in asked.items() if value is not None})
-
-
-def _source(options: argparse.Namespace, config: TrainingConfig) -> Source:
-    if options.data == "synth":
-        return SynthSource(config.seed, config.features.points)
-    return source_in(Path(options.data), config.seed, config.features.points)
 
 
 def _begun(

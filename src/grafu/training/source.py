@@ -18,7 +18,7 @@ from grafu.data.shards_record import record_of, record_pair
 from grafu.data.split import SplitName
 from grafu.data.stream import shard_paths
 from grafu.data.write_plan import made_with
-from grafu.errors import UnreadableAsset
+from grafu.errors import AssetError, UnreadableAsset
 from grafu.synth.generate import make_specimen
 
 VALIDATION_SEED = 990_001
@@ -147,6 +147,20 @@ class FurFunSource:
     def pair(self, number: int) -> GraphPair:
         """Returns the natural pair of model `number` of the endless sequence."""
         return _kept_pair(self.folder, self.models[_place(self.seed, number, len(self.models))])
+
+
+def source_to_train_on(data: str, seed: int, points: int) -> Source:
+    """Returns furniture made with `seed` for the word `synth`, else what the folder of that name holds.
+
+    Raises:
+        AssetError: if the furniture judges the weights, or the folder holds nothing to train on.
+    """
+    source = SynthSource(seed, points) if data == "synth" else source_in(Path(data), seed, points)
+    if source.maker_seed in RESERVED_SEEDS:
+        raise AssetError(
+            f"it must not be trained on {source.name}: made with seed {source.maker_seed}, it judges the weights"
+        )
+    return source
 
 
 def source_in(folder: Path, seed: int, points: int) -> Source:
