@@ -39,7 +39,7 @@ def test_the_total_is_the_weighted_sum_of_the_terms() -> None:
     targets, config = two_cabinets(), LossConfig()
     terms = {k: float(v) for k, v in criterion(noisy(perfect(targets)), targets, config).by_name().items()}
     total = terms.pop("total")
-    assert len(terms) == 14
+    assert len(terms) == 17
     assert min(terms.values()) > 0
     assert total == pytest.approx(sum(getattr(config, name) * value for name, value in terms.items()), rel=1e-5)
 

@@ -30,18 +30,18 @@ def test_perfect_answers_cost_nothing() -> None:
 
 
 def test_ignorance_of_categories_costs_the_log_of_their_number() -> None:
-    assert category_loss(torch.zeros_like(ANSWERS.category), TRUTH).item() == pytest.approx(log(14))
+    assert category_loss(torch.zeros_like(ANSWERS.category), TRUTH, TRUTH.matched).item() == pytest.approx(log(14))
 
 
 def test_one_wrong_category_is_shared_by_all_matched_slots() -> None:
     logits = changed(ANSWERS.category, 0, 0, torch.zeros(14))
-    assert category_loss(logits, TRUTH).item() == pytest.approx(log(14) / MATCHED, rel=1e-5)
+    assert category_loss(logits, TRUTH, TRUTH.matched).item() == pytest.approx(log(14) / MATCHED, rel=1e-5)
 
 
 def test_nodes_of_unknown_label_take_no_part() -> None:
     truth = replace(TRUTH, labels=changed(TRUTH.labels, 0, 0, UNKNOWN))
     logits = changed(ANSWERS.category, 0, 0, torch.full((14,), -5.0))
-    assert category_loss(logits, truth).item() == pytest.approx(0.0, abs=1e-6)
+    assert category_loss(logits, truth, truth.matched).item() == pytest.approx(0.0, abs=1e-6)
 
 
 def test_boxes_are_squared_distances_or_absolute_differences() -> None:

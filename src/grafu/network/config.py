@@ -11,6 +11,7 @@ EDGE_COUNT = len(KINDS) + 1  # contact, hinge, rail, attached, null
 PointsFrame = Literal["object", "part"]
 PairFeatures = Literal["signed", "unsigned"]
 PairBoxes = Literal["input", "predicted"]
+FreeBoxes = Literal["pointed", "absolute"]
 
 
 @final
@@ -30,6 +31,8 @@ class GraFuConfig:
             again: a given box is exact, and gaps of a millimetre decide about contact. No gradient runs through them.
         pair_edges: pair heads also see the encoder's last feature of the edge between two input nodes. The paper gives
             them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
+        free_boxes: the paper has free slots say their boxes in the object's frame ("absolute"). "pointed" ones point at
+            nodes and say theirs in units of those: a handle sits so far along its door, a top as wide as its case.
         geometry_dropout: in training, the share of graphs whose parts' points are hidden (authors: .3, of whole
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
@@ -52,6 +55,7 @@ class GraFuConfig:
     pair_features: PairFeatures = "signed"
     pair_boxes: PairBoxes = "input"
     pair_edges: bool = True
+    free_boxes: FreeBoxes = "pointed"
 
     def __post_init__(self) -> None:
         sizes = ("hidden", "heads", "encoder_layers", "decoder_layers", "edge", "category", "points", "geometry")
@@ -67,5 +71,5 @@ class GraFuConfig:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
 
 
-PAPER = GraFuConfig(points_frame="object", pair_boxes="predicted", pair_edges=False)
+PAPER = GraFuConfig(points_frame="object", pair_boxes="predicted", pair_edges=False, free_boxes="absolute")
 """The network without our departures."""

@@ -28,7 +28,7 @@ class GraFu(nn.Module):
         self.encoder = GraphEncoder(config)
         self.decoder = SlotDecoder(config)
         terms = pair_term_count(config.pair_features) + (config.edge if config.pair_edges else 0)
-        self.slot_heads = SlotHeads(config.hidden)
+        self.slot_heads = SlotHeads(config)
         self.pair_heads = PairHeads(config.hidden, terms)
         self.motion_heads = MotionHeads(config.hidden, terms)
 
@@ -36,7 +36,7 @@ class GraFu(nn.Module):
         """Returns the scores of all slots and pairs of slots."""
         nodes, edges = self.encoder(batch)
         slots, mask = self.decoder(nodes, batch.mask)
-        answers = self.slot_heads(slots, batch.boxes)
+        answers = self.slot_heads(slots, nodes, batch.boxes, batch.mask)
         terms = self._pair_terms(batch.boxes, answers, edges)
         pairs, motions = self.pair_heads(slots, terms), self.motion_heads(slots, terms)
         return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), mask=mask)

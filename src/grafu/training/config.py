@@ -104,7 +104,14 @@ class TrainingConfig:
 BASE = TrainingConfig(
     network=GraFuConfig(),
     # Probabilities that can be believed, and boxes to the last few per cent: see `LossConfig`.
-    loss=LossConfig(free_positive=1.0, box_error="absolute", match_cost="probability"),
+    loss=LossConfig(
+        free_positive=1.0,
+        box_error="absolute",
+        match_cost="probability",
+        free_category=0.5,
+        free_centre=3.0,
+        free_half=1.0,
+    ),
     mix=CopyMix(
         # What is asked in use is the model as it was found, with labels or without, all edges contacts. Kinds of edges
         # that a corruption keeps are never there then, so these strategies, 43 % in the paper, get the rest.

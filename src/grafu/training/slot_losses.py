@@ -18,7 +18,7 @@ from grafu.training.slot_truth import SlotTruth
 @final
 @dataclass(frozen=True)
 class SlotLosses:
-    """Eight numbers: each a mean over the slots (the count: over the graphs) that it speaks of, before its weight."""
+    """Each number is a mean over the slots (the count: over the graphs) that it speaks of, before its weight."""
 
     category: Float[Tensor, ""]
     centre: Float[Tensor, ""]
@@ -28,28 +28,37 @@ class SlotLosses:
     count: Float[Tensor, ""]
     anchor_centre: Float[Tensor, ""]
     anchor_half: Float[Tensor, ""]
+    free_category: Float[Tensor, ""]
+    free_centre: Float[Tensor, ""]
+    free_half: Float[Tensor, ""]
 
 
 def slot_losses(predictions: Predictions, truth: SlotTruth, config: LossConfig) -> SlotLosses:
     """Returns the per-slot losses; nodes without a known label take no part in the category's."""
     centre, half, error = predictions.centre.float(), predictions.half.float(), config.box_error
-    exists = predictions.exists.float()
+    exists, categories = predictions.exists.float(), predictions.category.float()
+    added = truth.matched & truth.free
+    off_centre = box_errors(centre, truth.boxes[..., :3], error)
+    off_size = box_errors(half, truth.boxes[..., 3:], error)
     return SlotLosses(
-        category=category_loss(predictions.category.float(), truth),
-        centre=mean_where(box_errors(centre, truth.boxes[..., :3], error), truth.matched),
-        half=mean_where(box_errors(half, truth.boxes[..., 3:], error), truth.matched),
+        category=category_loss(categories, truth, truth.matched),
+        centre=mean_where(off_centre, truth.matched),
+        half=mean_where(off_size, truth.matched),
         exists=exists_loss(exists, truth, config.exists_balanced),
         free_exists=free_exists_loss(exists, truth, config.free_positive),
         count=count_loss(exists, truth, config.count_smoothing),
         anchor_centre=mean_where(box_errors(centre, truth.given[..., :3], error), truth.anchored),
         anchor_half=mean_where(box_errors(half, truth.given[..., 3:], error), truth.anchored),
+        free_category=category_loss(categories, truth, added),
+        free_centre=mean_where(off_centre, added),
+        free_half=mean_where(off_size, added),
     )
 
 
-def category_loss(logits: Float[Tensor, "b s c"], truth: SlotTruth) -> Float[Tensor, ""]:
-    """Returns the cross-entropy of the categories of matched slots."""
+def category_loss(logits: Float[Tensor, "b s c"], truth: SlotTruth, slots: Bool[Tensor, "b s"]) -> Float[Tensor, ""]:
+    """Returns the cross-entropy of the categories of these slots, those aside that answer for a node without a label."""
     wrong = functional.cross_entropy(logits.transpose(1, 2), truth.labels, reduction="none")
-    return mean_where(wrong, truth.matched & (truth.labels != UNKNOWN))
+    return mean_where(wrong, slots & (truth.labels != UNKNOWN))
 
 
 def box_errors(found: Float[Tensor, "b s 3"], wanted: Float[Tensor, "b s 3"], error: BoxError) -> Float[Tensor, "b s"]:
