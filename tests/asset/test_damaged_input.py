@@ -3,10 +3,10 @@ import shutil
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from small_assets import mesh_of, write_glb, write_grouped_obj, write_pnm, write_urdf
 
 from grafu.asset.load import load_asset
 from grafu.errors import AssetError
+from small_assets import mesh_of, write_glb, write_grouped_obj, write_pnm, write_urdf
 
 KINDS = ["a.obj", "a.glb", "a.ply", "a.stl", "cabinet.urdf", "m/mobility_v2.json", "m/result.json"]
 DAMAGE = st.lists(

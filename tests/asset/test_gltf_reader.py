@@ -4,12 +4,12 @@ import struct
 
 import numpy as np
 import pytest
-from small_assets import CABINET, glb_bytes, gltf_document, write_glb, yaw
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import Limits, LoadOptions
 from grafu.errors import AssetError, AssetTooLarge, UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
+from small_assets import CABINET, glb_bytes, gltf_document, write_glb, yaw
 
 # The smallest PNG: one pixel.
 PNG = base64.b64decode(

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 import trimesh
-from small_assets import CABINET, mesh_of, write_grouped_obj, write_obj_folder
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import Limits, LoadOptions
 from grafu.errors import AssetError, AssetTooLarge, UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import JointType, PartLabel
+from small_assets import CABINET, mesh_of, write_grouped_obj, write_obj_folder
 
 Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 

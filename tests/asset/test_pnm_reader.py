@@ -3,12 +3,12 @@ from math import pi
 
 import numpy as np
 import pytest
-from small_assets import write_pnm, yaw
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.errors import UnreadableAsset
 from grafu.vocabulary import JointType, PartLabel
+from small_assets import write_pnm, yaw
 
 
 def edit_json(path, change):

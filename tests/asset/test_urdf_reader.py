@@ -2,12 +2,12 @@ from math import pi
 
 import numpy as np
 import pytest
-from small_assets import urdf_text, write_urdf
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.errors import UnreadableAsset
 from grafu.vocabulary import PartLabel
+from small_assets import urdf_text, write_urdf
 
 
 def test_links_become_parts_and_joints_in_place(tmp_path):

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from small_assets import write_pnm, write_urdf
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
+from small_assets import write_pnm, write_urdf
 
 _MODELS = Path(os.environ.get("GRAFU_MODELS") or Path(__file__).parents[3] / "shared" / "models") / "pnm"
 REAL = sorted(_MODELS.glob("*")) if _MODELS.is_dir() else []

@@ -13,5 +13,5 @@ class MotionSource(StrEnum):
 
 
 AUTO_ORDER = (MotionSource.NETWORK, MotionSource.RULE)
-"""What `auto` tries: the network, where its weights came with the package. Neither reads an annotation, so that an input
-gives the same with its joints and without."""
+"""What `auto` tries: the network, where its weights came with the package. Neither reads an annotation: an input gives
+the same with its joints and without."""
