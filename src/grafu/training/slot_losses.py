@@ -56,7 +56,7 @@ def slot_losses(predictions: Predictions, truth: SlotTruth, config: LossConfig) 
 
 
 def category_loss(logits: Float[Tensor, "b s c"], truth: SlotTruth, slots: Bool[Tensor, "b s"]) -> Float[Tensor, ""]:
-    """Returns the cross-entropy of the categories of these slots, those aside that answer for a node without a label."""
+    """Returns the cross-entropy of the categories of these slots, where the node has a label."""
     wrong = functional.cross_entropy(logits.transpose(1, 2), truth.labels, reduction="none")
     return mean_where(wrong, slots & (truth.labels != UNKNOWN))
 
