@@ -159,3 +159,15 @@ def test_a_drawer_that_cannot_go_as_far_as_asked_is_said_to_be_restricted():
     outcome = installed(realized(asked))["drawer"]
     assert outcome.opening < 0.7 * 0.6
     assert outcome.restricted
+
+
+def test_mere_fronts_on_both_sides_of_a_table_hang_from_its_top():
+    top = box("table_top", (-0.5, -0.4, 0.7), (0.5, 0.4, 0.73))
+    fronts = [
+        box("drawer_1", (-0.2, -0.36, 0.62), (0.2, -0.35, 0.69)),
+        box("drawer_2", (-0.2, 0.35, 0.62), (0.2, 0.36, 0.69)),
+    ]
+    joints = (sliding("drawer_1", (0.0, -1.0, 0.0), upper=0.2), sliding("drawer_2", (0.0, 1.0, 0.0), upper=0.2))
+    found = installed(realized(scene(top, *fronts, joints=joints)))
+    assert found.keys() == {"drawer_1", "drawer_2"}
+    assert all(not outcome.restricted and outcome.mount == "table_top" for outcome in found.values())

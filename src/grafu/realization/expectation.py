@@ -1,7 +1,7 @@
 """How movers may be expected to move before their joints are built, so that hardware keeps out of their way.
 
-A door is expected to turn about the first pin that its surroundings allow, else about the axis that was asked for; a
-drawer slides. It sweeps nothing: what is built later may differ.
+A door is expected to turn about the first pin of a hinge class that leaves it free, else about the axis that was asked
+for; a drawer slides. What is built later may differ.
 """
 
 from collections.abc import Iterable, Iterator

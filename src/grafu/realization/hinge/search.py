@@ -115,10 +115,11 @@ class DoorSearch:
 
     @property
     def expected_axis(self) -> Axis:
-        """The axis of the first hinge class that the surroundings allow, unswept; else the one that was asked for."""
-        if turns_about_itself(self.frame, self.request.axis) or not self._allowed:
+        """The axis of the first hinge class about which the bare door is free; else the one that was asked for."""
+        if turns_about_itself(self.frame, self.request.axis):
             return self.request.axis
-        return self.frame.axis_at(self._allowed[0].x, self._allowed[0].y)
+        judged = (self._judge(pin) for pin in self._allowed)
+        return next((j.axis for j in judged if j.is_clear), self.request.axis)
 
     @cached_property
     def _allowed(self) -> list[PinCandidate]:

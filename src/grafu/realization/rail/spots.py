@@ -20,6 +20,7 @@ _COMMON_RAIL = 0.0127  # the thickness that ball-bearing slides share
 _DYNAMIC_REACH = 0.86  # share of a rail's thickness that its moving member takes, from the drawer's side
 _MOST_LET_IN = 0.5  # a rail let in deeper than this share would have its static member cut into the drawer
 _GRID = (12, 5)
+_STEPS = 61  # places behind it at which a board above it is felt for
 _LEVELS = 7  # heights at which the room behind a mere front is felt for
 
 
@@ -144,11 +145,19 @@ def _free_behind(frame: DrawerFrame, static: RayCaster, start: float, reach: flo
     depths = np.array([_reach_along(frame, static, (0.0, start), z[k : k + 1], 1, reach) for k in range(_LEVELS)])
     middle = float(depths[_LEVELS // 2])
     if not np.isfinite(middle):
-        return z, 0.0
+        middle = _covered(frame, static, start, reach) / 2  # another front may stand on the far side
     shallow = np.flatnonzero(depths < 0.8 * middle)
     low = int(max(shallow[shallow < _LEVELS // 2], default=-1)) + 1
     high = int(min(shallow[shallow > _LEVELS // 2], default=_LEVELS)) - 1
-    return z[low : high + 1], float(depths[low : high + 1].min()) - 0.01
+    return z[low : high + 1], min(middle, float(depths[low : high + 1].min())) - 0.01
+
+
+def _covered(frame: DrawerFrame, static: RayCaster, start: float, reach: float) -> float:
+    """Returns how deep behind a front something stands above it without a gap: a table top, where there is no back."""
+    steps = start + np.linspace(0.0, reach, _STEPS)
+    origins = frame.to_object(np.column_stack([np.zeros(_STEPS), steps, np.zeros(_STEPS)]))
+    met = static.along(origins, frame.rotation[:, 2]) <= 1.5 * frame.height
+    return float(steps[int(np.argmin(met))] - start) if not met.all() else reach
 
 
 def _reach_along(
