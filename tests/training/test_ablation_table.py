@@ -7,10 +7,10 @@ from dataclasses import fields
 
 from little_runs import LITTLE
 
+from grafu.data.asked import VARIANTS
 from grafu.metrics.graph_accuracy import GraphAccuracy
 from grafu.training.ablation import Experiment
 from grafu.training.ablation_table import MEAN, Result, csv_table, markdown_table
-from grafu.training.validation import VARIANTS
 
 
 def result(name: str, value: float, seed: int = 1, **others: float) -> Result:

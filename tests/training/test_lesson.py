@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from grafu.completion.features import FeatureConfig, graph_features
+from grafu.data.asked import MASKED, masked_pair
 from grafu.data.corruption.config import CorruptionConfig
 from grafu.data.pair import GraphPair, natural_pair
 from grafu.graph.arrays import CONTACT, UNKNOWN
 from grafu.graph.edit import as_contacts, without_nodes
-from grafu.training.lesson import MASKED, CopyMix, draw_pairs, make_lesson, masked_pair
+from grafu.training.lesson import CopyMix, draw_pairs, make_lesson
 from small_graphs import cabinet
 
 FEATURES = FeatureConfig(points=32, anchors=4, neighbours=4)

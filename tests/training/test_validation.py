@@ -6,10 +6,11 @@ import pytest
 import torch
 from little_runs import LITTLE, FewModels
 
+from grafu.data.asked import VARIANTS
 from grafu.graph.arrays import UNKNOWN
 from grafu.network.grafu import GraFu
 from grafu.training.source import SynthSource
-from grafu.training.validation import SCORED, VARIANTS, validate, validation_batches
+from grafu.training.validation import SCORED, validate, validation_batches
 
 
 def test_each_model_is_judged_three_times() -> None:

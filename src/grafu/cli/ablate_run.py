@@ -9,6 +9,7 @@ from pathlib import Path
 
 from grafu.cli.messages import complain
 from grafu.cli.progress import with_progress
+from grafu.data.asked import VARIANTS
 from grafu.export.whole_file import write_whole
 from grafu.training.ablation import experiments, training_models
 from grafu.training.ablation_pool import do_runs
@@ -16,7 +17,6 @@ from grafu.training.ablation_run import AblationRun, begin_ablation, known_figur
 from grafu.training.ablation_table import MEAN, Result, csv_table, markdown_table
 from grafu.training.config import CONFIGS, TrainingConfig
 from grafu.training.source import source_to_train_on
-from grafu.training.validation import VARIANTS
 from grafu.training.workers import has_device
 
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130

@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields
 from statistics import fmean, stdev
 from typing import final
 
+from grafu.data.asked import VARIANTS
 from grafu.metrics.graph_accuracy import GraphAccuracy
 from grafu.training.ablation import Experiment
-from grafu.training.validation import VARIANTS
 
 MEAN = "mean"
 _NAMES = tuple(f.name for f in fields(GraphAccuracy))

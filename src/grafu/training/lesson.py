@@ -13,17 +13,15 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int64
 
 from grafu.completion.features import FeatureConfig, graph_features, object_frame
+from grafu.data.asked import masked_pair
 from grafu.data.corruption.config import CorruptionConfig
 from grafu.data.fold import fold
 from grafu.data.pair import GraphPair
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import graph_arrays
-from grafu.graph.edit import as_contacts, relabelled
 from grafu.training.targets import GraphTargets, graph_targets
-from grafu.vocabulary import PartLabel
 
 CopyKind = Literal["natural", "masked", "fold"]
-MASKED = "natural, labels masked"  # named beside the strategies of corruption
 
 
 @final
@@ -112,12 +110,6 @@ def make_lesson(pairs: Sequence[GraphPair], features: FeatureConfig) -> Lesson:
 def draw_pairs(natural: GraphPair, count: int, mix: CopyMix, rng: np.random.Generator) -> list[GraphPair]:
     """Returns `count` pairs of a model, drawn by the mix."""
     return [_pair(natural, mix.draw(rng), mix, rng) for _ in range(count)]
-
-
-def masked_pair(natural: GraphPair) -> GraphPair:
-    """Returns a natural pair with every label of the input hidden."""
-    hidden = {node.id: PartLabel.UNKNOWN for node in natural.input.nodes}
-    return GraphPair(relabelled(as_contacts(natural.input), hidden), natural.target, MASKED, natural.model_id)
 
 
 def _pair(natural: GraphPair, kind: CopyKind, mix: CopyMix, rng: np.random.Generator) -> GraphPair:

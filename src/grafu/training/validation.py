@@ -8,39 +8,18 @@ from statistics import fmean
 import torch
 from torch import nn
 
-from grafu.data.corruption.config import PAPER, CorruptionConfig
-from grafu.data.fold import fold
+from grafu.data.asked import VARIANTS, asked_pairs
 from grafu.metrics.graph_accuracy import GraphAccuracy, total_accuracy
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
-from grafu.training.lesson import Lesson, make_lesson, masked_pair
+from grafu.training.lesson import Lesson, make_lesson
 from grafu.training.loss_config import LossConfig
 from grafu.training.raw_answers import batch_accuracy
 from grafu.training.source import RESERVED_SEEDS, VALIDATION_SEED, FurFunSource, Source, SynthSource
 
-VARIANTS = ("natural", "masked", "lacking")
-"""Each model as it was found, that with its labels hidden, and one from which the paper's corruptions took away."""
-
 SCORED = ("existence", "category", "contact", "hinge", "rail", "attached", "joint", "slide", "mount", "parent")
 """The figures whose mean over all variants the best weights have most of."""
-
-_LACKING = CorruptionConfig(
-    weights=tuple(
-        (name, 0.0)
-        for name in (
-            "fully_anonymized",  # a variant of its own
-            "mask_materials_keep_edges",
-            "mask_random_edges_keep_types",
-            "drop_nodes_keep_edge_types",
-            "fully_functional_drop",  # in use, an input never knows the kinds of its edges
-            "drop_doors",
-            "drop_drawers",
-        )
-    ),
-    mirror_probability=0.0,
-    label_masking=PAPER.label_masking,
-)
 
 
 def validation_source(source: Source, points: int) -> Source:
@@ -102,4 +81,4 @@ def _figures(totals: Sequence[float], accuracies: Mapping[str, GraphAccuracy]) -
 
 def _lesson(source: Source, number: int, config: TrainingConfig) -> Lesson:
     natural = source.pair(number)
-    return make_lesson([natural, masked_pair(natural), fold(natural, number, config=_LACKING)], config.features)
+    return make_lesson(list(asked_pairs(natural, number).values()), config.features)
