@@ -2,8 +2,8 @@
 
     python scripts/judge_network.py [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
 
-Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints a table
-in Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models.
+Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints one in
+Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models.
 """
 
 import argparse
