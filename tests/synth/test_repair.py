@@ -9,6 +9,7 @@ from grafu.synth.case import Case
 from grafu.synth.check import faults_of
 from grafu.synth.chest import Chest
 from grafu.synth.construction import Top
+from grafu.synth.hold import Hold
 from grafu.synth.layout import Door, Drawer, Row, Stack
 from grafu.synth.repair import repaired, with_bare_fronts_held
 from grafu.vocabulary import PartLabel
@@ -63,3 +64,23 @@ def test_only_bare_fronts_are_changed() -> None:
     spec = with_bare_fronts_held(Row((Door(), Door(handle="none"), Door(handle="none", grip="lip"))), "knob-flat")
 
     assert [cell.handle for cell in spec.cells] == [Door().handle, "knob-flat", "none"]
+
+
+def test_bare_fronts_carry_their_handles_where_they_are_told_to() -> None:
+    hold = Hold(place="top edge")
+    spec = with_bare_fronts_held(Row((Door(), Door(handle="none"))), "knob-flat", hold)
+
+    assert [cell.hold for cell in spec.cells] == [Door().hold, hold]
+
+
+def test_where_no_front_has_a_handle_they_come_where_most_are() -> None:
+    odd = Hold(place="bottom edge", along=0.2)
+    bare = Row((Door(handle="none", hold=odd), Door(handle="none", hold=odd)))
+    _, whole = repair(Cabinet(layout=bare))
+    _, usual = repair(Cabinet(layout=Row((Door(handle="none"), Door(handle="none")))))
+
+    def places(asset: object) -> list[list[float]]:
+        return [p.box.center.round(6).tolist() for p in asset.parts if p.label is PartLabel.HANDLE]  # type: ignore[attr-defined]
+
+    assert len(places(whole)) == 2
+    assert np.allclose(places(whole), places(usual), atol=0.03)

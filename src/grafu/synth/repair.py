@@ -1,7 +1,8 @@
 """What a repaired version holds beyond the furniture as it was drawn: a top on a case, a handle on every bare front.
 
 Cases under one worktop are made without a top, and fronts that are pushed without a handle. Those are what a
-completion is to add, so the whole has them. A front with a grip cut into it needs nothing; a lid neither.
+completion is to add, so the whole has them. A front with a grip cut into it needs nothing; a lid neither. Where no
+front of a piece has a handle, nothing tells where its maker would have put them: they come where most are.
 """
 
 from collections.abc import Sequence
@@ -19,7 +20,7 @@ from grafu.synth.blueprint import Blueprint, make_furniture
 from grafu.synth.chance import between, chance, pick
 from grafu.synth.finish import surface_of
 from grafu.synth.habits import is_storage
-from grafu.synth.hold import HandleStyle
+from grafu.synth.hold import HandleStyle, Hold
 from grafu.synth.segmentation import fresh_ids
 from grafu.vocabulary import PartLabel
 
@@ -44,16 +45,19 @@ def repaired(blueprint: Blueprint, made: Asset, rng: np.random.Generator) -> tup
     return whole, handles | tops
 
 
-def with_bare_fronts_held(spec: Any, style: HandleStyle) -> Any:
-    """Returns a spec in which every front that has neither handle nor grip has a handle of this style."""
+def with_bare_fronts_held(spec: Any, style: HandleStyle, hold: Hold | None = None) -> Any:
+    """Returns a spec in which every front that has neither handle nor grip has a handle of this style.
+
+    It is carried as `hold` says, or else as the front's maker does.
+    """
     if isinstance(spec, tuple):
-        return tuple(with_bare_fronts_held(item, style) for item in spec)
+        return tuple(with_bare_fronts_held(item, style, hold) for item in spec)
     if not is_dataclass(spec) or isinstance(spec, type):
         return spec
-    changes = {f.name: with_bare_fronts_held(getattr(spec, f.name), style) for f in fields(spec) if f.init}
+    changes = {f.name: with_bare_fronts_held(getattr(spec, f.name), style, hold) for f in fields(spec) if f.init}
     changes = {name: value for name, value in changes.items() if value is not getattr(spec, name)}
     if getattr(spec, "handle", "") == "none" and getattr(spec, "grip", "none") == "none":
-        changes["handle"] = style
+        changes |= {"handle": style} | ({} if hold is None else {"hold": hold})
     return replace(spec, **changes) if changes else spec
 
 
@@ -61,7 +65,7 @@ def _with_handles(blueprint: Blueprint, made: Asset, rng: np.random.Generator) -
     held = _held(made)
     if all(joint.part in held for joint in made.joints):
         return made, frozenset()
-    spec = with_bare_fronts_held(blueprint.spec, pick(rng, AFTERWARDS))
+    spec = with_bare_fronts_held(blueprint.spec, pick(rng, AFTERWARDS), None if held else Hold())
     whole = make_furniture(replace(blueprint, spec=spec))
     added = [p.id for p in whole.parts if p.label is PartLabel.HANDLE and p.rides_on not in held]
     return whole, frozenset(added)
