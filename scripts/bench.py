@@ -6,7 +6,7 @@ MODELS are inputs with annotated joints; without any, those in the folder that G
 ../shared/models. Every model runs in a fresh process on one core, once to warm up (and to import) and then `--repeats`
 times, from reading to writing. Bars are held against the processor's own time, which on one core is the clock's on a
 machine that does nothing else; the clock's spread stands beside it. `--quick` runs each once and leaves out what takes
-longest. Made furniture is timed by the model (`bench_synth.py`).
+longest. Made furniture is timed by the model (`bench_synth.py`), the network by the graph (`bench_network.py`).
 """
 
 import argparse
@@ -27,7 +27,8 @@ from statistics import median
 from typing import TypeVar
 
 import numpy as np
-from bench_synth import Making, making_table, time_making
+from bench_network import PARTS, completing_table, time_completing
+from bench_synth import making_table, time_making
 
 W, T = TypeVar("W"), TypeVar("T")
 ROOT = Path(__file__).parent.parent
@@ -35,6 +36,7 @@ SIZES = (10, 20, 40, 80, 120, 200)
 QUICK_SIZES = (10, 80)
 MADE, QUICK_MADE = 300, 40  # specimens
 BARS = {"median_s": 1.5, "p95_s": 5.0, "growth_exponent": 1.3, "help_s": 0.5, "peak_mb": 600.0, "made_s": 0.05}
+BARS |= {"completed_s": 0.15}  # 30 parts, by the network
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -63,16 +65,18 @@ def main() -> int:
     models = [in_fresh_process(time_model, str(path), repeats) for path in inputs]
     walls = [in_fresh_process(time_wall, str(parts), repeats) for parts in sizes]
     making = in_fresh_process(time_making, QUICK_MADE if options.quick else MADE, repeats)
-    figures = summary(models, walls) | {"made_s": round(1 / making.rate, 4)}
+    completing = in_fresh_process(time_completing, PARTS, repeats)
+    figures = summary(models, walls) | {"made_s": round(1 / making.rate, 4), "completed_s": completing.median}
     options.out.mkdir(parents=True, exist_ok=True)
     rows = {
         "figures": figures,
         "models": [asdict(m) for m in models],
         "growth": [asdict(w) for w in walls],
         "making": asdict(making),
+        "completing": asdict(completing),
     }
     (options.out / "bench.json").write_text(json.dumps(rows, indent=1) + "\n")
-    text = page(figures, models, walls, making)
+    text = page(figures, models, walls, (making_table(making), completing_table(completing)))
     (options.out / "bench.md").write_text(text)
     print(text)
     return 0
@@ -185,7 +189,7 @@ def help_seconds() -> float:
     return median(run() for _ in range(7))
 
 
-def page(figures: dict[str, float], models: list[Timing], walls: list[Timing], making: Making) -> str:
+def page(figures: dict[str, float], models: list[Timing], walls: list[Timing], more: tuple[str, ...]) -> str:
     """Returns the tables as Markdown."""
     verdicts = [
         f"| {name} | {value:g} | {BARS[name]:g} | {'yes' if value <= BARS[name] else 'NO'} |"
@@ -193,7 +197,7 @@ def page(figures: dict[str, float], models: list[Timing], walls: list[Timing], m
     ]
     head = f"Python {platform.python_version()}, one core of {platform.processor() or platform.machine()}\n"
     bars = "| figure | measured | bar | met |\n|---|---|---|---|\n" + "\n".join(verdicts) + "\n"
-    tables = (table("Models", models), table("Growth", walls), making_table(making))
+    tables = (table("Models", models), table("Growth", walls), *more)
     return "\n".join(["# Bench\n", head, bars, *tables])
 
 
