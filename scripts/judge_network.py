@@ -1,9 +1,10 @@
 """Judges weights on made furniture that no training saw: what the whole completion gets right, decode included.
 
-    python scripts/judge_network.py [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
+    python scripts/judge_network.py [--rule] [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
 
 Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints one in
-Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models.
+Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models. With --rule the
+carpenters' rules are judged instead.
 """
 
 import argparse
@@ -17,10 +18,14 @@ from pathlib import Path
 
 import numpy as np
 
+from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
-from grafu.completion.session import SHIPPED_WEIGHTS, open_network
+from grafu.completion.rule import complete_by_rule
+from grafu.completion.session import SHIPPED_WEIGHTS, NetworkSession, open_network
 from grafu.data.asked import VARIANTS, asked_pairs
 from grafu.data.pair import specimen_pair
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import GraphAccuracy, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
 
@@ -46,6 +51,7 @@ def main() -> int:
     """Judges, and prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--weights", type=Path, default=SHIPPED_WEIGHTS)
+    parser.add_argument("--rule", action="store_true", help="judge the carpenters' rules instead")
     parser.add_argument("--count", type=int, default=200, help="models (default: 200)")
     parser.add_argument("--seed", type=int, default=TEST_SEED)
     parser.add_argument("--jobs", type=int, default=2)
@@ -53,7 +59,8 @@ def main() -> int:
     began = time.perf_counter()
     with ProcessPoolExecutor(options.jobs) as pool:
         found: list[Accuracies] = []
-        for one in pool.map(partial(judge, options.weights, options.seed), range(options.count), chunksize=4):
+        weights = None if options.rule else options.weights
+        for one in pool.map(partial(judge, weights, options.seed), range(options.count), chunksize=4):
             found.append(one)
             print(f"  {len(found)}/{options.count}, {time.perf_counter() - began:.0f} s", file=sys.stderr, end="\r")
     print(file=sys.stderr)
@@ -61,14 +68,17 @@ def main() -> int:
     return 0
 
 
-def judge(weights: Path, seed: int, number: int) -> Accuracies:
-    """Returns the figures of one model by variant."""
-    network = open_network(weights)
-    natural = specimen_pair(make_specimen(seed, number, network.features.points))
-    return {
-        name: graph_accuracy(complete_by_network(pair.input, network, network.features), pair.target)
-        for name, pair in asked_pairs(natural, number).items()
-    }
+def judge(weights: Path | None, seed: int, number: int) -> Accuracies:
+    """Returns the figures of one model by variant; without weights, those of the rules."""
+    complete = complete_by_rule if weights is None else partial(complete_by_weights, open_network(weights))
+    natural = specimen_pair(make_specimen(seed, number, FeatureConfig().points))
+    pairs = asked_pairs(natural, number)
+    return {name: graph_accuracy(complete(pair.input), pair.target) for name, pair in pairs.items()}
+
+
+def complete_by_weights(network: NetworkSession, graph: FunctionalGraph) -> GraphCompletion:
+    """Returns a graph as a network completes it."""
+    return complete_by_network(graph, network, network.features)
 
 
 def table(found: Sequence[Accuracies]) -> str:

@@ -74,7 +74,9 @@ def complete_reading(graph: FunctionalGraph, reading: Reading, added: Sequence[N
     """Returns the completion of `graph`: every door and drawer moves, or there is a reason why not."""
     view = reading.view
     scene = Scene(view.graph)
-    motions = move_parts(scene, lambda door: choose_hinge(door, view, scene), lambda drawer: choose_rails(drawer, view))
+    motions = move_parts(
+        scene, lambda door: choose_hinge(door, view, scene), lambda drawer: choose_rails(drawer, view, scene)
+    )
     return GraphCompletion(
         graph,
         with_edges(view.graph, motions.edges),

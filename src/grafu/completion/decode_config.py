@@ -47,7 +47,11 @@ class DecodeConfig:
     """The rail on a drawer's other flank is taken from this probability on."""
 
     outward: float = 0.5
-    """Power of the carpenter's view of which face is the front, against the network's sign: 0 leaves it out."""
+    """Power of the carpenter's view of where a door's front is, and a drawer's way out, against the network's: 0 leaves
+    it out."""
+
+    carpenter: float = 0.0
+    """Power of the carpenter's view of which border the hinge is on."""
 
     edge_for_label: float = 0.2
     """What remains of the probability that an unlabelled part is a door, drawer or handle if no part can carry it."""
@@ -62,5 +66,5 @@ class DecodeConfig:
         shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
         if not all(0.0 <= share <= 1.0 for share in (*shares, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
-        if min(self.rounds, self.reach, self.outward) < 0:
-            raise ValueError(f"`rounds`, `reach` and `outward` must not be negative: got {self}")
+        if min(self.rounds, self.reach, self.outward, self.carpenter) < 0:
+            raise ValueError(f"`rounds`, `reach`, `outward` and `carpenter` must not be negative: got {self}")

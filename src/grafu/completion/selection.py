@@ -7,15 +7,16 @@ may carry it, each by how likely it does. What moves ends with its edges or with
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.ballot import verdict_of
+from grafu.completion.ballot import Verdict, verdict_of
 from grafu.completion.beliefs import softmax
-from grafu.completion.doors import vote_front
+from grafu.completion.doors import vote_border, vote_front
+from grafu.completion.drawers import vote_way
 from grafu.completion.scene import Scene
 from grafu.completion.view import View
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL
 from grafu.graph.completion import Decision, RefusedMotion
-from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, Rail, SignedAxis
+from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
 
@@ -72,7 +73,7 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     return (edge,), decisions
 
 
-def choose_rails(drawer: PartNode, view: View) -> MotionAnswer:
+def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
     """Returns the rails of a drawer, on two flanks where two parts carry it, or why it gets none."""
     if not len(view.supports):
         return RefusedMotion(drawer.id, _NO_SUPPORT)
@@ -80,7 +81,7 @@ def choose_rails(drawer: PartNode, view: View) -> MotionAnswer:
     railed = view.beliefs.edge[slot, slots, RAIL]
     if railed.max() < view.config.least_edge:
         return RefusedMotion(drawer.id, f"the network sees no part that carries it: rails at most {railed.max():.2f}")
-    shares = railed @ view.beliefs.slide[slot, slots] / railed.sum()
+    shares = (railed @ view.beliefs.slide[slot, slots] / railed.sum()) * _clear_way(drawer, view, scene)
     slide = verdict_of(SIGNED_AXES, shares)
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
@@ -92,15 +93,28 @@ def choose_rails(drawer: PartNode, view: View) -> MotionAnswer:
 
 
 def _outward(door: PartNode, view: View, scene: Scene) -> np.ndarray:
-    """Returns for each border and sign how plausible it is that the door opens to that side (4, 2).
+    """Returns for each border and sign how plausible a carpenter finds them (4, 2): what opens to the front first.
 
-    The carpenter's front is an opinion, not a rule: the network may overrule it.
+    It is an opinion, not a rule: the network may overrule it.
     """
-    front = vote_front(door, scene)
-    shares = {front.choice: front.score, front.runner_up: front.runner_up_score}
-    thin = door.box.thin_axis
-    faces = [[opening_face(thin, border, sign) for sign in SIGNS] for border in BORDERS]
-    return np.array([[max(shares[face], 1e-3) ** view.config.outward for face in row] for row in faces])
+    config, thin = view.config, door.box.thin_axis
+    front = _opinion(vote_front(door, scene), len(SIGNED_AXES), config.outward)
+    side = _opinion(vote_border(door, scene), len(BORDERS), config.carpenter)
+    return np.array([[front[opening_face(thin, border, sign)] * side[border] for sign in SIGNS] for border in BORDERS])
+
+
+def _clear_way(drawer: PartNode, view: View, scene: Scene) -> Scalars:
+    """Returns for each signed axis how plausible it is that the drawer opens that way: nothing may stand there."""
+    return _opinion(vote_way(drawer, scene), len(SIGNED_AXES), view.config.outward)
+
+
+def _opinion(verdict: Verdict[SignedAxis] | Verdict[HingeBorder], count: int, power: float) -> Scalars:
+    """Returns what a carpenter's vote weighs for each of `count` codes; what was not voted for stays possible."""
+    shares = np.full(count, 1e-3)
+    for code, score in ((verdict.choice, verdict.score), (verdict.runner_up, verdict.runner_up_score)):
+        if code is not None:
+            shares[code] = max(score, 1e-3)
+    return shares**power
 
 
 def _by_flank(drawer: PartNode, axis: SignedAxis, slots: Indices, railed: Scalars, view: View) -> list[np.ndarray]:

@@ -71,7 +71,7 @@ def test_nearly_all_draws_are_sound():
 
 def test_most_pieces_have_few_movable_parts_and_some_have_many():
     rng = np.random.default_rng(13)
-    assets = [draw_made(rng)[1] for _ in range(100)]
+    assets = [draw_made(rng)[1] for _ in range(300)]
     movable, parts = [len(a.joints) for a in assets], [len(a.parts) for a in assets]
     assert 1 <= np.median(movable) <= 4
     assert max(movable) >= 9
