@@ -23,7 +23,7 @@ OPTIONS = [
 
 def total(answers: Predictions) -> torch.Tensor:
     return torch.stack(
-        [(v.float() - 1).square().mean() for k, v in answers.by_name().items() if k != "mask" and v.numel()]
+        [(v.float() - 1).square().mean() for k, v in vars(answers).items() if k != "mask" and v.numel()]
     ).sum()
 
 
@@ -33,7 +33,7 @@ def test_graphs_of_all_sizes_get_answers(n: int) -> None:
     assert answers.edge.shape == (1, n + 3, n + 3, 5)
     assert answers.category.shape == (1, n + 3, 14)
     assert answers.mask.all()
-    assert all(v.isfinite().all() for v in answers.by_name().values())
+    assert all(v.isfinite().all() for v in vars(answers).values())
     assert (answers.half > 0).all()
 
 

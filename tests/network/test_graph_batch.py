@@ -42,7 +42,7 @@ def test_a_graph_among_others_gets_the_answers_it_gets_alone(n: int) -> None:
     joined = join_batches([graph(6, seed=1), graph(n, seed=2), graph(3, seed=3)])
     answers = network(joined)
     own = torch.tensor([*range(n), *range(6, 9)])
-    found = type(answers)(**{k: v[1:2] if v.ndim else v for k, v in answers.by_name().items()})
+    found = type(answers)(**{k: v[1:2] if v.ndim else v for k, v in vars(answers).items()})
     assert max(differences(found, network(graph(n, seed=2)), own).values()) < 1e-5
 
 

@@ -8,7 +8,6 @@ from perfect_answers import perfect, targets_of, two_cabinets
 
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.network.predictions import Predictions
-from grafu.network.slot_heads import SlotAnswers
 from grafu.training.criterion import criterion
 from grafu.training.loss_config import OFFICIAL, PAPER, LossConfig
 from grafu.training.targets import TargetBatch, stack_targets
@@ -18,23 +17,15 @@ PAIRS = {"edge", "parent", "hinge_target", "border", "sign", "slide"}
 SINGLE = {"parent_abstain", "hinge_abstain"}
 
 
-def scores(predictions: Predictions) -> dict[str, torch.Tensor]:
-    return {name: value for name, value in predictions.by_name().items() if name != "mask"}
-
-
-def said_earlier(predictions: Predictions) -> SlotAnswers:
-    return SlotAnswers(**{name: getattr(predictions, name) for name in SlotAnswers._fields})
-
-
 def noisy(predictions: Predictions, seed: int = 0) -> Predictions:
     """Answers that are right, but far from sure."""
     rng = torch.Generator().manual_seed(seed)
-    values = scores(predictions)
+    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name != "mask"}
     return replace(predictions, **{k: v / 10 + torch.randn(v.shape, generator=rng) for k, v in values.items()})
 
 
 def with_gradients(predictions: Predictions) -> Predictions:
-    values = scores(predictions)
+    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name != "mask"}
     return replace(predictions, **{k: v.clone().requires_grad_() for k, v in values.items()})
 
 
@@ -45,27 +36,12 @@ def test_perfect_answers_cost_nothing(config: LossConfig) -> None:
 
 
 def test_the_total_is_the_weighted_sum_of_the_terms() -> None:
-    targets, config = two_cabinets(), LossConfig(early=0.5, free_category=0.5, free_centre=2.0, free_half=1.0)
-    answers = replace(noisy(perfect(targets)), earlier=(said_earlier(noisy(perfect(targets), seed=1)),))
-    terms = {k: float(v) for k, v in criterion(answers, targets, config).by_name().items()}
+    targets, config = two_cabinets(), LossConfig()
+    terms = {k: float(v) for k, v in criterion(noisy(perfect(targets)), targets, config).by_name().items()}
     total = terms.pop("total")
-    assert len(terms) == 18
+    assert len(terms) == 17
     assert min(terms.values()) > 0
     assert total == pytest.approx(sum(getattr(config, name) * value for name, value in terms.items()), rel=1e-5)
-
-
-def test_earlier_layers_cost_the_mean_of_what_their_slots_do() -> None:
-    targets = two_cabinets()
-    right, wrong = perfect(targets), noisy(perfect(targets))
-    earlier = [said_earlier(answers) for answers in (right, wrong)]
-    costs = [
-        float(criterion(replace(right, earlier=said), targets, LossConfig()).early)
-        for said in ((earlier[0],), (earlier[1],), tuple(earlier), ())
-    ]
-    assert costs[0] == pytest.approx(0.0, abs=1e-4)
-    assert costs[1] > 0.5
-    assert costs[2] == pytest.approx(sum(costs[:2]) / 2)
-    assert costs[3] == 0.0
 
 
 def test_a_term_is_held_out_by_its_weight() -> None:
@@ -80,17 +56,19 @@ def test_every_answer_gets_a_gradient() -> None:
     targets = two_cabinets()
     answers = with_gradients(noisy(perfect(targets)))
     criterion(answers, targets, LossConfig()).total.backward()
-    for name, value in scores(answers).items():
-        assert value.grad is not None, name
-        assert value.grad.isfinite().all(), name
-        assert value.grad.abs().sum() > 0, name
+    for field in fields(answers):
+        if field.name != "mask":
+            gradient = getattr(answers, field.name).grad
+            assert gradient is not None, field.name
+            assert gradient.isfinite().all(), field.name
+            assert gradient.abs().sum() > 0, field.name
 
 
 def padded(predictions: Predictions, targets: TargetBatch, more: int) -> tuple[Predictions, TargetBatch]:
     """The same batch with more padding behind the input nodes and behind the targets, full of noise."""
     n, s = targets.anchors.shape[1], predictions.mask.shape[1]
     order = torch.tensor([*range(n), *([0] * more), *range(n, s)])
-    values = {name: value for name, value in predictions.by_name().items() if name not in SINGLE}
+    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name not in SINGLE}
     longer = {k: v[:, order] for k, v in values.items()}
     longer |= {k: longer[k][:, :, order] for k in PAIRS}
     longer["mask"][:, n : n + more] = False
@@ -131,7 +109,7 @@ def test_the_order_of_targets_changes_nothing() -> None:
 def test_half_precision_answers_are_judged_in_full() -> None:
     targets = two_cabinets()
     answers = perfect(targets)
-    values = {name: value.bfloat16() for name, value in scores(answers).items()}
+    values = {f.name: getattr(answers, f.name).bfloat16() for f in fields(answers) if f.name != "mask"}
     assert criterion(replace(answers, **values), targets, LossConfig()).total.dtype is torch.float32
 
 

@@ -33,8 +33,6 @@ class GraFuConfig:
             them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
         free_boxes: the paper has free slots say their boxes in the object's frame ("absolute"). "pointed" ones point at
             nodes and say theirs in units of those: a handle sits so far along its door, a top as wide as its case.
-        early_answers: in training, slots also say what they are after each earlier layer of the decoder, which may be
-            taught too (`LossConfig.early`); the paper hears the last alone.
         geometry_dropout: in training, the share of graphs whose parts' points are hidden (authors: .3, of whole
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
@@ -58,7 +56,6 @@ class GraFuConfig:
     pair_boxes: PairBoxes = "input"
     pair_edges: bool = True
     free_boxes: FreeBoxes = "pointed"
-    early_answers: bool = True
 
     def __post_init__(self) -> None:
         sizes = ("hidden", "heads", "encoder_layers", "decoder_layers", "edge", "category", "points", "geometry")
@@ -74,7 +71,5 @@ class GraFuConfig:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
 
 
-PAPER = GraFuConfig(
-    points_frame="object", pair_boxes="predicted", pair_edges=False, free_boxes="absolute", early_answers=False
-)
+PAPER = GraFuConfig(points_frame="object", pair_boxes="predicted", pair_edges=False, free_boxes="absolute")
 """The network without our departures."""

@@ -1,8 +1,7 @@
 """The network as one ONNX file, for any number of parts, so that it runs without torch. It writes no files.
 
 Inputs are the arrays of one graph's features, by their names, without a batch: labels [n], boxes [n,6],
-anchors [n,G,3], groups [n,G,S,3], edges [n,n]. Outputs are the fields of `Predictions`, `mask` and `earlier` aside,
-without a batch.
+anchors [n,G,3], groups [n,G,S,3], edges [n,n]. Outputs are the fields of `Predictions` but `mask`, without a batch.
 """
 
 import json
@@ -26,7 +25,7 @@ from grafu.network.predictions import Predictions
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
-OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name not in ("mask", "earlier"))
+OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name != "mask")
 PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
 

@@ -35,14 +35,11 @@ class GraFu(nn.Module):
     def forward(self, batch: GraphBatch) -> Predictions:
         """Returns the scores of all slots and pairs of slots."""
         nodes, edges = self.encoder(batch)
-        states, mask = self.decoder(nodes, batch.mask)
-        slots = states[-1]
+        slots, mask = self.decoder(nodes, batch.mask)
         answers = self.slot_heads(slots, nodes, batch.boxes, batch.mask)
-        asked = states[:-1] if self.training and self.config.early_answers else []
-        earlier = tuple(self.slot_heads(state, nodes, batch.boxes, batch.mask) for state in asked)
         terms = self._pair_terms(batch.boxes, answers, edges)
         pairs, motions = self.pair_heads(slots, terms), self.motion_heads(slots, terms)
-        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), mask=mask, earlier=earlier)
+        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), mask=mask)
 
     def _pair_terms(
         self, given: Float[Tensor, "b n 6"], answers: SlotAnswers, edges: Float[Tensor, "b n n e"]

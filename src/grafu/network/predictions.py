@@ -6,8 +6,6 @@ from typing import final
 from jaxtyping import Bool, Float
 from torch import Tensor
 
-from grafu.network.slot_heads import SlotAnswers
-
 
 @final
 @dataclass(frozen=True)
@@ -17,8 +15,7 @@ class Predictions:
     All scores are logits. Boxes stand in the normalised frame of the input. A pair (i, j) asks about i as the child,
     the door, drawer or handle, and j as what carries it; `edge` is symmetric. `parent_abstain` and `hinge_abstain` are
     the scores that i's parent, or mount, is none of the slots. Borders, signs and slides are official motion codes.
-    `mask` marks slots that are no padding. `earlier` holds, in training alone, what the slots said after the decoder's
-    earlier layers.
+    `mask` marks slots that are no padding.
     """
 
     exists: Float[Tensor, "b s"]
@@ -34,8 +31,3 @@ class Predictions:
     sign: Float[Tensor, "b s s 2"]
     slide: Float[Tensor, "b s s 6"]
     mask: Bool[Tensor, "b s"]
-    earlier: tuple[SlotAnswers, ...] = ()
-
-    def by_name(self) -> dict[str, Tensor]:
-        """Returns every tensor of the last layer's answers by name."""
-        return {name: value for name, value in vars(self).items() if isinstance(value, Tensor)}

@@ -56,14 +56,12 @@ class SlotDecoder(nn.Module):
 
     def forward(
         self, nodes: Float[Tensor, "b n h"], mask: Bool[Tensor, "b n"]
-    ) -> tuple[list[Float[Tensor, "b s h"]], Bool[Tensor, "b s"]]:
-        """Returns the slots after each layer, the last last, and which of them are no padding."""
+    ) -> tuple[Float[Tensor, "b s h"], Bool[Tensor, "b s"]]:
+        """Returns the slots and which of them are no padding."""
         pooled = (nodes * mask[:, :, None]).sum(dim=1) / mask.sum(dim=1, keepdim=True).clamp(min=1)
         free = self.free + self.summary(pooled)[:, None, :]
         slots = torch.cat([nodes, free.to(nodes.dtype)], dim=1)
         slot_mask = torch.cat([mask, torch.ones_like(free[..., 0], dtype=torch.bool)], dim=1)
-        states = []
         for layer in self.layers:
             slots = layer(slots, slot_mask, nodes, mask)
-            states.append(slots)
-        return [self.norm(state) for state in states], slot_mask
+        return self.norm(slots), slot_mask

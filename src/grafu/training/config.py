@@ -111,7 +111,6 @@ BASE = TrainingConfig(
         free_category=0.5,
         free_centre=3.0,
         free_half=1.0,
-        early=0.5,
     ),
     mix=CopyMix(
         # What is asked in use is the model as it was found, with labels or without, all edges contacts. Kinds of edges

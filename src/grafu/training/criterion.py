@@ -1,6 +1,6 @@
 """The whole loss: match slots to nodes, lay the answers out by slot, take every term, weigh and add."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
 import torch
@@ -13,27 +13,23 @@ from grafu.training.matcher import match_slots
 from grafu.training.motion_losses import MotionLosses, motion_losses
 from grafu.training.pair_losses import PairLosses, pair_losses
 from grafu.training.slot_losses import SlotLosses, slot_losses
-from grafu.training.slot_truth import SlotTruth, slot_truth
+from grafu.training.slot_truth import slot_truth
 from grafu.training.targets import TargetBatch
 
 
 @final
 @dataclass(frozen=True)
 class LossTerms:
-    """The weighted sum, which is what is minimised, and each term before its weight.
-
-    `early` is the mean over the decoder's earlier layers of their slots' weighted losses.
-    """
+    """The weighted sum, which is what is minimised, and each term before its weight."""
 
     total: Float[Tensor, ""]
-    early: Float[Tensor, ""]
     slots: SlotLosses
     pairs: PairLosses
     motions: MotionLosses
 
     def by_name(self) -> dict[str, Tensor]:
         """Returns every number without gradients, by name, the total first; the names are `LossConfig`'s weights."""
-        terms = {"total": self.total, "early": self.early} | vars(self.slots) | vars(self.pairs) | vars(self.motions)
+        terms = {"total": self.total} | vars(self.slots) | vars(self.pairs) | vars(self.motions)
         return {name: value.detach() for name, value in terms.items()}
 
 
@@ -45,17 +41,5 @@ def criterion(predictions: Predictions, targets: TargetBatch, config: LossConfig
     pairs = pair_losses(predictions, truth, config.edge_kinds)
     motions = motion_losses(predictions, truth)
     terms = vars(slots) | vars(pairs) | vars(motions)
-    early = _early_loss(predictions, truth, config)
-    total = torch.stack([getattr(config, name) * term for name, term in terms.items()]).sum() + config.early * early
-    return LossTerms(total, early, slots, pairs, motions)
-
-
-def _early_loss(predictions: Predictions, truth: SlotTruth, config: LossConfig) -> Float[Tensor, ""]:
-    losses = [
-        getattr(config, name) * term
-        for answers in predictions.earlier
-        for name, term in vars(slot_losses(replace(predictions, **answers._asdict()), truth, config)).items()
-    ]
-    return (
-        torch.stack(losses).sum() / len(predictions.earlier) if losses else torch.zeros_like(predictions.exists).sum()
-    )
+    total = torch.stack([getattr(config, name) * term for name, term in terms.items()]).sum()
+    return LossTerms(total, slots, pairs, motions)

@@ -26,8 +26,6 @@ class LossConfig:
     - `free_category`, `free_centre`, `free_half`: what free slots answer, averaged by itself, beside its part in the
       means over all matched slots. There it is one answer in ten, and lost: with these at 0, as in the paper, added
       parts were off by a fifth of the object after 2000 steps.
-    - `early`: weighs the losses of single slots after the decoder's earlier layers: their mean, beside the last's.
-      They answer for the same nodes as in the end. It is 0 in the paper.
     - `count_smoothing`: the paper's square root has an endless slope where the count is right. With c for it the term
       is sqrt(x + c) - sqrt(c); with 0.01 its slope stays below 5.
     - The paper's count is of the nodes that free slots should add, however many; a graph may lack more than there are
@@ -63,7 +61,6 @@ class LossConfig:
     free_category: float = 0.0
     free_centre: float = 0.0
     free_half: float = 0.0
-    early: float = 0.0
 
     edge: float = 1.0
     edge_kinds: tuple[float, ...] = (1.0, 5.0, 5.0, 3.0, 0.2)
