@@ -18,7 +18,7 @@ from grafu.synth.generate import make_specimen
 from grafu.vocabulary import PartLabel
 
 CARD = Path(__file__).parents[2] / "docs" / "network.md"
-MODELS = 24
+MODELS = 60
 VALIDATION_SEED = 990_001
 
 
@@ -46,10 +46,10 @@ def test_they_see_what_parts_are_sampled_for() -> None:
 
 
 def test_doors_and_drawers_of_made_furniture_move_as_they_should(accuracies: dict[str, GraphAccuracy]) -> None:
-    assert accuracies["natural"].joint.value >= 0.9
-    assert accuracies["natural"].slide.value >= 0.97
-    assert accuracies["masked"].joint.value >= 0.75
-    assert accuracies["masked"].slide.value >= 0.85
+    assert accuracies["natural"].joint.value >= 0.85
+    assert accuracies["natural"].slide.value >= 0.93
+    assert accuracies["masked"].joint.value >= 0.78
+    assert accuracies["masked"].slide.value >= 0.88
 
 
 def test_hidden_labels_are_found_again(accuracies: dict[str, GraphAccuracy]) -> None:
@@ -57,7 +57,7 @@ def test_hidden_labels_are_found_again(accuracies: dict[str, GraphAccuracy]) -> 
 
 
 def test_missing_parts_are_added(accuracies: dict[str, GraphAccuracy]) -> None:
-    assert accuracies["lacking"].added.value >= 0.4
+    assert accuracies["lacking"].added.value >= 0.45
     assert accuracies["natural"].existence.value >= 0.97
 
 
