@@ -9,7 +9,7 @@ LABEL_COUNT = len(LABELS)  # 13 categories and `unknown`
 EDGE_COUNT = len(KINDS) + 1  # contact, hinge, rail, attached, null
 
 PointsFrame = Literal["object", "part"]
-PairFeatures = Literal["signed", "unsigned"]
+PairFeatures = Literal["faces", "signed", "unsigned"]
 PairBoxes = Literal["input", "predicted"]
 FreeBoxes = Literal["pointed", "absolute"]
 
@@ -26,7 +26,10 @@ class GraFuConfig:
         points_frame: the authors encode points where they stand in the object. "part" takes each part about its own
             middle, in the object's scale: the same leaf is the same shape wherever it hangs, the box says where.
         pair_features: "signed" gives the pair heads the direction from one part to the other, "unsigned" only how far
-            apart they are; both are switches of the authors' code, and a pin's side needs the direction.
+            apart they are; both are switches of the authors' code, and a pin's side needs the direction. "faces" adds,
+            to pair heads and to the edge encoder, how the faces of two boxes lie to each other, down to millimetres.
+        margins: nodes also see how far their boxes are from the object's faces, on the same scale: what is a few
+            millimetres below the top is no shelf.
         pair_boxes: pair heads see, for slots of input nodes, the box that was given ("input") or the one predicted
             again: a given box is exact, and gaps of a millimetre decide about contact. No gradient runs through them.
         pair_edges: pair heads also see the encoder's last feature of the edge between two input nodes. The paper gives
@@ -52,7 +55,8 @@ class GraFuConfig:
     dropout: float = 0.1  # authors' code
     geometry_dropout: float = 0.3
     points_frame: PointsFrame = "part"
-    pair_features: PairFeatures = "signed"
+    pair_features: PairFeatures = "faces"
+    margins: bool = True
     pair_boxes: PairBoxes = "input"
     pair_edges: bool = True
     free_boxes: FreeBoxes = "pointed"
@@ -71,5 +75,12 @@ class GraFuConfig:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
 
 
-PAPER = GraFuConfig(points_frame="object", pair_boxes="predicted", pair_edges=False, free_boxes="absolute")
+PAPER = GraFuConfig(
+    points_frame="object",
+    pair_features="signed",
+    margins=False,
+    pair_boxes="predicted",
+    pair_edges=False,
+    free_boxes="absolute",
+)
 """The network without our departures."""

@@ -20,7 +20,7 @@ class GraphEncoder(nn.Module):
         super().__init__()
         self.nodes = NodeEncoder(config)
         self.into_hidden = nn.Linear(NodeEncoder.width(config), config.hidden)
-        self.edges = EdgeEncoder(config.edge)
+        self.edges = EdgeEncoder(config.edge, config.pair_features)
         self.layers = nn.ModuleList([GraphLayer(config) for _ in range(config.encoder_layers)])
         # Nothing would read what the last layer makes of the edges, if the pair heads do not
         updates = config.encoder_layers if config.pair_edges else config.encoder_layers - 1

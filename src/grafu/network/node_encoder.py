@@ -3,15 +3,17 @@
 from typing import final
 
 import torch
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from torch import Tensor, nn
 
 from grafu.network.batch import GraphBatch
 from grafu.network.config import LABEL_COUNT, GraFuConfig
+from grafu.network.pair_terms import face_scale
 from grafu.network.perceptron import perceptron
 from grafu.network.point_encoder import PointEncoder
 
 BOX_NUMBERS = 9  # centroid and two corners
+MARGIN_NUMBERS = 9
 BOX_HIDDEN = 64  # official.md 5
 
 
@@ -22,7 +24,9 @@ class NodeEncoder(nn.Module):
     def __init__(self, config: GraFuConfig) -> None:
         super().__init__()
         self.category = nn.Embedding(LABEL_COUNT, config.category)  # a linear projection of the one-hot label
-        self.box = perceptron(BOX_NUMBERS, BOX_HIDDEN, config.geometry)
+        self.sees_margins = config.margins
+        numbers = BOX_NUMBERS + (MARGIN_NUMBERS if config.margins else 0)
+        self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
         self.points = PointEncoder(config.points, config.points_frame)
         self.hidden_share = config.geometry_dropout
 
@@ -35,9 +39,9 @@ class NodeEncoder(nn.Module):
         """Returns the latents; in training, some graphs' points are hidden."""
         points = self.points(batch.anchors, batch.groups)[batch.point_index]
         if self.training and self.hidden_share > 0:
-            seen = torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_share
-            points = points * seen
-        box = self.box(corners(batch.boxes))
+            points = points * (torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_share)
+        seen = [corners(batch.boxes)] + ([margins(batch.boxes, batch.mask)] if self.sees_margins else [])
+        box = self.box(torch.cat(seen, dim=-1))
         return torch.cat([self.category(batch.labels), points, box], dim=-1)
 
 
@@ -45,3 +49,17 @@ def corners(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n 9"]:
     """Returns [centroid, low corner, high corner] of boxes given as centre and half size."""
     centre, half = boxes[..., :3], boxes[..., 3:]
     return torch.cat([centre, centre - half, centre + half], dim=-1)
+
+
+def margins(boxes: Float[Tensor, "b n 6"], mask: Bool[Tensor, "b n"]) -> Float[Tensor, "b n 9"]:
+    """Returns how far boxes are from the object's low and high faces, and how large they are, on the scale of faces.
+
+    `mask` marks the boxes of which the object consists.
+    """
+    centre, half = boxes[..., :3], boxes[..., 3:]
+    low, high = centre - half, centre + half
+    absent = ~mask[..., None]
+    bottom = low.masked_fill(absent, torch.inf).amin(dim=1, keepdim=True)
+    top = high.masked_fill(absent, -torch.inf).amax(dim=1, keepdim=True)
+    found = face_scale(torch.cat([low - bottom, top - high, 2 * half], dim=-1))
+    return found.masked_fill(absent, 0.0)

@@ -1,8 +1,8 @@
 """What a repaired version holds beyond the furniture as it was drawn: a top on a case, a handle on every bare front.
 
 Cases under one worktop are made without a top, and fronts that are pushed without a handle. Those are what a
-completion is to add, so the whole has them. A front with a grip cut into it needs nothing; a lid neither. Where no
-front of a piece has a handle, nothing tells where its maker would have put them: they come where most are.
+completion is to add, so the whole has them. A front with a grip cut into it needs nothing, nor do lids and trays. Where
+no front of a piece has a handle, nothing tells where its maker would have put them: they come where most are.
 """
 
 from collections.abc import Sequence
@@ -46,7 +46,7 @@ def repaired(blueprint: Blueprint, made: Asset, rng: np.random.Generator) -> tup
 
 
 def with_bare_fronts_held(spec: Any, style: HandleStyle, hold: Hold | None = None) -> Any:
-    """Returns a spec in which every front that has neither handle nor grip has a handle of this style.
+    """Returns a spec in which every front, trays left out, that has neither handle nor grip has a handle of this style.
 
     It is carried as `hold` says, or else as the front's maker does.
     """
@@ -56,7 +56,8 @@ def with_bare_fronts_held(spec: Any, style: HandleStyle, hold: Hold | None = Non
         return spec
     changes = {f.name: with_bare_fronts_held(getattr(spec, f.name), style, hold) for f in fields(spec) if f.init}
     changes = {name: value for name, value in changes.items() if value is not getattr(spec, name)}
-    if getattr(spec, "handle", "") == "none" and getattr(spec, "grip", "none") == "none":
+    is_tray = getattr(spec, "box", None) == "tray"
+    if getattr(spec, "handle", "") == "none" and getattr(spec, "grip", "none") == "none" and not is_tray:
         changes |= {"handle": style} | ({} if hold is None else {"hold": hold})
     return replace(spec, **changes) if changes else spec
 

@@ -19,6 +19,7 @@ from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
 from grafu.training.config import TrainingConfig
+from grafu.training.optimiser import Optimiser
 
 SCHEMA = "grafu.training/1"
 LAST, BEST = "last.pt", "best.pt"
@@ -34,7 +35,7 @@ class Progress:
     """
 
     network: GraFu
-    optimiser: torch.optim.Optimizer
+    optimiser: Optimiser
     average: AveragedWeights
     step: int = 0
     best: float = 0.0
@@ -71,7 +72,7 @@ def save_progress(progress: Progress, config: TrainingConfig, folder: Path) -> N
             "step": progress.step,
             "best": progress.best,
             "network": progress.network.state_dict(),
-            "optimiser": progress.optimiser.state_dict(),
+            "optimiser": progress.optimiser.state(),
             "average": progress.average.state(),
             "random": torch.get_rng_state(),
         },
@@ -88,7 +89,7 @@ def load_progress(progress: Progress, config: TrainingConfig, folder: Path) -> N
     state = _read(folder / LAST, progress)
     _require_same(read_config(state["config"], folder / LAST), config, folder)
     progress.network.load_state_dict(state["network"])
-    progress.optimiser.load_state_dict(state["optimiser"])
+    progress.optimiser.restore(state["optimiser"])
     progress.average.restore(state["average"])
     progress.step, progress.best = state["step"], state["best"]
     torch.set_rng_state(state["random"].cpu())

@@ -22,11 +22,12 @@ from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
 from grafu.training.batching import TrainingBatch
 from grafu.training.checkpoint import Progress, has_progress, load_progress, save_best, save_progress
-from grafu.training.config import OptimiserConfig, TrainingConfig
+from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
 from grafu.training.data import stream_batches
 from grafu.training.logbook import Logbook
 from grafu.training.meter import Meter
+from grafu.training.optimiser import Optimiser
 from grafu.training.schedule import rate_at
 from grafu.training.source import Source
 from grafu.training.stopping import stop_requests
@@ -102,7 +103,7 @@ def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool)
     """Returns a run at its beginning, or where it was cut."""
     network = GraFu(config.network).to(workers.device)
     average = AveragedWeights(network, config.optimiser.average)
-    progress = Progress(network, _optimiser(network, config.optimiser), average)
+    progress = Progress(network, Optimiser(network, config.optimiser), average)
     if has_progress(folder):
         if not resume:
             raise ExportError(f"`{folder}` holds a run already: choose another --out, or give --resume")
@@ -111,15 +112,6 @@ def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool)
         write_whole(json.dumps(asdict(config), indent=1) + "\n", folder / "config.json")
     workers.share_weights(network)
     return progress
-
-
-def _optimiser(network: nn.Module, config: OptimiserConfig) -> torch.optim.Optimizer:
-    """Returns the optimiser; biases, norms and single numbers do not decay."""
-    decayed = [p for p in network.parameters() if p.ndim >= 2]
-    others = [p for p in network.parameters() if p.ndim < 2]
-    groups = [{"params": decayed, "weight_decay": config.weight_decay}, {"params": others, "weight_decay": 0.0}]
-    kind = torch.optim.AdamW if config.decoupled else torch.optim.Adam
-    return kind(groups, lr=config.rate, betas=config.betas, fused=True)
 
 
 def _learn(
@@ -151,8 +143,7 @@ def _learn(
 def _step(progress: Progress, config: TrainingConfig, is_sound: bool) -> None:
     """Moves the weights, unless the gradient is no number; then the step is lost."""
     asked = config.optimiser
-    for group in progress.optimiser.param_groups:
-        group["lr"] = asked.rate * rate_at(progress.step, config.steps, asked.warmup, asked.period)
+    progress.optimiser.rate = asked.rate * rate_at(progress.step, config.steps, asked.warmup, asked.period)
     if is_sound:
         progress.optimiser.step()
         progress.average.update(progress.network)
@@ -176,7 +167,7 @@ class _Keeper:
         means: dict[str, float] = {}
         figures: dict[str, float] = {}
         if step % self._options.log_every == 0 or is_last:
-            means = meter.take() | {"rate": progress.optimiser.param_groups[0]["lr"]}
+            means = meter.take() | {"rate": progress.optimiser.rate}
             self._book.step(step, means)
         if step % self._config.validation.every == 0 or is_last:
             figures = self._judge(progress)

@@ -47,6 +47,7 @@ APRONS: Mapping[str, Span] = {
 # Of tables: bars above and below the drawers, a board lengthwise behind them (of those with drawers in a row), panels
 # between drawers, a moulding around the top, a back that reaches further down (26608 has most of these)
 RAILED, SPINED, PARTED, MOULDED, MODEST = 0.22, 0.45, 0.45, 0.12, 0.1
+MIDDLE, TRAY, DESK_TRAY = 0.35, 0.5, 0.25  # of desks with something between their pedestals, a keyboard's tray (32052)
 THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
 
@@ -79,7 +80,7 @@ def desk(rng: np.random.Generator) -> Desk:
         gap=max(style.gap, needed_gap(first, room, style.front)),
         edge=pick(rng, EDGES),
         legs=legs,
-        middle=_middle(rng, style) if chance(rng, 0.3) else None,
+        middle=_middle(rng, style) if chance(rng, MIDDLE) else None,
         modesty=between(rng, (0.3, 0.9)) if chance(rng, 0.45) else 0.0,
         base=base,
         lift=between(rng, (0.03, 0.09)) if chance(rng, 0.12) else 0.0,
@@ -99,7 +100,7 @@ def _pedestal(rng: np.random.Generator, style: Style) -> Layout:
 
 def _middle(rng: np.random.Generator, style: Style) -> Layout:
     """Returns what hangs between the pedestals: a drawer, two, or a keyboard tray without a front."""
-    drawer = Drawer("tray", handle="none") if chance(rng, 0.3) else Drawer()
+    drawer = Drawer("tray", handle="none") if chance(rng, TRAY) else Drawer()
     bare: Layout = drawer if chance(rng, 0.8) else Row((Drawer(), Drawer()), between="nothing")
     return fitted(rng, bare, Rect(0.0, 0.5, 0.6, 0.7), style, STAND)
 
@@ -152,7 +153,8 @@ def _table(
     gaps: Between = "panel" if chance(rng, PARTED) else "nothing"
     drawers: Layout = Row((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
-        drawers = Drawer()
+        tray = name == "writing_desk" and chance(rng, DESK_TRAY)
+        drawers = Drawer("tray", handle="none") if tray else Drawer()
     room = Rect(leg.thick - width / 2, width / 2 - leg.thick, height - zone, height)
     low = chance(rng, 0.25)
     return Table(

@@ -1,0 +1,80 @@
+"""How weights are moved: matrices inside the network by Muon or by Adam, all else by Adam.
+
+Muon makes every direction of a matrix's momentum count alike, scaled so that its steps are as large as Adam's: learning
+rate and decay mean the same for both.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, final
+
+import torch
+from torch import Tensor, nn
+
+from grafu.training.config import OptimiserConfig
+
+_FEATURES = 32  # numbers: a narrower matrix reads terms or writes answers
+
+
+@final
+class Optimiser:
+    """One or two optimisers of torch that step together."""
+
+    def __init__(self, network: nn.Module, config: OptimiserConfig) -> None:
+        matrices, tables, others = _parameters(network)
+        adam = torch.optim.AdamW if config.decoupled else torch.optim.Adam
+        orthogonal = config.matrices == "muon"
+        decayed = tables if orthogonal else [*matrices, *tables]
+        groups = [{"params": decayed, "weight_decay": config.weight_decay}, {"params": others, "weight_decay": 0.0}]
+        self._parts: list[torch.optim.Optimizer] = [adam(groups, lr=config.rate, betas=config.betas, fused=True)]
+        if orthogonal:
+            self._parts.append(
+                torch.optim.Muon(
+                    matrices,
+                    lr=config.rate,
+                    weight_decay=config.weight_decay,
+                    momentum=config.momentum,
+                    adjust_lr_fn="match_rms_adamw",
+                )
+            )
+
+    @property
+    def rate(self) -> float:
+        """The learning rate of the next step."""
+        return float(next(self._groups())["lr"])
+
+    @rate.setter
+    def rate(self, rate: float) -> None:
+        for group in self._groups():
+            group["lr"] = rate
+
+    def zero_grad(self) -> None:
+        """Forgets the gradients."""
+        for part in self._parts:
+            part.zero_grad()
+
+    def step(self) -> None:
+        """Moves the weights along their gradients."""
+        for part in self._parts:
+            part.step()
+
+    def state(self) -> list[dict[str, Any]]:
+        """Returns what the next steps depend on."""
+        return [part.state_dict() for part in self._parts]
+
+    def restore(self, state: Sequence[Mapping[str, Any]]) -> None:
+        """Goes on from what `state` returned."""
+        for part, stated in zip(self._parts, state, strict=True):
+            part.load_state_dict(dict(stated))
+
+    def _groups(self) -> Iterator[dict[str, Any]]:
+        for part in self._parts:
+            yield from part.param_groups
+
+
+def _parameters(network: nn.Module) -> tuple[list[Tensor], list[Tensor], list[Tensor]]:
+    """Returns matrices between features; tables and all else of two or more dimensions; biases, norms and numbers."""
+    linear = (m.weight for m in network.modules() if isinstance(m, nn.Linear))
+    inner = [weight for weight in linear if min(weight.shape) >= _FEATURES]
+    known = {id(weight) for weight in inner}
+    tables: list[Tensor] = [p for p in network.parameters() if p.ndim >= 2 and id(p) not in known]
+    return inner, tables, [p for p in network.parameters() if p.ndim < 2]

@@ -1,0 +1,87 @@
+"""Matrices move by Muon, all else by Adam, both at one rate; a run that was cut goes on alike."""
+
+from copy import deepcopy
+from dataclasses import replace
+
+import pytest
+import torch
+from torch import nn
+
+from grafu.training.config import Matrices, OptimiserConfig
+from grafu.training.optimiser import Optimiser
+
+CONFIG = OptimiserConfig(rate=0.01, weight_decay=0.0)
+
+
+def network() -> nn.Sequential:
+    torch.manual_seed(0)
+    return nn.Sequential(nn.Linear(3, 32), nn.GELU(), nn.Linear(32, 48), nn.GELU(), nn.Linear(48, 2))
+
+
+def learn(net: nn.Module, optimiser: Optimiser, seed: int) -> None:
+    points = torch.randn(16, 3, generator=torch.Generator().manual_seed(seed))
+    optimiser.zero_grad()
+    net(points).square().sum().backward()
+    optimiser.step()
+
+
+def moved(net: nn.Sequential, before: list[torch.Tensor]) -> list[torch.Tensor]:
+    return [new.detach() - old for new, old in zip(net.parameters(), before, strict=True)]
+
+
+@pytest.mark.parametrize("matrices", ["adam", "muon"])
+def test_all_weights_move_at_the_rate(matrices: Matrices) -> None:
+    net = network()
+    optimiser = Optimiser(net, replace(CONFIG, matrices=matrices))
+    optimiser.rate = 0.02
+    before = [p.detach().clone() for p in net.parameters()]
+    learn(net, optimiser, 1)
+    assert optimiser.rate == 0.02
+    for change in moved(net, before):
+        assert 0.05 * 0.02 < float(change.square().mean().sqrt()) < 1.5 * 0.02
+
+
+def evenness(matrix: torch.Tensor) -> float:
+    """Returns over how many directions a matrix's strength is spread."""
+    strengths = torch.linalg.svdvals(matrix.float())
+    return float(strengths.sum().square() / strengths.square().sum())
+
+
+def test_muon_makes_the_directions_of_a_matrix_count_alike() -> None:
+    net = network()
+    inner = list(net.parameters())[2]
+    before = inner.detach().clone()
+    learn(net, Optimiser(net, replace(CONFIG, matrices="muon")), 1)
+    assert inner.grad is not None
+    assert evenness(inner.grad) < 4
+    assert evenness(inner.detach() - before) > 7
+
+
+@pytest.mark.parametrize("matrices", ["adam", "muon"])
+def test_a_restored_one_goes_on_alike(matrices: Matrices) -> None:
+    config = replace(CONFIG, matrices=matrices)
+    first = network()
+    optimiser = Optimiser(first, config)
+    learn(first, optimiser, 1)
+    second = network()
+    second.load_state_dict(first.state_dict())
+    resumed = Optimiser(second, config)
+    resumed.restore(deepcopy(optimiser.state()))
+    for net, one in ((first, optimiser), (second, resumed)):
+        learn(net, one, 2)
+    for a, b in zip(first.parameters(), second.parameters(), strict=True):
+        assert torch.equal(a, b)
+
+
+def test_biases_and_norms_do_not_decay() -> None:
+    net = network()
+    with torch.no_grad():
+        list(net.parameters())[1].fill_(1.0)
+    optimiser = Optimiser(net, replace(CONFIG, weight_decay=0.5))
+    for p in net.parameters():
+        p.grad = torch.zeros_like(p)
+    before = [p.detach().clone() for p in net.parameters()]
+    optimiser.step()
+    for old, new in zip(before, net.parameters(), strict=True):
+        decays = old.ndim >= 2
+        assert torch.allclose(new, old * (1 - 0.5 * CONFIG.rate) if decays else old)
