@@ -33,16 +33,16 @@ class PartSource:
 class Part:
     """One part, its surfaces in the object frame (metres, Z up, front -Y).
 
-    `id` is unique and safe in URDF and USD. `labelled_by` says what the label rests on ("joint":
-    what the input says of its motion). `rides_on` is the id of the
-    moving part that carries this one, where the input says so (a handle in a door's link, a knob on a drawer).
+    `id` is unique and safe in URDF and USD. `labelled_by` says what the label rests on ("joint": what the input says of
+    its motion; "added": the part is new). `rides_on` is the id of the moving part that carries this one, where the
+    input says so (a handle in a door's link, a knob on a drawer).
     """
 
     id: str
     label: PartLabel
     surfaces: tuple[Surface, ...]
     source: PartSource
-    labelled_by: Literal["name", "annotation", "joint", "user", "prediction", "none"] = "none"
+    labelled_by: Literal["name", "annotation", "joint", "user", "prediction", "added", "none"] = "none"
     rides_on: str | None = None
 
     @cached_property

@@ -66,7 +66,9 @@ class PartRecord(ReportRecord):
     id: str = Field(description="its id: the visual's name in model.urdf, the node's in model.glb and graph.json")
     source: SourceRecord = Field(description="where it came from")
     category: PartLabel = Field(description="its category, as completed")
-    labelled_by: str = Field(description="what the category rests on: name, joint, annotation, user, prediction, none")
+    labelled_by: str = Field(
+        description="what the category rests on: name, joint, annotation, user, prediction, added, none"
+    )
     link: str = Field(description="the link of model.urdf that holds it")
 
 
