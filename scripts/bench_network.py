@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from itertools import count, islice
 from statistics import median
 
+from bench_table import measured_table
+
 PARTS = 30
 WITHIN = 1  # parts more or fewer
 GRAPHS = 12
@@ -75,8 +77,4 @@ def completing_table(completing: Completing) -> str:
         ("of which one look", f"{1e3 * completing.look:.0f}"),
         ("looks at a graph, mean", f"{completing.looks:.1f}"),
     ]
-    body = "\n".join(f"| {name} | {value} |" for name, value in rows)
-    head = (
-        f"## Completing\n\nGraphs of about {completing.parts} parts, by the network.\n\n| what | measured |\n|---|---|"
-    )
-    return f"{head}\n{body}\n"
+    return measured_table("Completing", f"Graphs of about {completing.parts} parts, by the network.", rows)

@@ -12,6 +12,7 @@ from pathlib import Path
 from statistics import mean, median
 
 import numpy as np
+from bench_table import measured_table
 
 POINTS = 512
 SEED = 0
@@ -123,6 +124,4 @@ def making_table(making: Making) -> str:
         *((f"of which {stage}", f"{value:.2f}") for stage, value in making.stages.items()),
         ("models a second read from a shard", f"{making.read:.0f}"),
     ]
-    body = "\n".join(f"| {name} | {value} |" for name, value in rows)
-    head = f"## Making\n\n{making.models} specimens, {POINTS} points on each part.\n\n| what | measured |\n|---|---|"
-    return f"{head}\n{body}\n"
+    return measured_table("Making", f"{making.models} specimens, {POINTS} points on each part.", rows)

@@ -1,6 +1,5 @@
 """`ablate` through the real command: all experiments, their table, nothing twice, errors in one line."""
 
-import sys
 from pathlib import Path
 
 import pytest
@@ -86,13 +85,3 @@ def test_a_device_must_be_there(
     monkeypatch.setattr(ablate_run, "has_device", lambda name: name != "cuda")
     assert main(["ablate", "folds", "--out", str(tmp_path), "--device", "cuda"]) == 2
     assert "`--device`" in capsys.readouterr().err
-
-
-def test_without_torch_it_says_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name in [name for name in sys.modules if name == "grafu.cli.ablate_run" or name.startswith("grafu.training")]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "torch", None)
-    assert main(["ablate", "losses", "--out", str(tmp_path)]) == 2
-    assert "pip install 'grafu[train]'" in capsys.readouterr().err

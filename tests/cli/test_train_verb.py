@@ -89,16 +89,6 @@ def test_a_device_that_is_not_there_is_refused(
     assert "`--device`" in capsys.readouterr().err
 
 
-def test_without_torch_the_command_says_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name in [name for name in sys.modules if name == "grafu.cli.train_run" or name.startswith("grafu.training")]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setitem(sys.modules, "torch", None)
-    assert main(["train", "--out", str(tmp_path)]) == 2
-    assert "pip install 'grafu[train]'" in capsys.readouterr().err
-
-
 def test_a_stopped_run_can_go_on(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "grafu.cli.main", *TINY, "--steps", "100000", "--out", str(tmp_path / "run")]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

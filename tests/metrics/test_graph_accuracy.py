@@ -95,7 +95,7 @@ def test_an_added_node_is_right_with_its_label_and_in_its_place(label: str, x: f
     unit = TRUTH.box.size.max()
     assert accuracy.existence.value == 1.0
     assert accuracy.added.value == right
-    assert accuracy.added_centre.value == pytest.approx(x / unit)
+    assert accuracy.added_centre.value == pytest.approx(x / unit / 3)
     assert accuracy.centre.value == pytest.approx(x / unit / (3 * 18))
     assert accuracy.category.value == pytest.approx(1.0 if label == "handle" else 17 / 18)
 

@@ -45,8 +45,8 @@ class GraphAccuracy:
 
     - `existence`: F1 of nodes, input nodes included (the paper's first figure). `added`: F1 of added nodes alone, right
       only with the label of a missing one and its centre within `NEAR`.
-    - `category`: found nodes with the true label. `centre`, `half`: their mean absolute errors per coordinate;
-      `added_centre`: mean distance of the centres of added nodes; all as shares of the object's largest side.
+    - `category`: found nodes with the true label. `centre`, `half`: their mean absolute errors per coordinate (the
+      paper's centroid MAE); `added_centre`: that of added nodes alone; all as shares of the object's largest side.
     - `edges`: true edges found with their kind. `contact`, `hinge`, `rail`, `attached`: F1 by kind.
     - `border`, `sign`, `joint` (both) of true hinged doors, `slide` of true drawers.
     - `mount`: hinged doors that hang on a part that they truly hang on; `parent`: attached handles on their part.
@@ -147,7 +147,7 @@ def _node_figures(
         _share(same[labelled]),
         Share(float(np.abs(apart[:, :3]).sum()), 3.0 * len(mine)),
         Share(float(np.abs(apart[:, 3:]).sum()), 3.0 * len(mine)),
-        Share(float(distance[new].sum()), float(new.sum())),
+        Share(float(np.abs(apart[new, :3]).sum()), 3.0 * float(new.sum())),
     )
 
 
