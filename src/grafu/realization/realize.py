@@ -26,7 +26,7 @@ from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
 from grafu.realization.order import Moving, Order, order_joints
 from grafu.realization.plan import JointRequest, RealizationPlan
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
-from grafu.realization.scene import Mover, Scene
+from grafu.realization.scene import Mover, Scene, Way
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
@@ -41,10 +41,15 @@ _Outcomes = tuple[list[Built], list[Skipped], Scene]
 @final
 @dataclass(frozen=True)
 class Realized:
-    """The working object and what came of each request."""
+    """The working object, what came of each request, and the final scene.
+
+    The scene holds the parts as they are built, at rest, all hardware, the movers that have a joint, and their ways
+    with the final opening as `upper`.
+    """
 
     object: ArticulatedObject
     report: RealizationReport
+    scene: Scene
 
 
 def realize(
@@ -60,7 +65,15 @@ def realize(
     installed = [_installed(b, orders[b.request.moving], scene, closed, config) for b in built]
     articulated = _assembled(asset, scene, built, orders)
     timings = (("realize", perf_counter() - started),)
-    return Realized(articulated, RealizationReport((*installed, *skipped), timings))
+    final = _final_scene(scene, built, orders)
+    return Realized(articulated, RealizationReport((*installed, *skipped), timings), final)
+
+
+def _final_scene(scene: Scene, built: list[Built], orders: dict[str, Order]) -> Scene:
+    """Returns the scene in which only those move that have a joint, each as far as it opens."""
+    ids = [b.request.moving for b in built]
+    ways = {b.request.moving: Way(b.placement.axis, b.request.type, orders[b.request.moving].upper) for b in built}
+    return replace(scene, movers={i: scene.movers[i] for i in ids}, ways=ways)
 
 
 def _build_fairly(requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig) -> _Outcomes:
