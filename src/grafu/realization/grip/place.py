@@ -1,0 +1,172 @@
+"""Where a grip may sit: spots from the motion, best first, and whether a front bears one there. It carves nothing."""
+
+from collections.abc import Iterator
+from itertools import product
+
+import numpy as np
+
+from grafu.geometry.arrays import Mask, Scalars, Vec3
+from grafu.geometry.box import Box
+from grafu.geometry.crossings import line_crossings
+from grafu.realization.grip.config import GripConfig, GripKind, GripSize
+from grafu.realization.grip.front import Front
+from grafu.realization.grip.ground import Grid, Ground, Site, Triangles, aside
+from grafu.realization.grip.outcome import GripRefusal
+from grafu.realization.grip.shape import Cut
+
+_SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
+_INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn
+_ALONG = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)  # shares of the gripped edge, from the best place
+_FINGERS = GripSize(0.02, 0.012)  # metres: one finger's width and thickness
+_SHALLOW = 0.003  # metres: a groove less deep is none
+_LINES = (15, 9)
+_REACH = 1.0  # metres above the floor: where tall doors are gripped (EN 12098 and joiners: 0.9 to 1.1)
+_TALL, _HIGH, _LOW = 0.5, 1.2, 0.25  # metres: doors are gripped off their middle; hung high; share of a door's height
+_EVEN = 0.25  # steps in the face where a groove is cut, as a share of its depth
+_STEP = 0.003  # metres: steps in the face where a hole is cut
+_BLUNT = 0.0015  # metres: how far edges may be rounded, and be straight all the same
+_BEFORE = 0.012  # metres: a finger's thickness before the front
+_SHOWN = 0.8  # share of a hole behind which fingers must find room
+_CLEAR = 0.004  # metres between a grip and what is attached
+
+
+def spots(front: Front, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
+    """Yields grips to try, best first; their levels are not known yet (0). None: the front is too small.
+
+    `wish` is a point of the object frame near which the grip is wanted.
+    """
+    margin = min(config.margin * scale, 0.12 * front.breadth)
+    wanted = config.wanted(kind)
+    length = min(wanted.length * scale, config.length_share * front.length)
+    width = min(wanted.width * scale, config.width_share * front.breadth)
+    if kind is GripKind.HOLE and wanted.length == wanted.width:
+        length = width = min(length, width)
+    edge = float(front.box.high[1])
+    for factor in _SIZES:
+        size = GripSize(factor * length, factor * width, wanted.depth * scale)
+        if _is_too_small(size, scale):
+            continue
+        rows = [edge] if kind is GripKind.EDGE else [edge - m * margin - size.width / 2 for m in _INWARDS]
+        ends = size.length / 2 + margin
+        low, high = float(front.box.low[0]) + ends, float(front.box.high[0]) - ends
+        if wish is not None:
+            x, y, _ = front.local(wish[None])[0]
+            inner = size.width / 2 + margin
+            y = edge if kind is GripKind.EDGE else np.clip(y, front.box.low[1] + inner, front.box.high[1] - inner)
+            yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
+        middle = best_along(front, scale)
+        columns = dict.fromkeys(float(np.clip(middle + s * front.length, low, high)) for s in _ALONG)
+        for y, x in product(rows, columns):
+            yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
+
+
+def _is_too_small(size: GripSize, scale: float) -> bool:
+    across, along = sorted((size.width, size.length))
+    return across < _FINGERS.width * scale - 1e-9 or along < _FINGERS.length * scale - 1e-9
+
+
+def best_along(front: Front, scale: float) -> float:
+    """Returns the X at which a front is best gripped: in its middle; tall and high doors where a hand reaches."""
+    low, high = float(front.box.low[0]), float(front.box.high[0])
+    up = float(front.rotation[2, 0])
+    if abs(up) < 0.9 or front.length < _TALL * scale:
+        return (low + high) / 2
+    bottom, top = sorted((low * up, high * up))
+    inset = _LOW * (top - bottom)
+    reach = bottom if bottom > _HIGH * scale else _REACH * scale
+    return min(max(reach, bottom + inset), top - inset) / up
+
+
+def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | GripRefusal:
+    """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
+    ring = min(config.margin * site.scale, 0.12 * site.front.breadth) / 2
+    box = cut.box
+    over = -_BLUNT * site.scale if cut.kind is GripKind.EDGE else ring
+    xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])
+    ys = np.linspace(box.low[1] - ring, box.high[1] + over, _LINES[1])
+    ground = site.ground(xs, ys)
+    if not ground.is_covered:
+        return GripRefusal.UNEVEN
+    if not ground.is_opaque.all():
+        return GripRefusal.GLASS
+    found = _groove(site, cut, ground, config) if cut.kind is GripKind.GROOVE else _through(site, cut, ground, config)
+    return found if isinstance(found, GripRefusal) else _unless_in_the_way(site, found, ground, xs, ys, config)
+
+
+def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
+    """Returns a groove as deep as the front allows."""
+    thickness = float(ground.solid.min())
+    if thickness <= 1e-3 * site.scale:
+        return GripRefusal.NO_THICKNESS
+    face = float(np.median(ground.face))
+    room = float((face - (ground.face - ground.solid)).min())
+    depth = min(cut.size.depth, config.depth_share * room, room - config.wall * site.scale)
+    if depth < _SHALLOW * site.scale:
+        return GripRefusal.TOO_THIN
+    if float(np.ptp(ground.face)) > _EVEN * depth:
+        return GripRefusal.UNEVEN
+    top = float(ground.face.max()) + _EVEN * depth
+    size = GripSize(cut.size.length, cut.size.width, depth)
+    return Cut(cut.kind, cut.profile, cut.x, cut.y, size, top, face, face - depth)
+
+
+def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
+    """Returns a hole or notch through the first layer."""
+    if float(np.ptp(ground.face)) > _STEP * site.scale:
+        return GripRefusal.UNEVEN
+    face, back = float(ground.face.max()), float(ground.back.min())
+    if face - back > min(config.thickest * site.scale, 1.5 * cut.size.length):
+        return GripRefusal.TOO_THICK
+    if float(np.ptp(ground.back)) > _STEP * site.scale:
+        return GripRefusal.UNEVEN
+    over = 0.4 * site.seam
+    size = GripSize(cut.size.length, cut.size.width, max(face - back, 1e-6))
+    return Cut(cut.kind, cut.profile, cut.x, cut.y, size, face + over, face, back - over)
+
+
+def _unless_in_the_way(
+    site: Site, cut: Cut, ground: Ground, xs: Grid, ys: Grid, config: GripConfig
+) -> Cut | GripRefusal:
+    scale = site.scale
+    zone = cut.box.grown(_CLEAR * scale)
+    zone = Box(
+        np.array([zone.low[0], zone.low[1], cut.bottom + site.seam]),
+        np.array([zone.high[0], zone.high[1], cut.face + 2 * _BEFORE * scale]),
+    )
+    if _meets(site.attached, zone):
+        return GripRefusal.TAKEN
+    x, y = (grid.reshape(-1) for grid in np.meshgrid(xs, ys, indexing="ij"))
+    inside = _within(cut, x, y)
+    before = (cut.face, cut.face + _BEFORE * scale)
+    if _met([site.still], xs, ys, before)[inside].any():
+        return GripRefusal.NO_FINGER_ROOM
+    if cut.kind is GripKind.GROOVE:
+        return cut
+    room = (cut.bottom - config.finger_room * scale, cut.bottom)
+    met = _met([site.still, site.others, site.attached], xs, ys, room) | (ground.beneath > room[0])
+    return cut if (~met)[inside].mean() >= _SHOWN else GripRefusal.NO_FINGER_ROOM
+
+
+def _within(cut: Cut, x: Scalars, y: Scalars) -> Mask:
+    """Returns which points lie before the part of the grip where fingers reach in: a notch's inner half."""
+    box = cut.box
+    high = box.high[1] - (0.5 * cut.size.width if cut.kind is GripKind.EDGE else 0.0)
+    return np.asarray((x >= box.low[0]) & (x <= box.high[0]) & (y >= box.low[1]) & (y <= high))
+
+
+def _meets(triangles: Triangles, zone: Box) -> bool:
+    """Whether the box of some triangle meets a zone."""
+    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    return bool(np.any(np.all((low <= zone.high) & (high >= zone.low), axis=1)))
+
+
+def _met(obstacles: list[Triangles], xs: Grid, ys: Grid, span: tuple[float, float]) -> Mask:
+    """Returns for each line of a grid whether it crosses an obstacle within a span of heights."""
+    met = np.zeros(len(xs) * len(ys), dtype=bool)
+    for triangles in obstacles:
+        low, high = triangles.min(axis=1), triangles.max(axis=1)
+        near = (low[:, 2] <= span[1]) & (high[:, 2] >= span[0]) & (low[:, 0] <= xs[-1]) & (high[:, 0] >= xs[0])
+        found = line_crossings(triangles[near], aside(xs), aside(ys))
+        hit = (found.height > span[0]) & (found.height < span[1])
+        met[found.line[hit]] = True
+    return met
