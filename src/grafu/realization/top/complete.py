@@ -1,0 +1,151 @@
+"""Whether furniture lacks a top, and the top that it is given: one slab, once, where the coverage test says so.
+
+It asks no network; a predicted top's box may settle a close call. It changes no part and builds no joint.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+import shapely
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+
+from grafu.asset.part import Part
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.realization.addition import Addition, added_part, free_ids
+from grafu.realization.likeness import surface_like
+from grafu.realization.plan import JointRequest
+from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
+from grafu.realization.top.coverage import Coverage, Views, coverage_of, views_of
+from grafu.realization.top.evidence import basins_of, cells_of, named_cells, plate_in, speaks_for_bars
+from grafu.realization.top.freedom import freedom_of, lifts
+from grafu.realization.top.outline import one_piece, overhanging, rim_of, what_pierces, with_fronts
+from grafu.realization.top.roles import Roles, roles_of
+from grafu.realization.top.section import EMPTY, closed_up, section, without_slivers
+from grafu.realization.top.slab import slab_mesh, with_corners, without_block
+from grafu.vocabulary import PartLabel
+
+_BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
+_CLEAN = 0.001  # metres beside a slab's and its walls' edges, so that a groove ends at neither
+_NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is not the body's
+
+
+@final
+@dataclass(frozen=True)
+class TopVerdict:
+    """Whether there is a top, by what share, and why; and the top to add where there is none.
+
+    `coverage` holds the paper's two occupancy maps (None: nothing has a face). `addition` is None where a top is there,
+    and where none can be put: `why` says which. `close_call` says that the maps alone did not decide.
+    """
+
+    covered: bool
+    ratio: float
+    why: str
+    coverage: Coverage | None = None
+    addition: Addition | None = None
+    close_call: bool = False
+
+    @property
+    def missing(self) -> bool:
+        """Whether furniture lacks a top."""
+        return not self.covered
+
+
+def missing_top(
+    parts: Sequence[Part],
+    movers: Iterable[JointRequest] = (),
+    config: TopConfig = DEFAULT_TOP,
+    hint: Box | None = None,
+) -> TopVerdict:
+    """Returns whether parts lack a top, and the slab for them.
+
+    `movers` are the joints asked for: lids cover, drawers do not, and the slab lets all of them move. `hint` is the box
+    of a top that a network predicts, in the object frame; it settles close calls and nothing else.
+    """
+    roles = roles_of(parts, movers)
+    if roles is None:
+        return TopVerdict(True, 1.0, "nothing has a surface")
+    metre = metre_of(float(Box.around(np.vstack([p.box.corners() for p in parts])).size.max()))
+    views = views_of(roles, metre)
+    coverage = coverage_of(views, config, metre)
+    basins = basins_of(roles, views, coverage, metre)
+    if basins:
+        coverage = coverage_of(views, config, metre, cells_of(basins, views))
+    verdict = _judged(roles, views, coverage, config, metre, hint)
+    if verdict.covered:
+        return verdict
+    made = _slab(roles, views, coverage, basins, config, metre)
+    if made is None:
+        return replace(verdict, why=f"{verdict.why}; nothing carries a slab there")
+    mesh, outline = made
+    body = [p for p in roles.still if p.label not in _NO_BODY] or [p for p in parts if p.label not in _NO_BODY]
+    (part_id,) = free_ids("top_panel", 1, {p.id for p in parts})
+    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, body)])
+    style = config.shape if _is_rectangle(outline) else f"outline, {config.shape}"
+    return replace(verdict, addition=Addition(part, verdict.why, style))
+
+
+def _judged(
+    roles: Roles, views: Views, coverage: Coverage, config: TopConfig, metre: float, hint: Box | None
+) -> TopVerdict:
+    """Returns the verdict of the maps, and in close calls of what else speaks."""
+    level = coverage.level
+    if level is None:
+        return TopVerdict(True, coverage.ratio, "nothing is open at the top", coverage)
+    named = named_cells(roles, views, coverage, metre)
+    coverage = replace(coverage, near_top=coverage.near_top | (named & coverage.everything))
+    ratio = coverage.ratio
+    seen = f"{ratio:.0%} of what stands at {level:.2f} m is covered"
+    if abs(ratio - config.coverage) > config.doubt:
+        return TopVerdict(ratio >= config.coverage, ratio, seen, coverage)
+    covered, told = ratio >= config.coverage, ""
+    if (plate := plate_in(roles, views, coverage, config, metre)) is not None:
+        covered, told = True, f", `{plate.id}` is a top with a cut-out"
+    elif hint is not None and abs(float(hint.high[2]) - level) <= 0.1 * metre:
+        covered, told = False, ", and a top was predicted there"
+    elif speaks_for_bars(roles, coverage, config, metre):
+        covered, told = False, " by bars"
+    return TopVerdict(covered, ratio, seen + told, coverage, close_call=True)
+
+
+def _slab(
+    roles: Roles, views: Views, coverage: Coverage, basins: tuple[Part, ...], config: TopConfig, metre: float
+) -> tuple[TriangleMesh, Polygon] | None:
+    """Returns the slab and its outline from above; None where nothing carries one."""
+    rim = rim_of(roles, views, coverage, metre)
+    if rim is None:
+        return None
+    unit = float(views.grid.cell) * max(views.grid.shape)
+    thickness = min(config.thickness * metre, 0.2 * (rim.seat - views.floor))
+    if thickness <= 0:
+        return None
+    plan = with_fronts(rim, tuple(m for m in roles.moving if not lifts(m)), metre)
+    plan = overhanging(plan, config.front * metre, config.side * metre, config.back * metre)
+    plan = with_corners(plan, config.shape, metre)
+    free = freedom_of(roles.moving, plan, rim.seat, thickness, config.gap * metre, metre)
+    standing = what_pierces(roles, rim, thickness, config.seat * unit, metre)
+    left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, metre))
+    outline = one_piece(left, coverage, metre)
+    if outline is None:
+        return None
+    mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape)
+    for region, height in free.grooves:
+        below = region.intersection(outline.buffer(_CLEAN * metre)).difference(rim.walls.buffer(_CLEAN * metre))
+        groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
+        mesh = without_block(mesh, groove, rim.seat - thickness, height)
+    return mesh, outline
+
+
+def _cut_outs(basins: tuple[Part, ...], metre: float) -> BaseGeometry:
+    """Returns the plans of basins below their flanges."""
+    walls = (section(p.mesh.triangles, [float(p.box.high[2]) - _BELOW_FLANGE * metre], metre) for p in basins)
+    cut = [closed_up(wall, 0.03 * metre) for wall in walls]
+    return shapely.union_all(cut) if cut else EMPTY
+
+
+def _is_rectangle(outline: Polygon) -> bool:
+    return bool(outline.area >= 0.97 * outline.minimum_rotated_rectangle.area)

@@ -1,0 +1,147 @@
+"""The coverage test: everything against what is near the top, both seen from above (paper, Adding Countertops).
+
+"Near the top" is no fixed band under the greatest height, since backs and mirrors stand higher than tops and sides a
+little higher than let-in ones. A cell is open if one looks past its rim into the depth: the rim is as high as the walls
+that enclose the cell, on all four sides, or on three where the front is open. Nothing here knows of labels.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Float
+from scipy import ndimage
+
+from grafu.geometry.arrays import ArrayValue, frozen_array
+from grafu.realization.top.config import TopConfig
+from grafu.realization.top.height_map import CellMask, Grid, Heights, heights_of
+from grafu.realization.top.roles import Roles, triangles_of
+
+RESOLUTION = 160  # cells along the longer side: a panel of 18 mm is two cells of a sideboard wide
+_FRONTS = 0.06  # metres before the still parts up to which a closed front belongs to the footprint
+_CRACK = 0.02  # metres: what one looks through between boards and behind handles is no opening
+_STEP = 0.03  # metres between the rims of two openings that one top closes
+_ABOVE = 0.06  # metres above a rim at which things still stand at it
+_NICHE = 0.45  # of the height: lower down, what is open in front is a niche or an open drawer, no place for a top
+_LEAST = 0.15  # of the footprint: smaller holes are sinks, cable outlets and gaps
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Coverage(ArrayValue):
+    """What one sees from above. `everything` and `near_top` are the paper's two maps, at the level of one rim.
+
+    `level` is the height of that rim, None where nothing is enclosed: then both maps are of the whole footprint.
+    `opened` are the cells that one looks into.
+    """
+
+    grid: Grid
+    everything: CellMask
+    near_top: CellMask
+    level: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("everything", "near_top"):
+            mask = getattr(self, name)
+            if mask.shape != self.grid.shape:
+                raise ValueError(f"`Coverage.{name}` must have the grid's shape {self.grid.shape}: got {mask.shape}")
+            object.__setattr__(self, name, frozen_array(mask, np.bool_))
+
+    @property
+    def opened(self) -> CellMask:
+        """The cells that nothing near the top covers."""
+        return self.everything & ~self.near_top
+
+    @property
+    def ratio(self) -> float:
+        """The share of everything that is covered near the top; 1 where there is nothing to cover."""
+        area = int(self.everything.sum())
+        return float((self.everything & self.near_top).sum()) / area if area else 1.0
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Views:
+    """Heights from above: of what stands, of what covers (still or turning) and of all, drawers included."""
+
+    grid: Grid
+    still: Heights
+    cover: Heights
+    wall: Heights
+    region: CellMask
+    floor: float
+
+
+def views_of(roles: Roles, metre: float, resolution: int = RESOLUTION) -> Views:
+    """Returns the heights of furniture from above, and the region that it stands on, kneeholes counted in."""
+    grid = Grid.over(roles.box.grown(_FRONTS * metre), resolution)
+    still = heights_of(triangles_of(p.mesh for p in roles.still), grid)
+    turning = heights_of(triangles_of(m.mesh for m in roles.turning), grid)
+    sliding = heights_of(triangles_of(m.mesh for m in roles.sliding), grid)
+    cover = np.maximum(still, turning)
+    wall = np.maximum(cover, sliding)
+    stands = np.isfinite(still if roles.still else wall)
+    near = ndimage.binary_dilation(_between(stands), iterations=grid.cells(_FRONTS * metre))
+    return Views(grid, still, cover, wall, _between(stands) | (near & np.isfinite(wall)), float(roles.box.low[2]))
+
+
+def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask | None = None) -> Coverage:
+    """Returns both maps at the rim with the largest opening, or of the whole footprint where nothing is open.
+
+    `spared` are cells that count in neither map: a basin is neither a top nor the lack of one.
+    """
+    depth = metre * np.array([config.recess, config.gallery])
+    rim, opened = _openings(views, min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views)))
+    free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
+    opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(_CRACK * metre) // 2))
+    groups = _by_level(opened, rim, _STEP * metre)
+    best = max(groups, key=lambda group: int(group[1].sum()), default=None)
+    if best is None or best[1].sum() < _LEAST * views.region.sum():
+        return Coverage(views.grid, views.region & free, views.region & free)
+    level, hole = best
+    near = (views.wall >= level - depth[0]) & (views.wall <= level + _ABOVE * metre) & views.region
+    unit = _touching(near | hole, hole) & free
+    return Coverage(views.grid, unit, unit & ~hole, level)
+
+
+def _height(views: Views) -> float:
+    return float(views.wall[np.isfinite(views.wall)].max(initial=views.floor)) - views.floor
+
+
+def _between(stands: CellMask) -> CellMask:
+    """Returns the cells with something on both sides along X or along Y, or on themselves."""
+    sides = [np.logical_or.accumulate(m, axis=a) for a in (0, 1) for m in (stands,)]
+    backs = [np.flip(np.logical_or.accumulate(np.flip(stands, a), axis=a), a) for a in (0, 1)]
+    return (sides[0] & backs[0]) | (sides[1] & backs[1])
+
+
+def _openings(views: Views, recess: float, gallery: float) -> tuple[Heights, CellMask]:
+    """Returns for each cell the height of its rim, and whether what covers it lies too far below that."""
+    ahead = [np.maximum.accumulate(views.wall, axis=a) for a in (0, 1)]
+    behind = [np.flip(np.maximum.accumulate(np.flip(views.wall, a), axis=a), a) for a in (0, 1)]
+    around: Float[np.ndarray, "4 x y"] = np.sort(np.stack([*ahead, *behind]), axis=0)
+    covered = np.where(np.isfinite(views.cover), views.cover, views.floor)
+    enclosed, niche = around[0] - covered > recess, around[1] - covered > gallery
+    niche &= around[1] - views.floor >= _NICHE * _height(views)
+    rim = np.where(enclosed, around[0], around[1])
+    return rim, views.region & (enclosed | niche) & np.isfinite(rim)
+
+
+def _by_level(opened: CellMask, rim: Heights, step: float) -> list[tuple[float, CellMask]]:
+    """Returns the openings, those whose rims are about equally high as one, each with the height of its rim."""
+    labels, count = ndimage.label(opened)
+    groups: list[tuple[float, CellMask]] = []
+    levels = [float(np.median(rim[labels == k])) for k in range(1, count + 1)]
+    for k in np.argsort(levels)[::-1]:
+        mask = labels == k + 1
+        if groups and groups[-1][0] - levels[k] <= step:
+            groups[-1] = (groups[-1][0], groups[-1][1] | mask)
+        else:
+            groups.append((levels[k], mask))
+    return groups
+
+
+def _touching(cells: CellMask, seed: CellMask) -> CellMask:
+    """Returns those connected cells that hold a seed."""
+    labels, _ = ndimage.label(cells, structure=np.ones((3, 3)))
+    return np.isin(labels, np.unique(labels[seed & (labels > 0)]))

@@ -1,0 +1,101 @@
+"""What a slab leaves free for doors, drawers and flaps: grooves in its underside, and edges that end before them.
+
+It knows how movers move, not how their joints will be built: those come later and respect the slab.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+import shapely
+from shapely.geometry.base import BaseGeometry
+
+from grafu.geometry.transform import transform_points
+from grafu.realization.limits import motion_about
+from grafu.realization.top.roles import Closed
+from grafu.realization.top.section import EMPTY, section_lines
+from grafu.vocabulary import JointType
+
+_LEFT = 0.4  # of the thickness that must be left over a groove
+_UPRIGHT = 0.7  # of a unit direction
+_FLAP = 0.25  # of a leaf's height: an axis within that of its upper end lifts it
+_TURN = np.radians(110)  # as far as doors open (realization config)
+_POSES = 12
+_BEYOND = 0.15  # metres beyond a flap that stay free
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Freedom:
+    """What a slab must leave free: `cut` through its whole thickness, and `grooves` up to heights."""
+
+    cut: BaseGeometry
+    grooves: tuple[tuple[BaseGeometry, float], ...]
+
+
+def freedom_of(
+    movers: tuple[Closed, ...], outline: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
+) -> Freedom:
+    """Returns what a slab over `outline` that stands at height `seat` must leave free, `gap` metres of air included."""
+    cuts, grooves = [], []
+    for mover in movers:
+        top = float(mover.mesh.box.high[2])
+        if lifts(mover):
+            if top > seat - gap - 0.06 * metre:
+                cuts.append(_beyond(mover, outline, metre))
+            continue
+        if top <= seat - gap:
+            continue
+        way = _swept(mover, seat - gap).buffer(gap, join_style="mitre")
+        if not way.intersects(outline):
+            continue
+        if top + gap - seat > (1 - _LEFT) * thickness:
+            cuts.append(way)
+        else:
+            grooves.append((way, top + gap))
+    return Freedom(shapely.union_all(cuts) if cuts else EMPTY, tuple(grooves))
+
+
+def lifts(mover: Closed) -> bool:
+    """Whether a mover turns about a level axis at its upper end: a flap that rises when it opens."""
+    joint = mover.request
+    if joint is None or joint.type is not JointType.REVOLUTE:
+        return False
+    if abs(float(joint.axis.direction[2])) > 1 - _UPRIGHT:
+        return False
+    box = mover.mesh.box
+    return bool(joint.axis.point[2] >= box.high[2] - _FLAP * box.size[2])
+
+
+def _beyond(mover: Closed, outline: BaseGeometry, metre: float) -> BaseGeometry:
+    """Returns the plan of a flap and what lies before it, away from the body's middle."""
+    plan = shapely.convex_hull(shapely.multipoints(mover.mesh.vertices[:, :2]))
+    box = mover.mesh.box
+    middle = outline.centroid
+    away = box.center[:2] - np.array([middle.x, middle.y])
+    across = int(np.argmin(box.size[:2]))
+    step = np.zeros(2)
+    step[across] = np.sign(away[across]) * _BEYOND * metre
+    side = np.zeros(2)
+    side[1 - across] = 0.05 * metre
+    corners = np.asarray(plan.envelope.exterior.coords)[:, :2] if plan.area else mover.mesh.vertices[:, :2]
+    return shapely.convex_hull(shapely.multipoints(np.concatenate([corners + side, corners - side, corners + step])))
+
+
+def _swept(mover: Closed, height: float) -> BaseGeometry:
+    """Returns the plan of what a mover's parts above a height pass over when it opens."""
+    vertices = mover.mesh.vertices
+    level = section_lines(mover.mesh.triangles, height).reshape(-1, 2)
+    flat = np.concatenate([vertices[vertices[:, 2] > height][:, :2], level])
+    hull = np.asarray(shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(flat))), dtype=np.float64)
+    points = np.column_stack([hull, np.full(len(hull), height)])
+    joint = mover.request
+    if joint is None:
+        poses = [points]
+    else:
+        motion = motion_about(joint.axis, joint.type)
+        turns = joint.type is JointType.REVOLUTE
+        reach = float(_TURN) if turns else float(mover.mesh.box.size[:2].max())
+        poses = [transform_points(motion(v), points) for v in np.linspace(0.0, reach, _POSES if turns else 2)]
+    steps = [np.concatenate([a, b])[:, :2] for a, b in zip(poses, poses[1:] or poses, strict=False)]
+    return shapely.union_all([shapely.convex_hull(shapely.multipoints(step)) for step in steps])

@@ -1,0 +1,142 @@
+"""How high furniture reaches above each cell of the floor, from triangles alone. It judges nothing."""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec2, frozen_array
+from grafu.geometry.box import Box
+
+Heights = Float[np.ndarray, "x y"]
+"""The highest surface above each cell, metres; minus infinity where there is none."""
+CellMask = Bool[np.ndarray, "x y"]
+
+_STEEP = 0.02  # of a normal's upright part: what is steeper counts as upright, and stands as high as it reaches
+_SHRINK = 1e-6  # of a cell: what ends on a cell's border does not reach into the next
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Grid(ArrayValue):
+    """Square cells on the floor: `low` is the outer corner of cell (0, 0), `cell` a side in metres."""
+
+    low: Vec2
+    cell: float
+    columns: int
+    rows: int
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "low", frozen_array(self.low))
+        if not (self.cell > 0 and self.columns > 0 and self.rows > 0):
+            raise ValueError(f"`Grid` needs cells: got {self.columns} x {self.rows} of {self.cell} m")
+
+    @classmethod
+    def over(cls, box: Box, resolution: int) -> "Grid":
+        """Returns a grid with `resolution` cells along the longer side of a box, and a free cell around."""
+        sides = box.size[:2]
+        cell = max(float(sides.max()) / resolution, 1e-9)
+        columns, rows = (int(n) for n in np.ceil(sides / cell - _SHRINK).astype(np.int64) + 2)
+        return cls(box.center[:2] - 0.5 * cell * np.array([columns, rows], dtype=np.float64), cell, columns, rows)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """The number of cells along X and Y."""
+        return self.columns, self.rows
+
+    def centers(self, mask: CellMask) -> Float[np.ndarray, "n 2"]:
+        """Returns the middles of the marked cells, metres."""
+        return np.asarray(self.low) + (np.argwhere(mask) + 0.5) * self.cell
+
+    def cells(self, length: float) -> int:
+        """Returns how many cells a length covers, at least one."""
+        return max(1, round(length / self.cell))
+
+
+def heights_of(triangles: Float[np.ndarray, "n 3 3"], grid: Grid) -> Heights:
+    """Returns the highest surface in each cell that a triangle so much as grazes: thin sheets and walls count."""
+    field = np.full(grid.columns * grid.rows, -np.inf)
+    if not len(triangles):
+        return field.reshape(grid.shape)
+    flat = (triangles[:, :, :2] - grid.low) / grid.cell
+    low, high = _least(flat), -_least(-flat)
+    size = high - low
+    inside = (high > 0).all(axis=1) & (low < grid.shape).all(axis=1)
+    tiny, tall = (size < 1.0).all(axis=1), size[:, 1] > size[:, 0]
+    _mark_tiny(field, flat[inside & tiny], triangles[inside & tiny, :, 2], grid)
+    for turned in (False, True):  # along the axis on which fewer lines of cells are crossed
+        chosen = inside & ~tiny & (tall == turned)
+        _mark_large(field, flat[chosen], triangles[chosen, :, 2], grid, turned)
+    return field.reshape(grid.shape)
+
+
+def _least(corners: Float[np.ndarray, "n 3 ..."]) -> Float[np.ndarray, "n ..."]:
+    """Returns the least of each triangle's three corners."""
+    return np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
+
+
+def _mark_tiny(field: Scalars, flat: Float[np.ndarray, "n 3 2"], z: Points, grid: Grid) -> None:
+    """Raises a field to triangles smaller than a cell, in the cells of their corners."""
+    at = np.clip(np.floor(flat - _SHRINK).astype(np.int64), 0, np.array(grid.shape) - 1)
+    np.maximum.at(field, (at[..., 0] * grid.rows + at[..., 1]).ravel(), z.ravel())
+
+
+def _mark_large(field: Scalars, flat: Float[np.ndarray, "n 3 2"], z: Points, grid: Grid, turned: bool) -> None:
+    """Raises a field to triangles, line by line of cells: rows along X, or, `turned`, columns along Y."""
+    lines, cells = (grid.columns, grid.rows) if turned else (grid.rows, grid.columns)
+    flat = flat[:, :, ::-1] if turned else flat
+    which, line = _spread(*_span(_least(flat[:, :, 1]), -_least(-flat[:, :, 1]), lines))
+    first, last = _reach(flat[which], line.astype(np.float64))
+    span, cell = _spread(*_span(first, last, cells))
+    line = line[span]
+    at = _height_at(flat, z, which[span], cell + 0.5, line + 0.5)
+    np.maximum.at(field, line * grid.rows + cell if turned else cell * grid.rows + line, at)
+
+
+def _span(low: Scalars, high: Scalars, count: int) -> tuple[Indices, Indices]:
+    """Returns the first and last cell from `low` to `high`, of `count`."""
+    first = np.clip(np.floor(low + _SHRINK), 0, count - 1).astype(np.int64)
+    last = np.clip(np.floor(high - _SHRINK), 0, count - 1).astype(np.int64)
+    return first, np.maximum(last, first)
+
+
+def _spread(first: Indices, last: Indices) -> tuple[Indices, Indices]:
+    """Returns every number from each first to its last, and which it belongs to."""
+    counts = last - first + 1
+    which = np.repeat(np.arange(len(first)), counts)
+    return which, first[which] + np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
+def _reach(flat: Float[np.ndarray, "n 3 2"], row: Scalars) -> tuple[Scalars, Scalars]:
+    """Returns how far each triangle reaches along X within a row of cells."""
+    low, high = np.full(len(row), np.inf), np.full(len(row), -np.inf)
+    for k in range(3):
+        a, b = flat[:, k], flat[:, (k + 1) % 3]
+        rise = b[:, 1] - a[:, 1]
+        level = np.abs(rise) < 1e-12
+        steep = np.where(level, 1.0, rise)
+        enters, leaves = (row - a[:, 1]) / steep, (row + 1 - a[:, 1]) / steep
+        begin = np.where(level, 0.0, np.maximum(np.minimum(enters, leaves), 0.0))
+        end = np.where(level, 1.0, np.minimum(np.maximum(enters, leaves), 1.0))
+        met = np.where(level, (a[:, 1] >= row - _SHRINK) & (a[:, 1] <= row + 1 + _SHRINK), begin <= end)
+        x0, x1 = a[:, 0] + begin * (b[:, 0] - a[:, 0]), a[:, 0] + end * (b[:, 0] - a[:, 0])
+        low = np.minimum(low, np.where(met, np.minimum(x0, x1), np.inf))
+        high = np.maximum(high, np.where(met, np.maximum(x0, x1), -np.inf))
+    lost = low > high  # grazed within rounding
+    return np.where(lost, _least(flat[:, :, 0]), low), np.where(lost, -_least(-flat[:, :, 0]), high)
+
+
+def _height_at(flat: Float[np.ndarray, "n 3 2"], z: Points, which: Indices, x: Scalars, y: Scalars) -> Scalars:
+    """Returns the height of triangles at points (in cells), within what each triangle reaches."""
+    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    p, q = z[:, 1] - z[:, 0], z[:, 2] - z[:, 0]
+    twice = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    upright = np.abs(twice) <= _STEEP * (np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1) + 1e-12)
+    area = np.where(upright, 1.0, twice)
+    along_x = np.where(upright, 0.0, (p * v[:, 1] - q * u[:, 1]) / area)
+    along_y = np.where(upright, 0.0, (q * u[:, 0] - p * v[:, 0]) / area)
+    lowest, highest = _least(z), -_least(-z)
+    base = np.where(upright, highest, z[:, 0])
+    found = base[which] + along_x[which] * (x - flat[which, 0, 0]) + along_y[which] * (y - flat[which, 0, 1])
+    return np.minimum(np.maximum(found, lowest[which]), highest[which])

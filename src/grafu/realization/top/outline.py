@@ -1,0 +1,150 @@
+"""The outline of a missing top: what stands just under its rim, closed up (paper, Adding Countertops).
+
+Rectangles stay rectangles, L-shaped, cut-off and bowed outlines keep their shape; kneeholes are spanned. What stands up
+through the top (backs, posts, towers, a basin's rim) is left out of it.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+import shapely
+from jaxtyping import Float
+from scipy import ndimage
+from shapely.geometry import Polygon, box
+from shapely.geometry.base import BaseGeometry
+
+from grafu.realization.top.coverage import Coverage, Views
+from grafu.realization.top.roles import Closed, Roles, triangles_of
+from grafu.realization.top.section import EMPTY, closed_up, filled, polygons_in, section, thinned, without_slivers
+
+_NEAR_RIM = 0.03  # metres around a rim's height in which what carries the top is looked for
+_EVEN = 0.001  # metres: what differs by less carries together
+_LOW_POINT = 0.002  # metres that single points may stand above the rest and lift the top rather than pierce it
+_CARRIES = 0.15  # of the rim: what is enough to carry a top
+_RIM = 0.12  # metres around an opening that belong to its rim: a face frame, a post and a panel
+_SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be eased, a back may end lower
+_SPAN = 1.2  # metres: kneeholes and gaps that a top spans; official: none
+_SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to which it was meant as a rectangle
+_FRONT = 0.045  # metres before the body in which a front belongs under the top
+_REACH = 0.06  # metres that a front may end below the rim
+_TONGUE = 0.012  # metres: narrower pieces of a top are no top
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Rim:
+    """What carries a top: the height of its seat, the walls under it (as drawn), and the outline around them."""
+
+    seat: float
+    walls: BaseGeometry
+    outline: BaseGeometry
+
+
+def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim | None:
+    """Returns the rim around an opening; None where nothing still carries a top."""
+    seat = _seat(views, coverage, metre)
+    if seat is None:
+        return None
+    triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, metre)
+    walls = section(triangles, (seat - s * metre for s in _SKIN), metre)
+    body = thinned(closed_up(walls, _SPAN * metre), metre)
+    body = _of_openings(_squared(body, _SQUARE * metre), coverage)
+    return Rim(seat, walls, body) if body.area > 0 else None
+
+
+def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeometry:
+    """Returns a rim's outline with the doors and drawers before it whose upper ends come near it."""
+    near = rim.outline.buffer(_FRONT * metre, join_style="mitre")
+    found = [rim.outline]
+    for mover in movers:
+        top = float(mover.mesh.box.high[2])
+        if top < rim.seat - _REACH * metre or not _plan_box(mover).intersects(near):
+            continue
+        height = min(top, rim.seat) - 0.005 * metre
+        found.append(filled(section(mover.mesh.triangles, [height], metre)).intersection(near))
+    if len(found) == 1:
+        return rim.outline
+    return _squared(closed_up(shapely.union_all(found), 2 * _FRONT * metre), _SQUARE * metre)
+
+
+def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -> BaseGeometry:
+    """Returns an outline that juts out by these lengths to -Y, to both sides, and to +Y."""
+    around = np.array([[-side, -front], [side, -front], [side, back], [-side, back]], dtype=np.float64)
+    swept = []
+    for polygon in polygons_in(outline):
+        corners = np.asarray(polygon.exterior.coords)[:, :2]
+        ends = np.concatenate([corners[:-1, None] + around, corners[1:, None] + around], axis=1)
+        swept += [shapely.convex_hull(shapely.multipoints(points)) for points in ends]
+    return filled(shapely.union_all([outline, *swept]))
+
+
+def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: float) -> BaseGeometry:
+    """Returns what stands up through a slab on the rim, hollow things filled: no top goes there."""
+    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + seat]
+    if not tall:
+        return EMPTY
+    heights = (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness)
+    lines = section(triangles_of(tall), heights, metre)
+    return filled(closed_up(lines, 0.03 * metre))
+
+
+def one_piece(shape: BaseGeometry, coverage: Coverage, metre: float) -> Polygon | None:
+    """Returns the piece of a slab's outline that covers most of the opening, without tongues; None if none does."""
+    pieces = [p for p in polygons_in(without_slivers(shape, _TONGUE * metre)) if p.area > 0]
+    points = shapely.points(coverage.grid.centers(coverage.opened))
+    best = max(pieces, key=lambda p: int(shapely.contains(p, points).sum()), default=None)
+    if best is None:
+        return None
+    plain = shapely.simplify(best, 2e-4 * metre)
+    return plain if isinstance(plain, Polygon) and plain.is_valid and plain.area > 0 else best
+
+
+def _seat(views: Views, coverage: Coverage, metre: float) -> float | None:
+    """Returns the greatest height at which enough of the rim ends; single points a little higher lift it."""
+    if coverage.level is None:
+        return None
+    around = ndimage.binary_dilation(coverage.opened, iterations=coverage.grid.cells(_RIM * metre))
+    near = np.abs(views.still - coverage.level) <= _NEAR_RIM * metre
+    heights = np.sort(views.still[around & near])
+    if not len(heights):
+        return None
+    ends = np.searchsorted(heights, heights - _EVEN * metre), np.searchsorted(heights, heights, "right")
+    enough = ends[1] - ends[0] >= _CARRIES * len(heights)
+    seat = float(heights[np.flatnonzero(enough)[-1]]) if enough.any() else float(np.median(heights))
+    lifted = heights[(heights > seat) & (heights <= seat + _LOW_POINT * metre)]
+    return float(lifted[-1]) if len(lifted) else seat
+
+
+def _near(triangles: Float[np.ndarray, "n 3 3"], coverage: Coverage, metre: float) -> Float[np.ndarray, "m 3 3"]:
+    """Returns the triangles within the region of an opening and its rim, seen from above."""
+    points = coverage.grid.centers(coverage.everything)
+    low, high = points.min(axis=0) - _FRONT * metre, points.max(axis=0) + _FRONT * metre
+    flat = triangles[:, :, :2]
+    return triangles[np.all((flat.max(axis=1) >= low) & (flat.min(axis=1) <= high), axis=1)]
+
+
+def _squared(shape: BaseGeometry, tolerance: float) -> BaseGeometry:
+    """Returns each polygon as the rectangle that it was meant to be, where all of whose corners lie near it."""
+    made = []
+    for polygon in polygons_in(shape):
+        upright = box(*polygon.bounds)
+        turned = polygon.minimum_rotated_rectangle
+        rectangle = upright if upright.area <= 1.02 * turned.area else turned
+        corners = shapely.points(np.asarray(rectangle.exterior.coords)[:-1])
+        is_meant = float(shapely.distance(polygon, corners).max()) <= tolerance
+        is_full = rectangle.difference(polygon.buffer(2 * tolerance)).area <= 0.02 * rectangle.area
+        made.append(rectangle if is_meant and is_full else polygon)
+    return shapely.union_all(made) if made else EMPTY
+
+
+def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:
+    """Returns the polygons of a shape that hold a share of the openings; all of it, where there are several."""
+    points = shapely.points(coverage.grid.centers(coverage.opened))
+    held = [p for p in polygons_in(shape) if shapely.contains(p, points).sum() > 0.02 * len(points)]
+    return shapely.union_all(held) if held else EMPTY
+
+
+def _plan_box(mover: Closed) -> Polygon:
+    low, high = mover.mesh.box.low, mover.mesh.box.high
+    return box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
