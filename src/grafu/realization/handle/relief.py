@@ -1,0 +1,137 @@
+"""What lies before a hand at a front: depth maps of the front and of all that surrounds it at rest, by rays.
+
+The mover's own handles and what stands before the front (a closed door before a drawer) are left out; its hardware and
+the floor, z = 0, belong to the surroundings.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+from typing import final
+
+import numpy as np
+from jaxtyping import Float
+
+from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.realization.handle.config import size_factor
+from grafu.realization.handle.front import Front, body_mesh, front_of
+from grafu.realization.scene import Scene
+
+Grid = Float[np.ndarray, "n m"]
+
+_CELL = (0.005, 0.009)  # metres: a fingertip covers two; large fronts have wider cells
+_CELLS = 12_000
+_MARGIN = 0.036  # metres around the front that are looked at: three fingers' thickness
+_LEAD = 0.09  # metres before the front where rays set out: beyond any grip
+_BEHIND = 0.1  # metres behind the front's plane up to which anything matters to fingers
+_AREA = 0.15  # share of the area that lies no deeper than the front's plane: a grip that stands out covers less
+_FAR = 1e3  # metres: what sees nothing sees this far
+_BEFORE = 0.002  # metres: what ends this little behind a front's foremost plane stands before it
+_BODY = 0.04  # metres behind the plane within which the front's outline is taken
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """Depths inwards from the front's foremost plane on a grid, metres.
+
+    `u` and `v` are the cells' middles; `face` is the mover's first surface (infinite where there is none), `first` that
+    of anything (a kilometre). `plane` is where
+    the front's face mainly lies; `factor` what hands are scaled by.
+    """
+
+    front: Front
+    factor: float
+    cell: float
+    u: Scalars
+    v: Scalars
+    face: Grid
+    first: Grid
+    plane: float
+    mover: RayCaster
+    others: RayCaster
+
+    @cached_property
+    def outline(self) -> Box:
+        """The front's own rectangle, (u, b, v): without what lies far behind its plane, such as a drawer's box."""
+        body = self.face < self.plane + _BODY * self.factor
+        if not body.any():
+            return Box(np.zeros(3), np.array([self.front.width, self.front.depth, self.front.height]))
+        half = self.cell / 2
+        i, j = np.flatnonzero(body.any(axis=1)), np.flatnonzero(body.any(axis=0))
+        low = np.array([self.u[i[0]] - half, self.plane, self.v[j[0]] - half])
+        high = np.array([self.u[i[-1]] + half, self.plane + self.front.depth, self.v[j[-1]] + half])
+        edge = np.array([self.front.width, np.inf, self.front.height])
+        return Box(np.maximum(low, (0.0, -np.inf, 0.0)), np.maximum(np.minimum(high, edge), low))
+
+    def cast(self, points: Points, direction: Vec3) -> tuple[Scalars, Scalars]:
+        """Returns the distances from points (u, b, v) along a unit direction (u, b, v) to the mover and to others."""
+        origins, along = self.front.to_object(points), self.front.rotation @ direction
+        return self.mover.along(origins, along), self.others.along(origins, along)
+
+
+def relief_of(scene: Scene, mover_id: str) -> Relief:
+    """Returns the relief of a mover's front."""
+    front, factor = front_of(scene, mover_id), size_factor(scene.unit)
+    body = body_mesh(scene, mover_id)
+    around = _around(front, factor)
+    mover = RayCaster(_near(body, front, around))
+    others = RayCaster(_others(scene, mover_id, front, around))
+    area = front.width * front.height
+    cell = min(max(sqrt(area / _CELLS), factor * _CELL[0]), factor * _CELL[1])
+    cell = max(cell, sqrt(area / (4 * _CELLS)))
+    u, v = (_cells(side, cell, _MARGIN * factor) for side in (front.width, front.height))
+    lead = _LEAD * factor
+    grid = np.stack(np.broadcast_arrays(u[:, None], -lead, v[None, :]), axis=-1)
+    origins = front.to_object(grid.reshape(-1, 3))
+    face = mover.along(origins, front.inwards).reshape(grid.shape[:2]) - lead
+    first = np.minimum(others.along(origins, front.inwards).reshape(face.shape) - lead, face)
+    first = np.where(origins[:, 2].reshape(face.shape) < 0.0, -lead, np.minimum(first, _FAR))
+    return Relief(front, factor, cell, u, v, face, first, _plane(face), mover, others)
+
+
+def _plane(face: Grid) -> float:
+    """Returns the depth that a share of the mover's visible cells does not exceed; 0 where nothing is hit."""
+    hits = face[np.isfinite(face)]
+    return float(np.quantile(hits, _AREA)) if len(hits) else 0.0
+
+
+def _cells(side: float, cell: float, margin: float) -> Scalars:
+    """Returns the middles of cells over a side and a margin on both ends; they begin at the side's own ends."""
+    count, more = max(int(np.ceil(side / cell)), 1), int(np.ceil(margin / cell))
+    return side / count * (np.arange(-more, count + more) + 0.5)
+
+
+def _around(front: Front, factor: float) -> Box:
+    """Returns the space around a front that matters to hands, (u, b, v)."""
+    margin, lead, behind = factor * _MARGIN, factor * _LEAD, factor * _BEHIND
+    low = np.array([-margin, -lead, -margin])
+    return Box(low, np.array([front.width + margin, min(front.depth, behind) + behind, front.height + margin]))
+
+
+def _near(mesh: TriangleMesh, front: Front, box: Box) -> TriangleMesh:
+    """Returns the triangles whose own boxes, (u, b, v), meet a box."""
+    corners = front.to_front(mesh.vertices)[mesh.faces]
+    return mesh.with_faces(np.all((corners.min(axis=1) <= box.high) & (corners.max(axis=1) >= box.low), axis=1))
+
+
+def _others(scene: Scene, mover_id: str, front: Front, around: Box) -> TriangleMesh:
+    """Returns what surrounds a front: all other parts at rest but closed doors before it, and all hardware."""
+    own = scene.movers[mover_id].members
+    carried = {member: mover.id for mover in scene.movers.values() for member in mover.members}
+    before = {other for other in scene.movers if other != mover_id and stands_before(scene, other, front)}
+    parts = [p.mesh for p in scene.parts.values() if p.id not in own and carried.get(p.id, "") not in before]
+    hardware = [visual.mesh for owner, visual in scene.hardware if owner not in before]
+    region = Box.around(front.to_object(around.corners()))
+    near = [m for m in (*parts, *hardware) if len(m.faces) and m.box.overlaps(region)]
+    return merge_meshes([_near(mesh, front, around) for mesh in near])
+
+
+def stands_before(scene: Scene, other: str, front: Front) -> bool:
+    """Whether another mover stands wholly before a front and hides some of it, as a closed door does a drawer."""
+    box = front.box_of(body_mesh(scene, other).box.corners())
+    beside = box.low[0] > front.width or box.high[0] < 0.0 or box.low[2] > front.height or box.high[2] < 0.0
+    return not beside and float(box.high[1]) <= _BEFORE
