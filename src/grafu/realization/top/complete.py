@@ -21,8 +21,8 @@ from grafu.realization.plan import JointRequest
 from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
 from grafu.realization.top.coverage import Coverage, Views, coverage_of, views_of
 from grafu.realization.top.evidence import basins_of, cells_of, named_cells, plate_in, speaks_for_bars
-from grafu.realization.top.freedom import freedom_of, lifts
-from grafu.realization.top.outline import one_piece, overhanging, rim_of, what_pierces, with_fronts
+from grafu.realization.top.freedom import freedom_of, thick_enough
+from grafu.realization.top.outline import one_piece, over_the_base, overhanging, rim_of, what_pierces, with_fronts
 from grafu.realization.top.roles import Roles, roles_of
 from grafu.realization.top.section import EMPTY, closed_up, section, without_slivers
 from grafu.realization.top.slab import slab_mesh, with_corners, without_block
@@ -123,10 +123,12 @@ def _slab(
     thickness = min(config.thickness * metre, 0.2 * (rim.seat - views.floor))
     if thickness <= 0:
         return None
-    plan = with_fronts(rim, tuple(m for m in roles.moving if not lifts(m)), metre)
-    plan = overhanging(plan, config.front * metre, config.side * metre, config.back * metre)
+    gap = config.gap * metre
+    thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, gap, metre)
+    plan = with_fronts(rim, roles.moving, metre)
+    plan = overhanging(plan, *over_the_base(plan, roles, views, config, metre))
     plan = with_corners(plan, config.shape, metre)
-    free = freedom_of(roles.moving, plan, rim.seat, thickness, config.gap * metre, metre)
+    free = freedom_of(roles.moving, plan, rim.seat, thickness, gap, metre)
     standing = what_pierces(roles, rim, thickness, config.seat * unit, metre)
     left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, metre))
     outline = one_piece(left, coverage, metre)

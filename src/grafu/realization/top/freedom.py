@@ -21,7 +21,11 @@ _UPRIGHT = 0.7  # of a unit direction
 _FLAP = 0.25  # of a leaf's height: an axis within that of its upper end lifts it
 _TURN = np.radians(110)  # as far as doors open (realization config)
 _POSES = 12
-_BEYOND = 0.15  # metres beyond a flap that stay free
+_NEAR = 0.06  # metres below the slab within which a flap's upper end meets it
+_BEYOND = 0.15  # metres before a flap that stay free
+_BESIDE = 0.05  # metres beside it
+_TRAY = 0.1  # of the body's plan: a mover that takes more is no front but a tray or drawer
+_THICKEST = 0.05  # metres that a slab spans above its seat for the sake of such a one
 
 
 @final
@@ -40,10 +44,8 @@ def freedom_of(
     cuts, grooves = [], []
     for mover in movers:
         top = float(mover.mesh.box.high[2])
-        if lifts(mover):
-            if top > seat - gap - 0.06 * metre:
-                cuts.append(_beyond(mover, outline, metre))
-            continue
+        if lifts(mover) and top > seat - gap - _NEAR * metre:
+            cuts.append(_beyond(mover, outline, metre))
         if top <= seat - gap:
             continue
         way = _swept(mover, seat - gap).buffer(gap, join_style="mitre")
@@ -54,6 +56,21 @@ def freedom_of(
         else:
             grooves.append((way, top + gap))
     return Freedom(shapely.union_all(cuts) if cuts else EMPTY, tuple(grooves))
+
+
+def thick_enough(
+    movers: tuple[Closed, ...], body: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
+) -> float:
+    """Returns a thickness that passes over trays and drawers that stand a little higher than what carries the slab."""
+    for mover in movers:
+        rise = float(mover.mesh.box.high[2]) + gap - seat
+        if not (1 - _LEFT) * thickness < rise <= _THICKEST * metre or lifts(mover):
+            continue
+        points = mover.mesh.vertices[mover.mesh.vertices[:, 2] > seat - gap][:, :2]
+        plan = shapely.convex_hull(shapely.multipoints(points))
+        if plan.intersection(body).area > _TRAY * body.area:
+            thickness = 1.001 * rise / (1 - _LEFT)
+    return thickness
 
 
 def lifts(mover: Closed) -> bool:
@@ -68,18 +85,15 @@ def lifts(mover: Closed) -> bool:
 
 
 def _beyond(mover: Closed, outline: BaseGeometry, metre: float) -> BaseGeometry:
-    """Returns the plan of a flap and what lies before it, away from the body's middle."""
-    plan = shapely.convex_hull(shapely.multipoints(mover.mesh.vertices[:, :2]))
-    box = mover.mesh.box
-    middle = outline.centroid
+    """Returns the plan of what lies before a flap's face, away from the body's middle: there it rises."""
+    box, middle = mover.mesh.box, outline.centroid
     away = box.center[:2] - np.array([middle.x, middle.y])
     across = int(np.argmin(box.size[:2]))
-    step = np.zeros(2)
-    step[across] = np.sign(away[across]) * _BEYOND * metre
-    side = np.zeros(2)
-    side[1 - across] = 0.05 * metre
-    corners = np.asarray(plan.envelope.exterior.coords)[:, :2] if plan.area else mover.mesh.vertices[:, :2]
-    return shapely.convex_hull(shapely.multipoints(np.concatenate([corners + side, corners - side, corners + step])))
+    outer = box.high[across] if away[across] > 0 else box.low[across]
+    ends = np.sort([outer, outer + np.sign(away[across]) * _BEYOND * metre])
+    along = np.array([box.low[1 - across], box.high[1 - across]]) + np.array([-1.0, 1.0]) * _BESIDE * metre
+    x, y = (ends, along) if across == 0 else (along, ends)
+    return shapely.box(float(x[0]), float(y[0]), float(x[1]), float(y[1]))
 
 
 def _swept(mover: Closed, height: float) -> BaseGeometry:

@@ -49,6 +49,14 @@ class Grid(ArrayValue):
         """Returns the middles of the marked cells, metres."""
         return np.asarray(self.low) + (np.argwhere(mask) + 0.5) * self.cell
 
+    def boxes(self, mask: CellMask) -> Float[np.ndarray, "n 4"]:
+        """Returns rectangles (least x and y, greatest x and y, metres) that make up the marked cells, row by row."""
+        edges = np.diff(np.pad(mask.astype(np.int8), ((1, 1), (0, 0))), axis=0)
+        row, first = np.argwhere(edges.T == 1).T
+        last = np.argwhere(edges.T == -1)[:, 1]
+        at = np.column_stack([first, row, last, row + 1]).astype(np.float64)
+        return np.tile(np.asarray(self.low), 2) + at * self.cell
+
     def cells(self, length: float) -> int:
         """Returns how many cells a length covers, at least one."""
         return max(1, round(length / self.cell))

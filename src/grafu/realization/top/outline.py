@@ -14,20 +14,25 @@ from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
+from grafu.realization.top.config import TopConfig
 from grafu.realization.top.coverage import Coverage, Views
+from grafu.realization.top.height_map import CellMask
 from grafu.realization.top.roles import Closed, Roles, triangles_of
 from grafu.realization.top.section import EMPTY, closed_up, filled, polygons_in, section, thinned, without_slivers
 
-_NEAR_RIM = 0.03  # metres around a rim's height in which what carries the top is looked for
+_NEAR_RIM = (0.03, 0.06)  # metres below and above a rim's height in which what carries the top is looked for
 _EVEN = 0.001  # metres: what differs by less carries together
 _LOW_POINT = 0.002  # metres that single points may stand above the rest and lift the top rather than pierce it
+_POSTS = 0.006  # metres that posts may stand above the rest and carry the top alone, far enough apart
+_APART = 0.7  # of the rim's extent
 _CARRIES = 0.15  # of the rim: what is enough to carry a top
 _RIM = 0.12  # metres around an opening that belong to its rim: a face frame, a post and a panel
 _SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be eased, a back may end lower
-_SPAN = 1.2  # metres: kneeholes and gaps that a top spans; official: none
+_SPAN = 0.25  # metres: gaps beside an opening that a top spans
 _SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to which it was meant as a rectangle
-_FRONT = 0.045  # metres before the body in which a front belongs under the top
+_FRONT = 0.08  # metres before the body in which a front belongs under the top
 _REACH = 0.06  # metres that a front may end below the rim
+_MOULDING = 0.05  # metres that a base may jut out and the top with it
 _TONGUE = 0.012  # metres: narrower pieces of a top are no top
 
 
@@ -48,7 +53,8 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim 
         return None
     triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, metre)
     walls = section(triangles, (seat - s * metre for s in _SKIN), metre)
-    body = thinned(closed_up(walls, _SPAN * metre), metre)
+    hollow = shapely.union_all(shapely.box(*coverage.grid.boxes(coverage.opened).T))
+    body = thinned(closed_up(walls.union(hollow), _SPAN * metre), metre)
     body = _of_openings(_squared(body, _SQUARE * metre), coverage)
     return Rim(seat, walls, body) if body.area > 0 else None
 
@@ -66,6 +72,22 @@ def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeome
     if len(found) == 1:
         return rim.outline
     return _squared(closed_up(shapely.union_all(found), 2 * _FRONT * metre), _SQUARE * metre)
+
+
+def over_the_base(
+    plan: BaseGeometry, roles: Roles, views: Views, config: TopConfig, metre: float
+) -> tuple[float, float, float]:
+    """Returns how far a top juts out in front, on the sides and behind: as asked for, or as a base moulding does."""
+    low_x, low_y, high_x, high_y = plan.bounds
+    boxes = [p.box for p in roles.still if p.box.high[2] < 0.5 * (views.floor + float(roles.box.high[2]))]
+    low = np.min([b.low for b in boxes], axis=0) if boxes else np.full(3, np.inf)
+    high = np.max([b.high for b in boxes], axis=0) if boxes else np.full(3, -np.inf)
+    beyond = (low_y - low[1], min(low_x - low[0], high[0] - high_x), high[1] - high_y)
+    asked = (config.front * metre, config.side * metre, config.back * metre)
+    front, side, back = (
+        max(own, float(base)) if base <= _MOULDING * metre else own for own, base in zip(asked, beyond, strict=True)
+    )
+    return front, side, back
 
 
 def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -> BaseGeometry:
@@ -105,15 +127,34 @@ def _seat(views: Views, coverage: Coverage, metre: float) -> float | None:
     if coverage.level is None:
         return None
     around = ndimage.binary_dilation(coverage.opened, iterations=coverage.grid.cells(_RIM * metre))
-    near = np.abs(views.still - coverage.level) <= _NEAR_RIM * metre
-    heights = np.sort(views.still[around & near])
+    low, high = coverage.level - _NEAR_RIM[0] * metre, coverage.level + _NEAR_RIM[1] * metre
+    rim = around & (views.still >= low) & (views.still <= high)
+    heights = np.sort(views.still[rim])
     if not len(heights):
         return None
     ends = np.searchsorted(heights, heights - _EVEN * metre), np.searchsorted(heights, heights, "right")
-    enough = ends[1] - ends[0] >= _CARRIES * len(heights)
-    seat = float(heights[np.flatnonzero(enough)[-1]]) if enough.any() else float(np.median(heights))
-    lifted = heights[(heights > seat) & (heights <= seat + _LOW_POINT * metre)]
-    return float(lifted[-1]) if len(lifted) else seat
+    carried = ends[1] - ends[0]
+    for high in np.unique(heights[carried >= _CARRIES * len(heights)])[::-1]:
+        level = rim & (views.still <= high) & (views.still >= high - _EVEN * metre)
+        if _is_spread(level, rim):
+            return _lifted(float(high), rim, views, metre)
+    return _lifted(float(heights[carried.argmax()]), rim, views, metre)
+
+
+def _lifted(seat: float, rim: CellMask, views: Views, metre: float) -> float:
+    """Returns the seat of a top, lifted by single points a little higher, or by posts that carry it alone."""
+    points = rim & (views.still > seat) & (views.still <= seat + _LOW_POINT * metre)
+    posts = rim & (views.still > seat + _LOW_POINT * metre) & (views.still <= seat + _POSTS * metre)
+    if _is_spread(posts, rim):
+        points |= posts
+    return float(views.still[points].max(initial=seat))
+
+
+def _is_spread(some: CellMask, rim: CellMask) -> bool:
+    """Whether some cells of a rim lie far enough apart on it to carry a top without it tilting."""
+    if not some.any():
+        return False
+    return bool(np.all(np.ptp(np.argwhere(some), axis=0) >= _APART * np.ptp(np.argwhere(rim), axis=0)))
 
 
 def _near(triangles: Float[np.ndarray, "n 3 3"], coverage: Coverage, metre: float) -> Float[np.ndarray, "m 3 3"]:

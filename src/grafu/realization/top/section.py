@@ -16,6 +16,8 @@ Segments = Float[np.ndarray, "n 2 2"]
 
 _HAIR = 5e-4  # metres: half the width of a section's lines
 _SHORTEST = 1e-7  # metres
+_MANY = 700  # lines: more take longer than a tenth of a second to join
+_STEPS = (1e-5, 1e-4, 5e-4, 1e-3, 2e-3)  # metres
 EMPTY = Polygon()
 
 
@@ -36,9 +38,22 @@ def section(triangles: Float[np.ndarray, "n 3 3"], heights: Iterable[float], met
     lines = np.concatenate([section_lines(triangles, z) for z in heights])
     if not len(lines):
         return EMPTY
-    lines = np.unique(np.round(lines / (1e-5 * metre)), axis=0) * (1e-5 * metre)
-    drawn = shapely.unary_union(shapely.linestrings(lines))
+    drawn = shapely.unary_union(shapely.linestrings(_few(lines, metre)))
     return drawn.buffer(_HAIR * metre, cap_style="square", join_style="mitre")
+
+
+def _few(lines: Segments, metre: float) -> Segments:
+    """Returns distinct lines, their ends as exact as not too many allow: shorter ones vanish in their neighbours."""
+    for step in _STEPS:
+        ends = np.round(lines / (step * metre)).astype(np.int64)
+        swapped = (ends[:, 0, 0] > ends[:, 1, 0]) | ((ends[:, 0, 0] == ends[:, 1, 0]) & (ends[:, 0, 1] > ends[:, 1, 1]))
+        ends[swapped] = ends[swapped][:, ::-1]
+        rows = np.unique(ends.reshape(-1, 4), axis=0)
+        rows = rows[(rows[:, :2] != rows[:, 2:]).any(axis=1)]
+        found = rows.reshape(-1, 2, 2) * (step * metre)
+        if len(found) <= _MANY:
+            break
+    return found
 
 
 def filled(shape: BaseGeometry) -> BaseGeometry:
@@ -48,8 +63,15 @@ def filled(shape: BaseGeometry) -> BaseGeometry:
 
 def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without holes, and without bays and gaps up to `width` metres wide; corners stay sharp."""
-    grown = filled(shape.buffer(0.5 * width, join_style="mitre"))
+    plain = [_plain(p, 0.1 * width) for p in polygons_in(shape)]
+    grown = filled(shapely.union_all(plain).buffer(0.5 * width, join_style="mitre"))
     return filled(grown.buffer(-0.5 * width, join_style="mitre"))
+
+
+def _plain(polygon: Polygon, small: float) -> BaseGeometry:
+    """Returns a polygon without holes; a turned leg or another small one as its convex hull."""
+    low_x, low_y, high_x, high_y = polygon.bounds
+    return polygon.convex_hull if max(high_x - low_x, high_y - low_y) <= small else Polygon(polygon.exterior)
 
 
 def without_slivers(shape: BaseGeometry, width: float) -> BaseGeometry:
