@@ -82,7 +82,7 @@ class HandleConfig:
     margin: float = 0.006
     """What a handle keeps from the border of its front."""
     weak: float = 0.65
-    """Confidence below which an edge does for a handle only where no other front of the model has a handle."""
+    """Confidence below which an edge does for a handle only where no other front of the model has or gets one."""
     poses: int = 25
     """Poses from closed to wide open in which a handle must be clear."""
 

@@ -20,6 +20,7 @@ _WAYS: tuple[tuple[Step, Step], ...] = (((-1, 0), (1, 0)), ((0, -1), (0, 1)))
 STEPS: tuple[Step, ...] = ((1, 0), (-1, 0), (0, 1), (0, -1))
 _LEVEL = 0.004  # metres between the depths at which a finger is tried
 _EDGE = 0.001  # metres before an edge at which it counts as met
+_THROUGH = 0.06  # metres behind the front's plane: what sees farther looks through a hole
 _STEEP = 0.014  # metres across within which the wall of a hollow rises
 _FLAT = 0.003  # metres by which the floor of a hollow varies
 _NEAR = 1.7  # cells within which an edge lies before the cell that looks at it
@@ -132,7 +133,11 @@ def find_channels(relief: Relief, deep: float, narrow: float, wide: float, where
 
 def _walled(relief: Relief, sizes: tuple[float, float, float], where: Cells, at_border: bool) -> Cells:
     inside, found = _inside(relief), np.zeros(relief.face.shape, bool)
-    seen = np.where((relief.face <= relief.first + 1e-6) & np.isfinite(relief.face) & inside, relief.face, np.nan)
+    through = relief.plane + _THROUGH * relief.factor
+    shown = (relief.face <= relief.first + 1e-6) & np.isfinite(relief.face)
+    seen = np.where(shown & inside, relief.face, np.nan)
+    if not at_border:  # behind a hole all is equally deep
+        seen = np.where(inside & (relief.first >= through), through, seen)
     deep, least, most = sizes[0], *(max(round(width / relief.cell), 1) for width in sizes[1:])
     for ways in _WAYS:
         wall = [_distance_to_wall(relief, seen, way, most, deep) for way in ways]

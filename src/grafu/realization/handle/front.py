@@ -81,19 +81,24 @@ def front_of(scene: Scene, mover_id: str) -> Front:
     Raises:
         KeyError: if the scene knows no such mover, or not how it moves.
     """
-    mesh = body_mesh(scene, mover_id)
+    mesh = _body_mesh(scene, mover_id)
     way = scene.ways[mover_id]
     if way.type is JointType.REVOLUTE:
         return _hinged(mesh, scene.parts[mover_id].mesh, way)
     return _sliding(mesh, scene.parts[mover_id].mesh, way, scene)
 
 
-def body_mesh(scene: Scene, mover_id: str) -> TriangleMesh:
-    """Returns a mover with all that rides on it but handles, as one mesh."""
-    members = [scene.parts[m] for m in scene.movers[mover_id].members]
-    if not any(p.label is PartLabel.HANDLE for p in members):
+def body_members(scene: Scene, mover_id: str) -> tuple[str, ...]:
+    """Returns the ids of a mover and of all that rides on it but handles."""
+    members = scene.movers[mover_id].members
+    return tuple(m for m in members if m == mover_id or scene.parts[m].label is not PartLabel.HANDLE)
+
+
+def _body_mesh(scene: Scene, mover_id: str) -> TriangleMesh:
+    members = body_members(scene, mover_id)
+    if members == scene.movers[mover_id].members:
         return scene.moving_mesh(mover_id)
-    return merge_meshes([p.mesh for p in members if p.label is not PartLabel.HANDLE or p.id == mover_id])
+    return merge_meshes([scene.parts[m].mesh for m in members])
 
 
 def _hinged(mesh: TriangleMesh, leaf: TriangleMesh, way: Way) -> Front:

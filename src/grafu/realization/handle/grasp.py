@@ -9,7 +9,7 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.realization.handle.config import GraspConfig
 from grafu.realization.handle.grips import STANDS_OUT, grips_on
-from grafu.realization.handle.relief import Relief, relief_of
+from grafu.realization.handle.relief import Relief, Reliefs
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -43,22 +43,25 @@ class Grasp(ArrayValue):
             freeze_arrays(self, "center", dtype=np.float64)
 
 
-def find_grasp(scene: Scene, mover_id: str, config: GraspConfig = GraspConfig()) -> Grasp:
+def find_grasp(
+    scene: Scene, mover_id: str, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None
+) -> Grasp:
     """Returns how a mover of the scene can be grasped at rest.
 
     Handles come first; then what fingers can reach round, get into or pinch, wherever it opens the mover: on doors
-    beyond `config.lever` of the way from the hinge.
+    beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, where somebody has them already.
 
     Raises:
         KeyError: if the scene knows no such mover, or not how it moves.
     """
     handle = _labelled(scene, mover_id)
-    return handle or _without_label(scene, mover_id, relief_of(scene, mover_id), config)
+    return handle or _without_label(scene, mover_id, (reliefs or Reliefs(scene)).of(mover_id), config)
 
 
-def find_grasps(scene: Scene, config: GraspConfig = GraspConfig()) -> dict[str, Grasp]:
+def find_grasps(scene: Scene, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None) -> dict[str, Grasp]:
     """Returns the grasp of every mover of the scene."""
-    return {mover: find_grasp(scene, mover, config) for mover in scene.movers}
+    reliefs = reliefs or Reliefs(scene)
+    return {mover: find_grasp(scene, mover, config, reliefs) for mover in scene.movers}
 
 
 def _labelled(scene: Scene, mover_id: str) -> Grasp | None:

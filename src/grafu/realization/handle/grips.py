@@ -15,18 +15,22 @@ from grafu.realization.handle.config import GraspConfig
 from grafu.realization.handle.finger_room import (
     STEPS,
     Cells,
+    Step,
     find_channels,
     find_hollows,
     find_hooks,
     find_lips,
     find_ridges,
 )
+from grafu.realization.handle.front import Side
 from grafu.realization.handle.relief import Relief
 
 STANDS_OUT = 0.008  # metres before the front's plane from which on something is a grip of its own
 _SHORT = 0.6  # of a front's side: an edge as long as this is long enough, however small the front
 _LOCAL = 0.5  # of a front's side: what is longer is a profile, a moulding or a rebate, made for looks
 _SMALLEST_HOLE = 0.007  # metres: a drawn finger hole; screws and shelf pins are not modelled as holes
+_HELD = 0.02  # metres behind the front's plane where fingers hold what they look through
+_MOST_HOLES = 2  # of a front: more small holes are a lattice or louvres
 
 
 @final
@@ -83,10 +87,18 @@ def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarra
         return None
     if within > 0.5:
         return Grip("recess", 0.85, "fingers reach round the edge of a cut-out", center, length)
-    from_below = STEPS[way] == (0, 1)
-    at_side = relief.front.hinge is None and STEPS[way][0] != 0
-    sure = 0.6 if from_below else 0.55 if at_side else 0.75
-    return Grip("edge", sure, "fingers reach round a free edge of it", center, length)
+    return Grip(
+        "edge", _sureness(relief.front.held, STEPS[way]), "fingers reach round a free edge of it", center, length
+    )
+
+
+def _sureness(held: Side | None, step: Step) -> float:
+    """Returns how sure it is that a free edge, reached round towards `step`, is what a front is opened at.
+
+    The edge that a door is held at and the upper edge of a drawer are; others serve where there is nothing else.
+    """
+    usual = {"left": (1, 0), "right": (-1, 0), "bottom": (0, 1), "top": (0, -1)}[held or "top"]
+    return 0.75 if step == usual else 0.6
 
 
 def _run_along(relief: Relief, cluster: Cluster, rows: np.ndarray, way: int) -> float:
@@ -117,6 +129,7 @@ def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
     """Yields hollows, channels and notches that fingers do not reach round."""
     s = relief.factor
     widest, length = s * config.widest_hollow, s * config.length
+    small = []
     for cluster in _clusters(find_hollows(relief, s * config.deep_hollow, s * _SMALLEST_HOLE, widest, where)):
         u, v = cluster.extent(relief, 0), cluster.extent(relief, 1)
         narrow, wide = min(u, v) + relief.cell, max(u, v)
@@ -124,7 +137,8 @@ def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
         if narrow >= s * config.hole and (wide >= length or wide <= widest):
             yield Grip("recess", 0.8, "a hollow takes fingers", center, wide)
         elif wide <= s * config.longest_notch:
-            yield Grip("recess", 0.5, "a hole drawn for a finger", center, wide)
+            small.append(Grip("recess", 0.5, "a hole drawn for a finger", center, wide))
+    yield from small if len(small) <= _MOST_HOLES else ()
     for cluster in _clusters(find_channels(relief, s * config.hollow, s * config.gap, widest, where)):
         if (wide := _length(relief, cluster)) >= length:
             yield Grip(
@@ -148,7 +162,9 @@ def _length(relief: Relief, cluster: Cluster) -> float:
 
 
 def _depth(relief: Relief, cluster: Cluster) -> float:
-    return float(np.median(relief.face[cluster.cells[:, 0], cluster.cells[:, 1]]))
+    """Returns how deep a cluster lies, a finger's reach behind the front's plane at most."""
+    seen = relief.face[cluster.cells[:, 0], cluster.cells[:, 1]]
+    return float(np.median(np.minimum(seen, relief.plane + _HELD * relief.factor)))
 
 
 def _center(relief: Relief, cluster: Cluster, depth: float) -> Vec3:

@@ -14,9 +14,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.handle.config import HandleConfig
 from grafu.realization.handle.fit import Shape, fitted, ground_of
-from grafu.realization.handle.front import front_of
 from grafu.realization.handle.grasp import Grasp
-from grafu.realization.handle.relief import Relief, relief_of
+from grafu.realization.handle.relief import Relief, Reliefs
 from grafu.realization.handle.spots import Extent, Spot, spots_on
 from grafu.realization.handle.style import Sibling, Style, choose_style, named_template, siblings_of
 from grafu.realization.handle.way import Surroundings, surroundings_of
@@ -66,6 +65,7 @@ def add_handles(
     config: HandleConfig = HandleConfig(),
     hints: Mapping[str, Vec3] | None = None,
     own: Mapping[str, HandleTemplate] | None = None,
+    reliefs: Reliefs | None = None,
 ) -> Handles:
     """Returns handles for the movers of a scene that cannot be grasped.
 
@@ -75,6 +75,7 @@ def add_handles(
         config: style, sizes, places.
         hints: by mover, where a handle was predicted (object frame): taken where it is clear and sensible.
         own: the user's handle templates by id, see `grafu.templates.user_handles`.
+        reliefs: those of the scene, where somebody has them already.
 
     Raises:
         TemplateError: if the config names a style that there is not.
@@ -83,9 +84,9 @@ def add_handles(
     if not wanting:
         return Handles((), (), scene)
     siblings = siblings_of(scene)
-    fronts = [front_of(scene, mover) for mover in wanting]
-    style = choose_style(fronts, siblings, scene.unit, config, own or {})
-    task = _Task(style, siblings, config, hints or {})
+    reliefs = reliefs or Reliefs(scene)
+    style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.unit, config, own or {})
+    task = _Task(style, siblings, config, hints or {}, reliefs)
     around = surroundings_of(scene)
     additions: list[Addition] = []
     refused: list[Refused] = []
@@ -102,9 +103,9 @@ def add_handles(
 
 
 def movers_without(scene: Scene, grasps: Mapping[str, Grasp], config: HandleConfig = HandleConfig()) -> tuple[str, ...]:
-    """Returns the movers that lack a handle: without a grasp, or held by a mere edge where the others have handles."""
+    """Returns the movers that lack a handle: without a grasp, or with a mere edge where others have or get handles."""
     shown = [g for mover, g in grasps.items() if mover in scene.movers]
-    has_handles = any(g.kind == "handle" for g in shown)
+    has_handles = any(g.kind in ("handle", "none") for g in shown)
     weak = {g.mover for g in shown if g.kind == "edge" and g.confidence < config.weak and has_handles}
     return tuple(g.mover for g in shown if g.kind == "none" or g.mover in weak)
 
@@ -118,11 +119,12 @@ class _Task:
     siblings: tuple[Sibling, ...]
     config: HandleConfig
     hints: Mapping[str, Vec3]
+    reliefs: Reliefs
 
 
 def _handles_for(scene: Scene, mover: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refused:
     """Returns the handle of one mover, two on a wide drawer, or why there is none."""
-    relief = relief_of(scene, mover)
+    relief = task.reliefs.of(mover)
     ground = ground_of(scene, mover, relief)
     met, tried = "", False
     for template, length, protrusion in _sizes(task.style, relief, task.config):

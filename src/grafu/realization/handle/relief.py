@@ -4,6 +4,7 @@ The mover's own handles and what stands before the front (a closed door before a
 the floor, z = 0, belong to the surroundings.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
@@ -14,10 +15,10 @@ from jaxtyping import Float
 
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.handle.config import size_factor
-from grafu.realization.handle.front import Front, body_mesh, front_of
+from grafu.realization.handle.front import Front, body_members, front_of
 from grafu.realization.scene import Scene
 
 Grid = Float[np.ndarray, "n m"]
@@ -73,13 +74,57 @@ class Relief:
         return self.mover.along(origins, along), self.others.along(origins, along)
 
 
+@final
+class Reliefs:
+    """The reliefs of a scene's fronts, each made when first asked for; not a value."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._found: dict[str, Relief] = {}
+        self._extents: dict[int, tuple[TriangleMesh, Points, Points]] = {}
+
+    def of(self, mover_id: str) -> Relief:
+        """Returns the relief of a mover's front.
+
+        Raises:
+            KeyError: if the scene knows no such mover, or not how it moves.
+        """
+        if mover_id not in self._found:
+            self._found[mover_id] = self._made(mover_id)
+        return self._found[mover_id]
+
+    def _made(self, mover_id: str) -> Relief:
+        scene = self.scene
+        front, factor = front_of(scene, mover_id), size_factor(scene.unit)
+        region = _around(front, factor)
+        bodies = [scene.parts[m].mesh for m in body_members(scene, mover_id)]
+        casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, _others(scene, mover_id, front))]
+        return _looked_at(front, factor, *casters)
+
+    def _near(self, meshes: Sequence[TriangleMesh], region: Box) -> TriangleMesh:
+        """Returns the triangles whose own boxes meet a box of the object frame."""
+        found = [np.zeros((0, 3, 3))]
+        for mesh in meshes:
+            if len(mesh.faces) and mesh.box.overlaps(region):
+                low, high = self._extent(mesh)
+                found.append(mesh.triangles[np.all((low <= region.high) & (high >= region.low), axis=1)])
+        corners = np.concatenate(found)
+        return TriangleMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+
+    def _extent(self, mesh: TriangleMesh) -> tuple[Points, Points]:
+        if id(mesh) not in self._extents:
+            a, b, c = mesh.triangles.transpose(1, 0, 2)
+            low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+            self._extents[id(mesh)] = (mesh, low, high)
+        return self._extents[id(mesh)][1:]
+
+
 def relief_of(scene: Scene, mover_id: str) -> Relief:
-    """Returns the relief of a mover's front."""
-    front, factor = front_of(scene, mover_id), size_factor(scene.unit)
-    body = body_mesh(scene, mover_id)
-    around = _around(front, factor)
-    mover = RayCaster(_near(body, front, around))
-    others = RayCaster(_others(scene, mover_id, front, around))
+    """Returns the relief of one mover's front; see `Reliefs`."""
+    return Reliefs(scene).of(mover_id)
+
+
+def _looked_at(front: Front, factor: float, mover: RayCaster, others: RayCaster) -> Relief:
     area = front.width * front.height
     cell = min(max(sqrt(area / _CELLS), factor * _CELL[0]), factor * _CELL[1])
     cell = max(cell, sqrt(area / (4 * _CELLS)))
@@ -106,32 +151,27 @@ def _cells(side: float, cell: float, margin: float) -> Scalars:
 
 
 def _around(front: Front, factor: float) -> Box:
-    """Returns the space around a front that matters to hands, (u, b, v)."""
+    """Returns the space around a front that matters to hands, in the object frame."""
     margin, lead, behind = factor * _MARGIN, factor * _LEAD, factor * _BEHIND
     low = np.array([-margin, -lead, -margin])
-    return Box(low, np.array([front.width + margin, min(front.depth, behind) + behind, front.height + margin]))
+    high = np.array([front.width + margin, min(front.depth, behind) + behind, front.height + margin])
+    return Box.around(front.to_object(Box(low, high).corners()))
 
 
-def _near(mesh: TriangleMesh, front: Front, box: Box) -> TriangleMesh:
-    """Returns the triangles whose own boxes, (u, b, v), meet a box."""
-    corners = front.to_front(mesh.vertices)[mesh.faces]
-    return mesh.with_faces(np.all((corners.min(axis=1) <= box.high) & (corners.max(axis=1) >= box.low), axis=1))
-
-
-def _others(scene: Scene, mover_id: str, front: Front, around: Box) -> TriangleMesh:
+def _others(scene: Scene, mover_id: str, front: Front) -> list[TriangleMesh]:
     """Returns what surrounds a front: all other parts at rest but closed doors before it, and all hardware."""
     own = scene.movers[mover_id].members
     carried = {member: mover.id for mover in scene.movers.values() for member in mover.members}
     before = {other for other in scene.movers if other != mover_id and stands_before(scene, other, front)}
     parts = [p.mesh for p in scene.parts.values() if p.id not in own and carried.get(p.id, "") not in before]
-    hardware = [visual.mesh for owner, visual in scene.hardware if owner not in before]
-    region = Box.around(front.to_object(around.corners()))
-    near = [m for m in (*parts, *hardware) if len(m.faces) and m.box.overlaps(region)]
-    return merge_meshes([_near(mesh, front, around) for mesh in near])
+    return [*parts, *(visual.mesh for owner, visual in scene.hardware if owner not in before)]
 
 
 def stands_before(scene: Scene, other: str, front: Front) -> bool:
     """Whether another mover stands wholly before a front and hides some of it, as a closed door does a drawer."""
-    box = front.box_of(body_mesh(scene, other).box.corners())
+    boxes = [scene.parts[m].box.corners() for m in body_members(scene, other) if len(scene.parts[m].mesh.faces)]
+    if not boxes:
+        return False
+    box = front.box_of(np.vstack(boxes))
     beside = box.low[0] > front.width or box.high[0] < 0.0 or box.low[2] > front.height or box.high[2] < 0.0
     return not beside and float(box.high[1]) <= _BEFORE
