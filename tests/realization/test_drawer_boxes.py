@@ -20,6 +20,7 @@ from grafu.realization.realize import realize
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.layout import Drawer, DrawerBox, Stack
+from grafu.synth.segmentation import with_box_apart
 from grafu.synth.table import Table, make_table
 from grafu.vocabulary import PartLabel
 
@@ -40,7 +41,7 @@ def completed(asset: Asset):
     """The asset realized with the boards that its drawers lacked."""
     plan, made = plan_from_annotation(asset), found(asset)
     whole = replace(asset, parts=(*asset.parts, *(a.part for a in made.additions)))
-    return realize(with_riders(plan, made.additions), whole, GALLERY)
+    return realize(with_riders(plan, made), whole, GALLERY)
 
 
 def boards_of(made, drawer: str) -> dict[str, object]:
@@ -148,6 +149,30 @@ def test_walls_are_set_on_a_mere_bottom():
     for addition in made.additions:
         assert addition.part.box.low[2] == pytest.approx(0.036, abs=1e-3)
         assert -0.2101 <= addition.part.box.low[0] <= addition.part.box.high[0] <= 0.2101
+
+
+@pytest.mark.parametrize("label", [PartLabel.MISC, PartLabel.UNKNOWN])
+def test_loose_boards_behind_a_front_are_its_box(label):
+    asset = stack("whole")
+    for drawer in ("drawer_1", "drawer_2"):
+        asset = with_box_apart(asset, drawer)
+    boards = [p.id for p in asset.parts if p.rides_on and p.label is PartLabel.MISC]
+    asset = replace(asset, parts=tuple(replace(p, rides_on=None) if p.id in boards else p for p in asset.parts))
+    asset = asset.with_labels(dict.fromkeys(boards, label))
+    made = found(asset)
+    assert sorted(part_id for _, part_id in made.loose) == sorted(boards)
+    assert {v.kind for v in made.verdicts} == {"whole"}
+    assert made.additions == ()
+    plan = with_riders(plan_from_annotation(asset), made)
+    assert {r for request in plan.joints for r in request.riders} >= set(boards)
+
+
+def test_the_case_is_no_loose_board():
+    for mount in ("overlay", "inset"):
+        for layout in (Drawer("front only"), Stack((Drawer("front only"),) * 3)):
+            asset = make_cabinet(Cabinet("chest", CASE, layout, mount))
+            nameless = asset.with_labels({p.id: PartLabel.UNKNOWN for p in asset.parts})
+            assert found(nameless).loose == ()
 
 
 def test_a_front_on_a_solid_block_is_refused_with_the_reason():

@@ -21,6 +21,7 @@ from grafu.geometry.transform import translation
 from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
 from grafu.realization.drawer_box.config import DrawerBoxConfig
+from grafu.realization.drawer_box.loose import loose_boards
 from grafu.realization.drawer_box.room import Room, find_room
 from grafu.realization.drawer_box.surroundings import Surroundings, surroundings_of
 from grafu.realization.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
@@ -37,11 +38,16 @@ DEFAULT = DrawerBoxConfig()
 @final
 @dataclass(frozen=True)
 class DrawerBoxes:
-    """What came of all drawers of a plan: what each has, the boards added, and those that could not be, with why."""
+    """What came of all drawers of a plan: what each has, the boards added, and those that could not be, with why.
+
+    `loose` names parts of the input that turned out to be boards of a drawer's box: drawer, then part. They must move
+    with it (`with_riders`).
+    """
 
     verdicts: tuple[BoxVerdict, ...] = ()
     additions: tuple[Addition, ...] = ()
     refused: tuple[Refusal, ...] = ()
+    loose: tuple[tuple[str, str], ...] = ()
 
 
 def complete_drawers(
@@ -58,11 +64,17 @@ def complete_drawers(
     verdicts: list[BoxVerdict] = []
     additions: list[Addition] = []
     refused: list[Refusal] = []
+    loose: list[tuple[str, str]] = []
     known = {part.id for part in parts}
     for request in requests:
         if request.moving not in around.scene.parts:
             continue
         verdict = missing_box(request, around, config)
+        if verdict.kind == "front only":
+            found = find_loose(request, around, config)
+            loose += [(request.moving, part_id) for part_id in found]
+            around = around.with_members(request.moving, found)
+            verdict = missing_box(request, around, config) if found else verdict
         verdicts.append(verdict)
         if not build or not verdict.missing:
             continue
@@ -73,17 +85,22 @@ def complete_drawers(
         additions += made
         known |= {addition.part.id for addition in made}
         around = around.with_parts(tuple(_closed(a.part, request) for a in made))
-    return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused))
+    return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
 
 
-def with_riders(plan: RealizationPlan, additions: Iterable[Addition]) -> RealizationPlan:
-    """Returns the plan in which additions move with the part that they ride on."""
+def with_riders(plan: RealizationPlan, made: DrawerBoxes) -> RealizationPlan:
+    """Returns the plan in which the boards that were added, and loose ones of the input, move with their drawers."""
     riding: dict[str, list[str]] = {}
-    for addition in additions:
-        if addition.part.rides_on is not None:
-            riding.setdefault(addition.part.rides_on, []).append(addition.part.id)
+    for drawer, part_id in (*made.loose, *((a.part.rides_on or "", a.part.id) for a in made.additions)):
+        riding.setdefault(drawer, []).append(part_id)
     joints = tuple(replace(r, riders=(*r.riders, *riding.get(r.moving, ()))) for r in plan.joints)
     return replace(plan, joints=joints)
+
+
+def find_loose(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> tuple[str, ...]:
+    """Returns the still parts that are boards of the box behind a mere front."""
+    frame, mesh = _framed(request, around.scene)
+    return loose_boards(request, mesh, frame, around, config) if frame is not None and mesh is not None else ()
 
 
 def missing_box(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> BoxVerdict:

@@ -50,6 +50,12 @@ class Surroundings:
                 nearest = min(nearest, (frame.depth + max(float(low[1]), frame.depth)) / 2)
         return nearest
 
+    def with_members(self, mover_id: str, members: Iterable[str]) -> "Surroundings":
+        """Returns the surroundings in which some still parts ride on a mover."""
+        mover = self.scene.movers[mover_id]
+        movers = {**self.scene.movers, mover_id: Mover(mover_id, (*mover.members, *members))}
+        return replace(self, scene=Scene(self.scene.parts, movers, self.scene.unit))
+
     def with_parts(self, parts: tuple[Part, ...]) -> "Surroundings":
         """Returns the surroundings with parts that ride on a mover added."""
         movers = dict(self.scene.movers)
