@@ -126,7 +126,7 @@ def _slab(
     gap = config.gap * metre
     thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, gap, metre)
     plan = with_fronts(rim, roles.moving, metre)
-    plan = overhanging(plan, *over_the_base(plan, roles, views, config, metre))
+    plan = overhanging(plan, *over_the_base(plan, roles, rim.seat, config, metre))
     plan = with_corners(plan, config.shape, metre)
     free = freedom_of(roles.moving, plan, rim.seat, thickness, gap, metre)
     standing = what_pierces(roles, rim, thickness, config.seat * unit, metre)

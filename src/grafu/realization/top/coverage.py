@@ -22,7 +22,6 @@ _FRONTS = 0.06  # metres before the still parts up to which a closed front belon
 _CRACK = 0.02  # metres: what one looks through between boards and behind handles is no opening
 _STEP = 0.03  # metres between the rims of two openings that one top closes
 _ABOVE = 0.06  # metres above a rim at which things still stand at it
-_UNEVEN = 0.12  # metres that one side of a rim may be lower than the others: a front rail is missing, a front is low
 _NICHE = 0.45  # of the height: lower down, what is open in front is a niche or an open drawer, no place for a top
 _LEAST = 0.15  # of the footprint: smaller holes are sinks, cable outlets and gaps
 
@@ -92,7 +91,7 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     `spared` are cells that count in neither map: a basin is neither a top nor the lack of one.
     """
     depth = metre * np.array([config.recess, config.gallery])
-    rim, opened = _openings(views, min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views)), metre)
+    rim, opened = _openings(views, min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views)))
     free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
     opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(_CRACK * metre) // 2))
     groups = _by_level(opened, rim, _STEP * metre)
@@ -116,7 +115,7 @@ def _between(stands: CellMask) -> CellMask:
     return (sides[0] & backs[0]) | (sides[1] & backs[1])
 
 
-def _openings(views: Views, recess: float, gallery: float, metre: float) -> tuple[Heights, CellMask]:
+def _openings(views: Views, recess: float, gallery: float) -> tuple[Heights, CellMask]:
     """Returns for each cell the height of its rim, and whether what covers it lies too far below that."""
     ahead = [np.maximum.accumulate(views.wall, axis=a) for a in (0, 1)]
     behind = [np.flip(np.maximum.accumulate(np.flip(views.wall, a), axis=a), a) for a in (0, 1)]
@@ -124,7 +123,7 @@ def _openings(views: Views, recess: float, gallery: float, metre: float) -> tupl
     covered = np.where(np.isfinite(views.cover), views.cover, views.floor)
     enclosed, niche = around[0] - covered > recess, around[1] - covered > gallery
     niche &= around[1] - views.floor >= _NICHE * _height(views)
-    rim = np.where(enclosed & (around[1] - around[0] > _UNEVEN * metre), around[0], around[1])
+    rim = np.where(niche, around[1], around[0])
     return rim, views.region & (enclosed | niche)
 
 

@@ -4,13 +4,18 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec2, frozen_array
+from grafu.geometry.arrays import ArrayValue, Indices, Scalars, Vec2, frozen_array
 from grafu.geometry.box import Box
 
 Heights = Float[np.ndarray, "x y"]
 """The highest surface above each cell, metres; minus infinity where there is none."""
+Corners = Float[np.ndarray, "t 3 2"]
+"""The corners of triangles seen from above, in cells."""
+Rises = Float[np.ndarray, "t 3"]
+"""How high those corners are, metres."""
+Numbers = Int[np.ndarray, " s"]
 CellMask = Bool[np.ndarray, "x y"]
 
 _STEEP = 0.02  # of a normal's upright part: what is steeper counts as upright, and stands as high as it reaches
@@ -84,13 +89,13 @@ def _least(corners: Float[np.ndarray, "n 3 ..."]) -> Float[np.ndarray, "n ..."]:
     return np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
 
 
-def _mark_tiny(field: Scalars, flat: Float[np.ndarray, "n 3 2"], z: Points, grid: Grid) -> None:
+def _mark_tiny(field: Scalars, flat: Corners, z: Rises, grid: Grid) -> None:
     """Raises a field to triangles smaller than a cell, in the cells of their corners."""
     at = np.clip(np.floor(flat - _SHRINK).astype(np.int64), 0, np.array(grid.shape) - 1)
     np.maximum.at(field, (at[..., 0] * grid.rows + at[..., 1]).ravel(), z.ravel())
 
 
-def _mark_large(field: Scalars, flat: Float[np.ndarray, "n 3 2"], z: Points, grid: Grid, turned: bool) -> None:
+def _mark_large(field: Scalars, flat: Corners, z: Rises, grid: Grid, turned: bool) -> None:
     """Raises a field to triangles, line by line of cells: rows along X, or, `turned`, columns along Y."""
     lines, cells = (grid.columns, grid.rows) if turned else (grid.rows, grid.columns)
     flat = flat[:, :, ::-1] if turned else flat
@@ -109,7 +114,7 @@ def _span(low: Scalars, high: Scalars, count: int) -> tuple[Indices, Indices]:
     return first, np.maximum(last, first)
 
 
-def _spread(first: Indices, last: Indices) -> tuple[Indices, Indices]:
+def _spread(first: Indices, last: Indices) -> tuple[Numbers, Numbers]:
     """Returns every number from each first to its last, and which it belongs to."""
     counts = last - first + 1
     which = np.repeat(np.arange(len(first)), counts)
@@ -135,7 +140,7 @@ def _reach(flat: Float[np.ndarray, "n 3 2"], row: Scalars) -> tuple[Scalars, Sca
     return np.where(lost, _least(flat[:, :, 0]), low), np.where(lost, -_least(-flat[:, :, 0]), high)
 
 
-def _height_at(flat: Float[np.ndarray, "n 3 2"], z: Points, which: Indices, x: Scalars, y: Scalars) -> Scalars:
+def _height_at(flat: Corners, z: Rises, which: Indices, x: Scalars, y: Scalars) -> Scalars:
     """Returns the height of triangles at points (in cells), within what each triangle reaches."""
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     p, q = z[:, 1] - z[:, 0], z[:, 2] - z[:, 0]

@@ -29,10 +29,11 @@ _CARRIES = 0.15  # of the rim: what is enough to carry a top
 _RIM = 0.12  # metres around an opening that belong to its rim: a face frame, a post and a panel
 _SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be eased, a back may end lower
 _SPAN = 0.25  # metres: gaps beside an opening that a top spans
+_KNEEHOLE = 1.3  # metres between two pedestals that one top spans
 _SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to which it was meant as a rectangle
 _FRONT = 0.08  # metres before the body in which a front belongs under the top
 _REACH = 0.06  # metres that a front may end below the rim
-_MOULDING = 0.05  # metres that a base may jut out and the top with it
+_BELOW = 0.08  # metres that base mouldings and pedestals may jut out, and the top with them
 _TONGUE = 0.012  # metres: narrower pieces of a top are no top
 
 
@@ -55,6 +56,7 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim 
     walls = section(triangles, (seat - s * metre for s in _SKIN), metre)
     hollow = shapely.union_all(shapely.box(*coverage.grid.boxes(coverage.opened).T))
     body = thinned(closed_up(walls.union(hollow), _SPAN * metre), metre)
+    body = _joined(body, coverage, metre)
     body = _of_openings(_squared(body, _SQUARE * metre), coverage)
     return Rim(seat, walls, body) if body.area > 0 else None
 
@@ -75,17 +77,17 @@ def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeome
 
 
 def over_the_base(
-    plan: BaseGeometry, roles: Roles, views: Views, config: TopConfig, metre: float
+    plan: BaseGeometry, roles: Roles, seat: float, config: TopConfig, metre: float
 ) -> tuple[float, float, float]:
-    """Returns how far a top juts out in front, on the sides and behind: as asked for, or as a base moulding does."""
+    """Returns how far a top juts out in front, at the sides and behind: as asked for, or as what is below it."""
     low_x, low_y, high_x, high_y = plan.bounds
-    boxes = [p.box for p in roles.still if p.box.high[2] < 0.5 * (views.floor + float(roles.box.high[2]))]
+    boxes = [p.box for p in roles.still if p.box.high[2] < seat]
     low = np.min([b.low for b in boxes], axis=0) if boxes else np.full(3, np.inf)
     high = np.max([b.high for b in boxes], axis=0) if boxes else np.full(3, -np.inf)
     beyond = (low_y - low[1], min(low_x - low[0], high[0] - high_x), high[1] - high_y)
     asked = (config.front * metre, config.side * metre, config.back * metre)
     front, side, back = (
-        max(own, float(base)) if base <= _MOULDING * metre else own for own, base in zip(asked, beyond, strict=True)
+        max(own, float(base)) if base <= _BELOW * metre else own for own, base in zip(asked, beyond, strict=True)
     )
     return front, side, back
 
@@ -177,6 +179,12 @@ def _squared(shape: BaseGeometry, tolerance: float) -> BaseGeometry:
         is_full = rectangle.difference(polygon.buffer(2 * tolerance)).area <= 0.02 * rectangle.area
         made.append(rectangle if is_meant and is_full else polygon)
     return shapely.union_all(made) if made else EMPTY
+
+
+def _joined(body: BaseGeometry, coverage: Coverage, metre: float) -> BaseGeometry:
+    """Returns the outlines of several openings as one where a kneehole lies between them."""
+    held = _of_openings(body, coverage)
+    return closed_up(held, _KNEEHOLE * metre) if len(polygons_in(held)) > 1 else body
 
 
 def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:

@@ -12,7 +12,8 @@ from jaxtyping import Float
 from shapely.geometry import MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
-Segments = Float[np.ndarray, "n 2 2"]
+Segments = Float[np.ndarray, "k 2 2"]
+Fewer = Float[np.ndarray, "f 2 2"]
 
 _HAIR = 5e-4  # metres: half the width of a section's lines
 _SHORTEST = 1e-7  # metres
@@ -42,7 +43,7 @@ def section(triangles: Float[np.ndarray, "n 3 3"], heights: Iterable[float], met
     return drawn.buffer(_HAIR * metre, cap_style="square", join_style="mitre")
 
 
-def _few(lines: Segments, metre: float) -> Segments:
+def _few(lines: Segments, metre: float) -> Fewer:
     """Returns distinct lines, their ends as exact as not too many allow: shorter ones vanish in their neighbours."""
     for step in _STEPS:
         ends = np.round(lines / (step * metre)).astype(np.int64)

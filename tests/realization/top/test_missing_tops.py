@@ -1,0 +1,175 @@
+"""Which furniture lacks a top."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from topless import (
+    D,
+    H,
+    T,
+    W,
+    basin,
+    board,
+    carcass,
+    drawer,
+    front,
+    holed_top,
+    lift,
+    merged,
+    slide,
+    swing,
+    top,
+)
+
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.realization.top.complete import missing_top
+from grafu.realization.top.config import TopConfig
+from grafu.vocabulary import PartLabel
+
+
+def scaled(parts: list[Part], factor: float) -> list[Part]:
+    T_scale = np.diag([factor, factor, factor, 1.0])
+    return [replace(p, surfaces=tuple(Surface(s.mesh.transformed(T_scale)) for s in p.surfaces)) for p in parts]
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    width=st.floats(0.3, 2.5),
+    depth=st.floats(0.25, 0.9),
+    height=st.floats(0.35, 2.2),
+    factor=st.sampled_from([0.1, 1.0, 10.0]),
+)
+def test_a_carcass_lacks_a_top_and_has_one_afterwards(width: float, depth: float, height: float, factor: float) -> None:
+    parts = scaled(carcass(width, depth, height), factor)
+    verdict = missing_top(parts)
+    assert verdict.missing
+    assert verdict.addition is not None
+    again = missing_top([*parts, verdict.addition.part])
+    assert again.covered
+    assert again.ratio >= 0.97
+
+
+@pytest.mark.parametrize("label", [PartLabel.TOP_PANEL, PartLabel.MISC, PartLabel.UNKNOWN])
+def test_a_top_covers_whatever_it_is_called(label: PartLabel) -> None:
+    assert missing_top([*carcass(), front(), top(label=label)], [swing()]).covered
+
+
+def test_a_sheet_without_thickness_covers() -> None:
+    assert missing_top([*carcass(), top(thickness=0.0)]).covered
+
+
+def test_a_let_in_top_below_its_rim_covers() -> None:
+    inside = board("lid", (-W / 2 + T, -D / 2, H - 0.045), (W / 2 - T, D / 2 - T, H - 0.03))
+    assert missing_top([*carcass(), front(), inside], [swing()]).covered
+
+
+def test_a_back_that_stands_higher_hides_neither_a_top_nor_its_lack() -> None:
+    mirror = board("mirror", (-W / 2, D / 2, 0.0), (W / 2, D / 2 + 0.01, 1.7))
+    assert missing_top([*carcass(), mirror, top()]).covered
+    verdict = missing_top([*carcass(), mirror, front()], [swing()])
+    assert verdict.missing
+    assert verdict.addition is not None
+    assert verdict.addition.part.box.low[2] == pytest.approx(H, abs=1e-6)
+    assert verdict.addition.part.box.high[1] <= D / 2 + 1e-6
+
+
+@pytest.mark.parametrize("solid", [False, True])
+def test_a_drawer_is_no_top(solid: bool) -> None:
+    verdict = missing_top([*carcass(), drawer(solid=solid)], [slide()])
+    assert verdict.missing
+    assert verdict.addition is not None
+    assert missing_top([*carcass(), drawer(solid=solid), top()], [slide()]).covered
+
+
+def test_a_lid_covers_though_it_moves_and_even_when_drawn_open() -> None:
+    lid, hinge = top(), replace(lift("lid"), drawn_at=0.0)
+    assert missing_top([*carcass(), front(), lid], [hinge]).covered
+    opened = hinge.axis.rotation(1.2)
+    ajar = replace(lid, surfaces=(Surface(lid.mesh.transformed(opened)),))
+    assert missing_top([*carcass(), ajar], [replace(hinge, drawn_at=1.2)]).covered
+
+
+def test_bars_at_the_rim_are_no_top() -> None:
+    x, y = W / 2 - T, D / 2 - T
+    bars = [
+        board("bar_left", (-x, -y, H - T), (-x + 0.08, y, H), PartLabel.BAR),
+        board("bar_right", (x - 0.08, -y, H - T), (x, y, H), PartLabel.BAR),
+        board("bar_front", (-x, -D / 2, H - T), (x, -D / 2 + 0.08, H), PartLabel.BAR),
+        board("bar_back", (-x, y - 0.08, H - T), (x, y, H), PartLabel.BAR),
+    ]
+    assert missing_top([*carcass(), *bars, front()], [swing()]).missing
+
+
+def test_a_worktop_with_a_sinks_hole_is_a_top() -> None:
+    assert missing_top([*carcass(), front(), holed_top(0.65)], [swing()]).covered
+    assert missing_top([*carcass(), front(), holed_top(0.65), basin(H + 0.02)], [swing()]).covered
+
+
+def test_a_basin_without_a_worktop_gets_one_with_its_cut_out() -> None:
+    verdict = missing_top([*carcass(), basin(), front()], [swing()])
+    assert verdict.missing
+    assert verdict.addition is not None
+    mesh = verdict.addition.part.mesh
+    assert mesh.is_closed
+    near = np.abs(mesh.vertices[:, :2]) < [0.3, 0.2]
+    assert near.all(axis=1).any()  # corners of a cut-out in the middle
+    assert mesh.box.size[0] >= W
+
+
+def test_racks_of_shelves_need_no_top_on_their_posts() -> None:
+    posts = [
+        board(f"post_{x}_{y}", (x - 0.015, y - 0.015, 0.0), (x + 0.015, y + 0.015, 1.8))
+        for x in (-0.4, 0.4)
+        for y in (-0.15, 0.15)
+    ]
+    shelves = [board(f"shelf_{z}", (-0.4, -0.15, z), (0.4, 0.15, z + T)) for z in (0.3, 0.8, 1.3)]
+    assert missing_top([*posts, *shelves]).covered
+
+
+def test_a_bookcase_open_in_front_lacks_a_top() -> None:
+    shelves = [board(f"shelf_{z}", (-W / 2, -D / 2, z), (W / 2, D / 2, z + T)) for z in (0.4, 0.8, 1.2)]
+    assert missing_top([*carcass(height=1.6), *shelves]).missing
+
+
+def test_a_gallery_around_three_sides_is_no_rim() -> None:
+    around = [
+        board("gallery_back", (-W / 2, D / 2 - T, H), (W / 2, D / 2, H + 0.12)),
+        board("gallery_left", (-W / 2, -D / 2, H), (-W / 2 + T, D / 2, H + 0.12)),
+        board("gallery_right", (W / 2 - T, -D / 2, H), (W / 2, D / 2, H + 0.12)),
+    ]
+    assert missing_top([*carcass(), front(), top(H - 0.03), *around], [swing()]).covered
+
+
+def test_a_hint_settles_only_close_calls() -> None:
+    x, y, wide = W / 2 - T, D / 2 - T, 0.17
+    strips = merged("strips", ((-x, -y, H - T), (x, -y + wide, H)), ((-x, y - wide / 2, H - T), (x, y, H)))
+    hint = Box(vec3(-W / 2, -D / 2, H), vec3(W / 2, D / 2, H + 0.03))
+    config = TopConfig(coverage=0.55)
+    parts = [*carcass(), strips, front()]
+    alone, hinted = missing_top(parts, [swing()], config), missing_top(parts, [swing()], config, hint)
+    assert alone.close_call
+    assert (alone.covered, hinted.covered) == (True, False)
+    assert missing_top([*carcass(), top()], (), config, hint).covered
+
+
+def test_nothing_at_all_is_nothing_to_cover() -> None:
+    assert missing_top([]).covered
+
+
+def test_both_maps_are_told() -> None:
+    coverage = missing_top([*carcass(), front()], [swing()]).coverage
+    assert coverage is not None
+    assert coverage.near_top.sum() < 0.5 * coverage.everything.sum()
+    assert coverage.level == pytest.approx(H, abs=1e-6)
+
+
+@pytest.mark.parametrize("wrong", [{"coverage": 1.5}, {"thickness": 0.0}, {"front": -0.1}])
+def test_senseless_configurations_are_refused(wrong: dict[str, float]) -> None:
+    with pytest.raises(ValueError, match="`TopConfig` needs"):
+        TopConfig(**wrong)
