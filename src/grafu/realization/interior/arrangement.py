@@ -1,0 +1,135 @@
+"""Which places in compartments get a panel: counts shared out, `auto` by size, predicted ones where they were expected.
+
+What is there already counts: a cabinet with one shelf that is to have two gets one more. It cuts no panels.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.box import Box
+from grafu.realization.interior.compartments import Compartment
+from grafu.realization.interior.config import Sizes
+
+_ALIKE = 0.1  # of a side, by which two compartments of one column may differ
+_BOARD = 3.5  # panel thicknesses that may lie between two compartments of one column
+_HANGING_DEPTH = 0.42  # metres: hangers are 0.42 to 0.45 wide
+_HAT = 0.3  # metres that a hat shelf leaves above itself at least
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Arrangement:
+    """How many panels one compartment gets; `shelf_at` are heights in metres instead of equal spaces."""
+
+    shelves: int = 0
+    dividers: int = 0
+    shelf_at: tuple[float, ...] = ()
+    divider_at: tuple[float, ...] = ()
+
+
+def stacked(compartments: Sequence[Compartment], sizes: Sizes) -> list[list[int]]:
+    """Returns the compartments that only shelves part from one another, from below: the columns."""
+    return _grouped(compartments, lambda _: 2, sizes)
+
+
+def rowed(compartments: Sequence[Compartment], sizes: Sizes) -> list[list[int]]:
+    """Returns the compartments that only dividers part from one another: the rows."""
+    return _grouped(compartments, lambda c: c.side_axis, sizes)
+
+
+def shared_out(lengths: Sequence[float], present: int, wanted: int, thickness: float, least: float) -> list[int]:
+    """Returns how many panels each of some spaces gets, so that the largest space left is as small as can be.
+
+    Args:
+        lengths: the spaces in metres.
+        present: how many panels part those spaces from one another.
+        wanted: how many panels there should be in all.
+        thickness: of a panel.
+        least: no space gets a panel that would leave less than this, metres.
+    """
+    counts = [0] * len(lengths)
+    for _ in range(max(wanted - present, 0)):
+        left = [_pitch(length, n, thickness) for length, n in zip(lengths, counts, strict=True)]
+        after = [_pitch(length, n + 1, thickness) for length, n in zip(lengths, counts, strict=True)]
+        able = [k for k, pitch in enumerate(after) if pitch >= least]
+        if not able:
+            break
+        counts[max(able, key=lambda k: left[k])] += 1
+    return counts
+
+
+def by_size(compartment: Compartment, sizes: Sizes, most: int) -> Arrangement:
+    """Returns what a compartment's own size asks for (`auto`)."""
+    size = compartment.box.size
+    height, width = float(size[2]), float(size[compartment.side_axis])
+    if compartment.is_chest:
+        return Arrangement(dividers=min(max(round(width / sizes.divider_pitch) - 1, 0), 2))
+    if width < 1.5 * sizes.least_side:
+        return Arrangement()
+    if is_for_hanging(compartment, sizes):
+        above = height - sizes.hanging_height - sizes.thickness
+        hat = float(compartment.box.high[2]) - min(above, sizes.shelf_pitch) - sizes.thickness / 2
+        return Arrangement(shelf_at=(hat,)) if above >= _HAT * sizes.shelf_pitch / 0.34 else Arrangement()
+    shelves = min(max(round(height / sizes.shelf_pitch) - 1, 0), most)
+    pitch = sizes.divider_pitch * (1.0 if not compartment.behind else 1.5)  # doors are dividers enough for most
+    is_low = shelves == 0 and width >= 2.5 * height
+    dividers = min(max(round(width / pitch) - 1, 0), most) if is_low else 0
+    return Arrangement(shelves, dividers)
+
+
+def is_for_hanging(compartment: Compartment, sizes: Sizes) -> bool:
+    """Whether a compartment behind doors is as tall, wide and deep as a wardrobe's."""
+    size = compartment.box.size
+    scale = sizes.hanging_height / 1.05
+    depth, width = float(size[compartment.depth_axis]), float(size[compartment.side_axis])
+    wide = min(depth, width) >= _HANGING_DEPTH * scale
+    return bool(compartment.behind) and wide and float(size[2]) >= sizes.hanging_height
+
+
+def spaced(low: float, high: float, count: int, thickness: float) -> list[float]:
+    """Returns the middles of equally spaced panels between two walls."""
+    pitch = _pitch(high - low, count, thickness)
+    return [low + (k + 1) * pitch + (k + 0.5) * thickness for k in range(count)]
+
+
+def most_that_fit(length: float, thickness: float, least: float) -> int:
+    """Returns how many panels fit into a length so that every space left is at least `least`."""
+    return max(int((length - least) / (least + thickness) + 1e-9), 0)
+
+
+def _pitch(length: float, count: int, thickness: float) -> float:
+    return (length - count * thickness) / (count + 1)
+
+
+def _grouped(
+    compartments: Sequence[Compartment], axis_of: Callable[[Compartment], int], sizes: Sizes
+) -> list[list[int]]:
+    order = sorted(range(len(compartments)), key=lambda k: float(compartments[k].box.low[axis_of(compartments[k])]))
+    groups: list[list[int]] = []
+    for k in order:
+        axis = axis_of(compartments[k])
+        home = next((g for g in groups if _follows(compartments[g[-1]], compartments[k], axis, sizes)), None)
+        if home is None:
+            groups.append([k])
+        else:
+            home.append(k)
+    return groups
+
+
+def _follows(one: Compartment, other: Compartment, axis: int, sizes: Sizes) -> bool:
+    """Whether a compartment comes next to another along an axis, parted by a board alone, behind the same doors."""
+    if (one.opening, one.behind) != (other.opening, other.behind):
+        return False
+    gap = float(other.box.low[axis] - one.box.high[axis])
+    across = [k for k in range(3) if k not in (axis, one.depth_axis)]
+    alike = all(
+        _overlap(one.box, other.box, k) >= (1 - _ALIKE) * max(one.box.size[k], other.box.size[k]) for k in across
+    )
+    return alike and -sizes.cell <= gap <= _BOARD * sizes.thickness
+
+
+def _overlap(one: Box, other: Box, axis: int) -> float:
+    return float(np.minimum(one.high, other.high)[axis] - np.maximum(one.low, other.low)[axis])

@@ -1,0 +1,76 @@
+"""Whether a panel stands free: at rest of all parts and hardware, and of everything that moves on its whole way."""
+
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.mesh import TriangleMesh
+from grafu.realization.config import RealizationConfig
+from grafu.realization.hinge.border import part_axes
+from grafu.realization.limits import in_the_way, motion_about, opening_values, swept_box
+from grafu.realization.scene import Obstacle, Scene
+
+_POSES = 41
+
+
+@final
+class Clearing:
+    """A scene prepared for trying panels in it; not a value."""
+
+    def __init__(self, scene: Scene, depth: float) -> None:
+        self._scene = scene
+        self._depth = depth
+        self._panels: list[Obstacle] = []
+
+    def add(self, name: str, mesh: TriangleMesh) -> None:
+        """Makes a panel stand in the way of those that follow."""
+        self._panels.append(Obstacle(name, MeshCollider(mesh)))
+
+    def blocker(self, mesh: TriangleMesh) -> str:
+        """Returns the id of something that a panel would cut into or stop on its way; empty: it stands free."""
+        body = MovingBody(mesh, self._depth)
+        body.place(np.eye(4))
+        still = [*self._scene.static_obstacles, *self._panels, *self._hardware, *self._at_rest]
+        near = in_the_way(still, mesh.box)
+        met = body.penetrated([obstacle.collider for obstacle in near])
+        if met:
+            return near[met[0]].id
+        panel = MeshCollider(mesh)
+        return next((mover for mover in self._scene.ways if self._stops(panel, body, mover)), "")
+
+    @cached_property
+    def _hardware(self) -> list[Obstacle]:
+        return [Obstacle(v.name, MeshCollider(v.mesh)) for _, v in self._scene.hardware if len(v.mesh.faces)]
+
+    @cached_property
+    def _at_rest(self) -> list[Obstacle]:
+        return [Obstacle(mover, MeshCollider(self._scene.moving_mesh(mover))) for mover in self._scene.movers]
+
+    def _stops(self, panel: MeshCollider, body: MovingBody, mover: str) -> bool:
+        """Whether a panel stands in the way of a mover or of the hardware that it carries."""
+        way = self._scene.ways[mover]
+        motion = motion_about(way.axis, way.type)
+        values = opening_values(way.upper, _POSES)
+        mesh = self._scene.moving_mesh(mover)
+        if swept_box(mesh.box, motion, way.upper).overlaps(panel.box):
+            moving = self._scene.moving_body(mover, self._depth, part_axes(self._scene.parts[mover].mesh))
+            for value in values:
+                moving.place(motion(value))
+                if moving.penetrates(panel):
+                    return True
+        for visual in self._scene.hardware_of(mover):
+            if not swept_box(visual.mesh.box, motion, way.upper).overlaps(panel.box):
+                continue
+            collider = MeshCollider(visual.mesh)
+            for value in values:
+                collider.place(motion(value))
+                if body.penetrates(collider):
+                    return True
+        return False
+
+
+def clearing_of(scene: Scene) -> Clearing:
+    """Returns the scene prepared, with the depth of realization's own sweeps."""
+    return Clearing(scene, RealizationConfig().depth * scene.unit)

@@ -1,0 +1,248 @@
+"""`furnish`: shelves and dividers for compartments, each cut to its walls and proved free of everything that moves.
+
+A panel that finds no place is refused with the reason; what stands is never changed. It finds no compartments.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.realization.addition import Addition, added_part, free_ids
+from grafu.realization.interior.arrangement import (
+    Arrangement,
+    by_size,
+    most_that_fit,
+    rowed,
+    shared_out,
+    spaced,
+    stacked,
+)
+from grafu.realization.interior.clearing import Clearing, clearing_of
+from grafu.realization.interior.compartments import Compartment
+from grafu.realization.interior.config import InteriorConfig, Sizes
+from grafu.realization.interior.hints import placed_hints
+from grafu.realization.interior.occupied import is_drawer
+from grafu.realization.interior.panels import BEYOND, Place, cut_panel, moved_to
+from grafu.realization.interior.request import InteriorKind, InteriorRequest, PanelHint
+from grafu.realization.likeness import surface_like
+from grafu.realization.scene import Scene
+from grafu.vocabulary import PartLabel
+
+_NUDGES = (0.0, 0.12, -0.12, 0.25, -0.25)  # of the space to the next panel: out of the way of a hinge
+_INSETS = 5  # depths at which a panel is tried
+
+
+@final
+@dataclass(frozen=True)
+class Unfurnished:
+    """Something that was asked for and not built: the compartment's number (None: the whole object), and why."""
+
+    compartment: int | None
+    label: PartLabel | None
+    why: str
+
+
+@final
+@dataclass(frozen=True)
+class Furnished:
+    """The panels that were added, and what was not, and why."""
+
+    additions: tuple[Addition, ...] = ()
+    refused: tuple[Unfurnished, ...] = ()
+
+
+@final
+@dataclass(frozen=True)
+class _Panel:
+    compartment: int
+    label: PartLabel
+    mesh: TriangleMesh
+    place: Place
+
+
+def furnish(
+    compartments: Sequence[Compartment],
+    request: InteriorRequest,
+    scene: Scene,
+    config: InteriorConfig = InteriorConfig(),
+    hints: Sequence[PanelHint] = (),
+) -> Furnished:
+    """Returns shelves and dividers for the compartments of a scene whose joints are built.
+
+    `hints` are what the completed graph expects; only `predicted` requests use them.
+    """
+    if request.kind is InteriorKind.NONE:
+        return Furnished()
+    if not compartments:
+        return Furnished((), (Unfurnished(None, None, why_inapplicable(scene)),))
+    sizes = config.sizes(scene.unit)
+    wanted, refused = _arranged(compartments, request, sizes, config, hints)
+    clearing = clearing_of(scene)
+    panels: list[_Panel] = []
+    for number, arrangement in enumerate(wanted):
+        maker = _Maker(number, compartments[number], scene, clearing, sizes, config)
+        for outcome in maker.panels(arrangement):
+            if isinstance(outcome, _Panel):
+                panels.append(outcome)
+            else:
+                refused.append(outcome)
+    return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+
+
+def why_inapplicable(scene: Scene) -> str:
+    """Returns why a scene without compartments has none, in words."""
+    if any(is_drawer(scene, mover) for mover in scene.movers.values()):
+        return "no compartment: drawers take all the room between walls"
+    return "no compartment: no room large enough lies between walls"
+
+
+def _arranged(
+    compartments: Sequence[Compartment],
+    request: InteriorRequest,
+    sizes: Sizes,
+    config: InteriorConfig,
+    hints: Sequence[PanelHint],
+) -> tuple[list[Arrangement], list[Unfurnished]]:
+    """Returns what each compartment is to get, and what none can."""
+    if request.kind is InteriorKind.AUTO:
+        return [by_size(compartment, sizes, config.most_panels) for compartment in compartments], []
+    if request.kind is InteriorKind.PREDICTED:
+        placed, lost = placed_hints(compartments, hints, sizes)
+        return placed, [Unfurnished(None, hint.label, f"`{hint.id}` {why}") for hint, why in lost]
+    return _counted(compartments, request, sizes)
+
+
+def _counted(
+    compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes
+) -> tuple[list[Arrangement], list[Unfurnished]]:
+    refused: list[Unfurnished] = []
+    shelves, dividers = [0] * len(compartments), [0] * len(compartments)
+    for label, groups, counts, wanted in (
+        (PartLabel.SHELF, stacked(compartments, sizes), shelves, request.shelves),
+        (PartLabel.DIVIDER, rowed(compartments, sizes), dividers, request.dividers),
+    ):
+        for group in groups:
+            able = [k for k in group if label is PartLabel.DIVIDER or not compartments[k].is_chest]
+            if not able and wanted:
+                refused.append(Unfurnished(group[0], label, "a chest that opens upwards takes no shelves"))
+                continue
+            axes = [2 if label is PartLabel.SHELF else compartments[k].side_axis for k in able]
+            lengths = [float(compartments[k].box.size[a]) for k, a in zip(able, axes, strict=True)]
+            given = shared_out(lengths, len(able) - 1, wanted, sizes.thickness, sizes.least_pitch)
+            for k, count in zip(able, given, strict=True):
+                counts[k] = count
+            if able and sum(given) < wanted - (len(able) - 1):
+                why = f"there is room for {sum(given) + len(able) - 1} only, with {sizes.least_pitch:.2f} m between"
+                refused.append(Unfurnished(able[0], label, why))
+    return [Arrangement(s, d) for s, d in zip(shelves, dividers, strict=True)], refused
+
+
+@final
+class _Maker:
+    """Cuts the panels of one compartment, one after another; not a value."""
+
+    def __init__(
+        self,
+        number: int,
+        compartment: Compartment,
+        scene: Scene,
+        clearing: Clearing,
+        sizes: Sizes,
+        config: InteriorConfig,
+    ) -> None:
+        self._number = number
+        self._whole = compartment
+        self._clearing = clearing
+        self._sizes = sizes
+        self._config = config
+        self._still = scene.static_mesh_near(compartment.box, BEYOND * sizes.cell)
+        self._walls = RayCaster(self._still)
+
+    def panels(self, wanted: Arrangement) -> Iterator[_Panel | Unfurnished]:
+        """Yields the dividers, then the shelves between them, or why one is missing."""
+        dividers = []
+        for outcome in self._row(self._whole, PartLabel.DIVIDER, wanted.dividers, wanted.divider_at):
+            if isinstance(outcome, _Panel):
+                dividers.append(outcome)
+            yield outcome
+        if dividers:
+            self._walls = RayCaster(merge_meshes([self._still, *(panel.mesh for panel in dividers)]))
+        for cell in _between(self._whole, [panel.mesh.box for panel in dividers]):
+            yield from self._row(cell, PartLabel.SHELF, wanted.shelves, wanted.shelf_at)
+
+    def _row(
+        self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float]
+    ) -> Iterator[_Panel | Unfurnished]:
+        """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
+        if not (count or at):
+            return
+        axis = Place(compartment, label, 0.0, 0.0).stack
+        low, high = float(compartment.box.low[axis]), float(compartment.box.high[axis])
+        count = min(count, most_that_fit(high - low, self._sizes.thickness, self._sizes.least_pitch))
+        middles = list(at) or spaced(low, high, count, self._sizes.thickness)
+        room = min(np.diff([low, *middles, high])) if middles else 0.0
+        for middle in middles:
+            made = self._tried(Place(compartment, label, middle, self._sizes.inset), float(room))
+            if isinstance(made, str):
+                yield Unfurnished(self._number, label, made)
+            else:
+                self._clearing.add(f"{label.value}", made.mesh)
+                yield made
+
+    def _tried(self, place: Place, room: float) -> _Panel | str:
+        """Returns the panel at the place or near it, or why there is none near it."""
+        depth = float(place.compartment.box.size[place.compartment.depth_axis])
+        deepest = max(self._config.deepest_inset * depth, self._sizes.inset)
+        first = ""
+        for inset in np.linspace(self._sizes.inset, deepest, _INSETS):
+            for nudge in _NUDGES:
+                tried = moved_to(place, place.at + nudge * room, float(inset))
+                mesh = cut_panel(tried, self._walls, self._sizes, self._config)
+                if isinstance(mesh, str):
+                    first = first or mesh
+                    continue
+                blocker = self._clearing.blocker(mesh)
+                if not blocker:
+                    return _Panel(self._number, place.label, mesh, tried)
+                first = first or f"`{blocker}` is in its way"
+        return first
+
+
+def _between(compartment: Compartment, dividers: list[Box]) -> list[Compartment]:
+    """Returns the parts of a compartment that dividers leave (the whole, without any)."""
+    axis = compartment.side_axis
+    found = []
+    low = compartment.box.low.copy()
+    for divider in sorted(dividers, key=lambda box: float(box.low[axis])):
+        high = compartment.box.high.copy()
+        high[axis] = divider.low[axis]
+        found.append(replace(compartment, box=Box(low, high)))
+        low = low.copy()
+        low[axis] = divider.high[axis]
+    return [*found, replace(compartment, box=Box(low, compartment.box.high))]
+
+
+def _additions(
+    panels: list[_Panel], compartments: Sequence[Compartment], request: InteriorRequest, scene: Scene
+) -> tuple[Addition, ...]:
+    """Returns the panels as parts with ids of their own that look like the walls around them."""
+    found: list[Addition] = []
+    for label in (PartLabel.SHELF, PartLabel.DIVIDER):
+        own = [panel for panel in panels if panel.label is label]
+        for name, panel in zip(free_ids(label.value, len(own), scene.parts), own, strict=True):
+            compartment = compartments[panel.compartment]
+            walls = [scene.parts[wall] for wall in dict.fromkeys(w for face in compartment.walls for w in face)]
+            part = added_part(name, label, [surface_like(panel.mesh, walls)])
+            found.append(Addition(part, _why(compartment, request), f"panel {panel.label.value}"))
+    return tuple(found)
+
+
+def _why(compartment: Compartment, request: InteriorRequest) -> str:
+    width, depth, height = compartment.box.size
+    where = f"behind {', '.join(compartment.behind)}" if compartment.behind else "open in front"
+    return f"interior {request}: a compartment of {width:.2f} x {depth:.2f} x {height:.2f} m, {where}"

@@ -1,0 +1,144 @@
+"""One shelf or divider cut to a compartment: its edges lie where rays meet the walls. It chooses no places.
+
+A panel is a prism. Its ends follow walls that are straight, also where they run askew; other walls carry no panel.
+"""
+
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Scalars
+from grafu.geometry.box import Box
+from grafu.geometry.free_space import SomePoints
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.realization.interior.compartments import Compartment
+from grafu.realization.interior.config import InteriorConfig, Sizes
+from grafu.vocabulary import PartLabel
+
+_ALONG = 16  # rays along an edge
+_BACK = 0.3  # share of the rays towards the back that make it a wall
+BEYOND = (
+    12.0  # cells beyond a compartment's side at which its wall may be met: brackets stand before it, or it is askew
+)
+_LEVELS = (-0.98, 0.0, 0.98)  # of half a panel's thickness, at which its edges are looked for
+
+
+@final
+@dataclass(frozen=True)
+class Place:
+    """Where a panel is to be.
+
+    `at` is its middle along the axis that panels are stacked on, `inset` how far its front edge stands back from the
+    opening, metres.
+    """
+
+    compartment: Compartment
+    label: PartLabel
+    at: float
+    inset: float
+
+    @property
+    def stack(self) -> int:
+        """The axis across the panel."""
+        return 2 if self.label is PartLabel.SHELF else self.compartment.side_axis
+
+    @property
+    def reach(self) -> int:
+        """The axis along which the panel spans from wall to wall."""
+        return 3 - self.stack - self.compartment.depth_axis
+
+
+def cut_panel(place: Place, walls: RayCaster, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | str:
+    """Returns a panel that touches the walls at both ends, or why there is none. `walls` are the still meshes."""
+    box, depth = place.compartment.box, place.compartment.depth_axis
+    inward = -1.0 if place.compartment.opening % 2 else 1.0
+    front = float(box.high[depth] if inward < 0 else box.low[depth]) + inward * place.inset
+    back = _back(place, walls, sizes, inward)
+    if inward * (back - front) < sizes.least_side / 2:
+        return "it is too shallow"
+    margin = 0.02 * abs(back - front)
+    along = np.linspace(front + inward * margin, back - inward * margin, _ALONG)
+    ends = []
+    for sense in (-1.0, 1.0):
+        found = _distances(place, walls, sizes, along, sense)
+        edge = _edge(along, found, sizes, config)
+        if edge is None:
+            return "its walls are open or uneven there" if np.isfinite(found).any() else "it has no wall to rest on"
+        middle = float(box.center[place.reach])
+        at_front, at_back = (middle + sense * float(np.polyval(edge, end)) for end in (front, back))
+        ends.append((at_front, at_back))
+    return _prism(place, sizes.thickness, (front, back), ends[0], ends[1])
+
+
+def _back(place: Place, walls: RayCaster, sizes: Sizes, inward: float) -> float:
+    """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
+    box, depth = place.compartment.box, place.compartment.depth_axis
+    end = float(box.low[depth] if inward < 0 else box.high[depth])
+    across = box.center[place.reach] + box.half[place.reach] * np.linspace(-0.96, 0.96, _ALONG)
+    origins = _origins(place, sizes.thickness, place.reach, across)
+    direction = np.zeros(3)
+    direction[depth] = inward
+    found = walls.along(origins, direction)
+    hit = found <= abs(end - origins[0, depth]) + BEYOND * sizes.cell
+    if hit.mean() < _BACK:
+        return end
+    return float(origins[0, depth] + inward * found[hit].min())
+
+
+def _distances(place: Place, walls: RayCaster, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
+    """Returns how far the wall is from the compartment's middle along a panel's end; infinity where there is none."""
+    origins = _origins(place, sizes.thickness, place.compartment.depth_axis, along)
+    direction = np.zeros(3)
+    direction[place.reach] = sense
+    found = walls.along(origins, direction).reshape(len(along), len(_LEVELS)).min(axis=1)
+    limit = place.compartment.box.half[place.reach] + BEYOND * sizes.cell
+    return np.where(found <= limit, found, np.inf)
+
+
+def _origins(place: Place, thickness: float, axis: int, values: Scalars) -> SomePoints:
+    """Returns points in the middle of a compartment at a panel's levels, spread over values along an axis."""
+    levels = place.at + thickness / 2 * np.array(_LEVELS)
+    grid = np.stack(np.meshgrid(values, levels, indexing="ij"), axis=-1).reshape(-1, 2)
+    points = np.tile(place.compartment.box.center, (len(grid), 1))
+    points[:, axis], points[:, place.stack] = grid[:, 0], grid[:, 1]
+    return points
+
+
+def _edge(along: Scalars, found: Scalars, sizes: Sizes, config: InteriorConfig) -> tuple[float, float] | None:
+    """Returns the straight edge (as of `polyval`) that touches a wall at front and back and is never beyond it."""
+    met = np.isfinite(found)
+    if met.sum() < 2:
+        return None
+    slope = float(np.polyfit(along[met], found[met], 1)[0])
+    for tilt in (0.0, slope):
+        edge = tilt, float((found[met] - tilt * along[met]).min())
+        close = met & (found - np.polyval(edge, along) <= sizes.touch)
+        half = len(along) // 2
+        if min(close[:half].mean(), close[half:].mean()) >= config.carried:
+            return edge
+    return None
+
+
+def _prism(
+    place: Place, thickness: float, depth: tuple[float, float], low: tuple[float, float], high: tuple[float, float]
+) -> TriangleMesh:
+    """Returns the closed panel; `low` and `high` are its ends at the front and at the back edge (`depth`)."""
+    reach, axis = place.reach, place.compartment.depth_axis
+    corner = np.zeros((2, 3))
+    corner[:, axis] = sorted(depth)
+    corner[:, place.stack] = place.at - thickness / 2, place.at + thickness / 2
+    corner[:, reach] = 0.0, 1.0
+    mesh = TriangleMesh.box_mesh(Box(corner[0], corner[1]))
+    vertices = mesh.vertices.copy()
+    at_back = np.abs(vertices[:, axis] - depth[1]) < np.abs(vertices[:, axis] - depth[0])
+    is_high = vertices[:, reach] > 0.5
+    ends = np.array([[low[0], low[1]], [high[0], high[1]]])
+    vertices[:, reach] = ends[is_high.astype(int), at_back.astype(int)]
+    return TriangleMesh(vertices, mesh.faces)
+
+
+def moved_to(place: Place, at: float, inset: float) -> Place:
+    """Returns the same panel at another place along its stack, set back by another inset."""
+    return replace(place, at=at, inset=inset)

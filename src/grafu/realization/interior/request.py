@@ -1,0 +1,87 @@
+"""What interiors are asked for, and how the command spells it: none, auto, predicted, or `shelves=2,dividers=1`."""
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import final
+
+from grafu.geometry.box import Box
+from grafu.vocabulary import PartLabel
+
+MOST = 20  # of one kind in one compartment; more is a slip of the finger
+_SPELLING = f"`none`, `auto`, `predicted`, `shelves=N`, `dividers=N` or `shelves=N,dividers=N` with N from 0 to {MOST}"
+_ITEM = re.compile(r"(shelves|dividers)=(\d{1,4})")
+
+
+class InteriorKind(StrEnum):
+    """Who decides what a compartment gets."""
+
+    NONE = "none"  # nothing is added
+    AUTO = "auto"  # its size does
+    PREDICTED = "predicted"  # the completed graph does: its new shelves and dividers
+    COUNTED = "counted"  # the user does: so many of each
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class InteriorRequest:
+    """What every compartment is to get; the counts are of `counted` alone, existing shelves and dividers included.
+
+    Raises:
+        ValueError: if a count is not in 0..20, or a kind other than `counted` has one.
+    """
+
+    kind: InteriorKind
+    shelves: int = 0
+    dividers: int = 0
+
+    def __post_init__(self) -> None:
+        if not (0 <= self.shelves <= MOST and 0 <= self.dividers <= MOST):
+            raise ValueError(f"`InteriorRequest` must count 0 to {MOST} of each: got {self.shelves}, {self.dividers}")
+        if self.kind is not InteriorKind.COUNTED and (self.shelves or self.dividers):
+            raise ValueError(f"only `counted` requests count shelves and dividers: got {self}")
+
+    def __str__(self) -> str:
+        if self.kind is not InteriorKind.COUNTED:
+            return self.kind.value
+        counts = (("shelves", self.shelves), ("dividers", self.dividers))
+        return ",".join(f"{name}={count}" for name, count in counts if count) or "shelves=0"
+
+
+NOTHING = InteriorRequest(InteriorKind.NONE)
+AUTO = InteriorRequest(InteriorKind.AUTO)
+PREDICTED = InteriorRequest(InteriorKind.PREDICTED)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PanelHint:
+    """A shelf or divider that the completed graph expects at about this box (object frame, metres).
+
+    Raises:
+        ValueError: if the label is another.
+    """
+
+    id: str
+    label: PartLabel
+    box: Box
+
+    def __post_init__(self) -> None:
+        if self.label not in (PartLabel.SHELF, PartLabel.DIVIDER):
+            raise ValueError(f"`PanelHint.label` must be shelf or divider: got {self.label.value} for `{self.id}`")
+
+
+def parse_interior(text: str) -> InteriorRequest:
+    """Returns the request that a word of the command line spells.
+
+    Raises:
+        ValueError: if it spells none; the message is one line that says what was given and what is expected.
+    """
+    word = text.strip().lower().replace(" ", "")
+    if word in (InteriorKind.NONE, InteriorKind.AUTO, InteriorKind.PREDICTED):
+        return InteriorRequest(InteriorKind(word))
+    found = [_ITEM.fullmatch(item) for item in word.split(",")]
+    counts = {match[1]: int(match[2]) for match in found if match}
+    if None in found or len(counts) < len(found) or max(counts.values()) > MOST:
+        raise ValueError(f"`interior` must be {_SPELLING}: got {text!r}")
+    return InteriorRequest(InteriorKind.COUNTED, counts.get("shelves", 0), counts.get("dividers", 0))
