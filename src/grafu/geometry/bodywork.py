@@ -19,7 +19,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import patches_of, welded
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.selection import joined, selected
-from grafu.geometry.solids import ConvexSolid, removed_area, subtract
+from grafu.geometry.solids import ConvexSolid, subtract
 
 _NOTHING = 1e-12  # of a patch's volume: what the boolean takes away by rounding
 
@@ -97,9 +97,14 @@ class _CutPatch:
     is_whole: bool
 
 
-def cut_out(body: Bodywork, solids: Sequence[ConvexSolid]) -> CutOut:
-    """Returns the body without what lies inside the solids."""
-    cutter = manifold3d.Manifold.batch_boolean([_manifold(s.vertices, s.faces) for s in solids], manifold3d.OpType.Add)
+def cut_out(body: Bodywork, solids: Sequence[ConvexSolid], union: TriangleMesh | None = None) -> CutOut:
+    """Returns the body without what lies inside the solids.
+
+    `union` is the closed surface around all solids, where it is known: worked out, that of solids which touch in many
+    corners has slivers.
+    """
+    closed = [(union.vertices, union.faces)] if union is not None else [(s.vertices, s.faces) for s in solids]
+    cutter = manifold3d.Manifold.batch_boolean([_manifold(*one) for one in closed], manifold3d.OpType.Add)
     box = Box.around(np.vstack([s.vertices for s in solids]))
     cuts: list[_CutPatch] = []
     is_cut, is_sheet = np.zeros(len(body.closed), dtype=bool), ~body.closed
@@ -110,10 +115,10 @@ def cut_out(body: Bodywork, solids: Sequence[ConvexSolid]) -> CutOut:
         if cut is not None:
             is_cut[number] = True
             cuts.append(cut)
-    lost = np.array([removed_area(s, solids) for s in body.surfaces])
     patch = np.where(body.group >= 0, body.patch[body.group], -1)  # faces without area are sheets
     is_cut, is_sheet = np.append(is_cut, False)[patch], np.append(is_sheet, True)[patch]
-    surfaces = tuple(_left(body, k, is_cut, is_sheet, cuts, solids) for k in range(len(body.surfaces)))
+    left = [_left(body, k, is_cut, is_sheet, cuts, solids) for k in range(len(body.surfaces))]
+    surfaces, lost = tuple(surface for surface, _ in left), np.array([area for _, area in left])
     wall = merge_meshes([TriangleMesh(cut.vertices, cut.wall) for cut in cuts])
     wall = wall.with_faces(np.arange(len(wall.faces)))
     volume = sum((cut.volume for cut in cuts), 0.0)
@@ -205,17 +210,20 @@ def _cut_patch(
 
 def _left(
     body: Bodywork, number: int, is_cut: Mask, is_sheet: Mask, cuts: Sequence[_CutPatch], solids: Sequence[ConvexSolid]
-) -> Surface:
-    """Returns one surface after the cut; the very same one where nothing of it went."""
+) -> tuple[Surface, float]:
+    """Returns one surface after the cut (the very same one where nothing of it went), and the area that went."""
     surface, mine = body.surfaces[number], body.owner == number
     gone, sheet = is_cut[mine], is_sheet[mine]
     sheets = selected(surface, np.flatnonzero(sheet & ~gone))
     clipped = subtract(sheets, solids) if not sheets.is_empty else sheets
     if not gone.any() and clipped is sheets:
-        return surface
+        return surface, 0.0
     kept = selected(surface, np.flatnonzero(~sheet & ~gone))
     pieces = [_redrawn(body, number, cut) for cut in cuts]
-    return joined(surface, [kept, clipped, *pieces])
+    once = is_cut[body.source] & (body.owner[body.source] == number)  # faces drawn twice count once
+    before = float(body.mesh.face_areas[body.source[once]].sum()) + sheets.mesh.area
+    after = sum((piece.mesh.area for piece in pieces), clipped.mesh.area)
+    return joined(surface, [kept, clipped, *pieces]), before - after
 
 
 def _redrawn(body: Bodywork, number: int, cut: _CutPatch) -> Surface:

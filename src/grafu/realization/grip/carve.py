@@ -11,16 +11,17 @@ import numpy as np
 
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.bodywork import CutOut, cut_out
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.realization.grip.config import GripConfig, GripKind
 from grafu.realization.grip.front import front_of
 from grafu.realization.grip.ground import Site, front_part, site_of
 from grafu.realization.grip.outcome import Carved, GripRefusal, Refused
 from grafu.realization.grip.place import levelled, spots
-from grafu.realization.grip.shape import Cut, cutters
+from grafu.realization.grip.shape import Cut, cutters, lining, tilted, union
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -70,15 +71,18 @@ def carve_grip(scene: Scene, mover_id: str, config: GripConfig, spot: Vec3 | Non
 def _carved(site: Site, cut: Cut) -> Carved | GripRefusal:
     """Returns the part less the grip, unless that would harm it."""
     front = site.front
-    solids = [_in_object(site, solid) for solid in cutters(cut)]
-    left = cut_out(site.body, solids)
-    least = _FULL * cut.size.length * cut.size.width * cut.size.depth
-    if cut.kind is GripKind.GROOVE and left.volume < least:
+    hulls = [ConvexSolid.around(_in_object(site, cut, np.asarray(solid.vertices))) for solid in cutters(cut)]
+    solids = [solid for solid in hulls if solid is not None]
+    around = union(cut)
+    whole = around and TriangleMesh(_in_object(site, cut, np.asarray(around.vertices)), around.faces)
+    left = cut_out(site.body, solids, whole)
+    expected = cut.size.length * cut.size.width * cut.size.depth
+    if cut.kind is GripKind.GROOVE and not cut.is_hollow and left.volume < _FULL * expected:
         return GripRefusal.NO_THICKNESS
     surfaces = tuple(s for s in left.surfaces if not s.is_empty)
     if not left.is_whole or not surfaces:
         return GripRefusal.WOULD_BREAK
-    part = replace(site.part, surfaces=(*surfaces, *_wall(site, left)))
+    part = replace(site.part, surfaces=(*surfaces, *_walls(site, cut, left)))
     if not _has_same_box(site.part, part):
         return GripRefusal.WOULD_BREAK
     size = np.array([cut.size.length, cut.size.width, cut.size.depth])
@@ -90,20 +94,21 @@ def _carved(site: Site, cut: Cut) -> Carved | GripRefusal:
     return Carved(part, cut.kind, cut.profile, centre, direction, outward, size, left.volume, left.area)
 
 
-def _wall(site: Site, left: CutOut) -> tuple[Surface, ...]:
+def _walls(site: Site, cut: Cut, left: CutOut) -> tuple[Surface, ...]:
     """Returns the faces of the cut in the material of the front that was cut, textured as it is."""
-    if not len(left.wall.faces):
+    wall = left.wall
+    if cut.is_hollow and cut.size.depth > site.seam:
+        lined = lining(cut)
+        wall = TriangleMesh(_in_object(site, cut, np.asarray(lined.vertices)), lined.faces)
+    if not len(wall.faces):
         return ()
     skin = site.part.surfaces[left.skin]
     like = Part("skin", PartLabel.UNKNOWN, (skin,), PartSource(""))
-    return (surface_like(left.wall, [like], skin.material),)
+    return (surface_like(wall, [like], skin.material),)
 
 
-def _in_object(site: Site, solid: ConvexSolid) -> ConvexSolid:
-    normals = np.asarray(solid.planes[:, :3]) @ site.front.rotation.T
-    return ConvexSolid(
-        site.front.in_object(np.asarray(solid.vertices)), solid.faces, np.column_stack([normals, solid.planes[:, 3]])
-    )
+def _in_object(site: Site, cut: Cut, points: Points) -> Points:
+    return site.front.in_object(tilted(cut, points))
 
 
 def _has_same_box(before: Part, after: Part) -> bool:

@@ -1,7 +1,7 @@
 """What a front is made of at a spot, by lines straight into it: how thick, how even, and what stands around it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
 
@@ -21,6 +21,7 @@ from grafu.vocabulary import PartLabel
 _OPAQUE = 0.95  # of a colour
 _ASIDE = 1e-4 * np.sqrt(2.0)  # of a grid's step: lines do not run along the edges between faces
 _MAP = 24  # lines each way that look for the front's outermost part
+_BOARD = 0.04  # metres: sheets no farther apart are the two sides of one board
 _AROUND = 0.08  # metres: what is farther from a front is of no concern
 
 Triangles = Float[np.ndarray, "_ 3 3"]
@@ -33,7 +34,8 @@ class Ground(ArrayValue):
     """What lines into the front meet first, one row per line; heights are Z of the front frame.
 
     `face` is where a line enters (-inf: it meets nothing), `back` where the first layer ends, `solid` how much of that
-    layer is solid (0: mere sheets), `beneath` where the part's next layer begins (-inf: there is none).
+    layer is solid (0: mere sheets), `beneath` where the part's next layer begins (-inf: there is none). Sheets that
+    follow one another closely are a hollow board, and count as one layer.
     """
 
     face: Scalars
@@ -45,6 +47,10 @@ class Ground(ArrayValue):
     def __post_init__(self) -> None:
         freeze_arrays(self)
 
+    def lowered(self, by: Scalars) -> "Ground":
+        """Returns the ground with each line's heights less by some metres: what is tilted comes to lie level."""
+        return replace(self, face=self.face - by, back=self.back - by, beneath=self.beneath - by)
+
     @property
     def is_covered(self) -> bool:
         """Whether every line meets something."""
@@ -54,6 +60,20 @@ class Ground(ArrayValue):
     def thickness(self) -> Scalars:
         """How far the back of the first layer lies behind its face."""
         return self.face - self.back
+
+    @property
+    def is_hollow(self) -> bool:
+        """Whether the first layer is nowhere solid: a sheet, or a board of sheets with nothing in between."""
+        return not np.any(self._is_solid)
+
+    @property
+    def is_mixed(self) -> bool:
+        """Whether the first layer is solid in some places only."""
+        return bool(np.any(self._is_solid) and not np.all(self._is_solid))
+
+    @property
+    def _is_solid(self) -> Mask:
+        return (self.solid > 0) & (self.solid >= 0.5 * self.thickness)
 
 
 @final
@@ -98,7 +118,9 @@ class Site:
         )
         found = line_crossings(self._triangles[near], aside(xs), aside(ys))
         face = near[found.face]
-        return _layered(found, self.body.is_solid[face], self._is_opaque[face], len(xs) * len(ys), self.seam)
+        return _layered(
+            found, self.body.is_solid[face], self._is_opaque[face], len(xs) * len(ys), (self.seam, _BOARD * self.scale)
+        )
 
     @property
     def seam(self) -> float:
@@ -111,29 +133,33 @@ def aside(grid: Grid) -> Grid:
     return grid + _ASIDE * (grid[-1] - grid[0]) / max(len(grid) - 1, 1)
 
 
-def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, seam: float) -> Ground:
-    face, back = np.full(lines, -np.inf), np.full(lines, -np.inf)
-    solid, beneath = np.zeros(lines), np.full(lines, -np.inf)
-    opaque = np.ones(lines, dtype=bool)
-    starts = np.searchsorted(found.line, np.arange(lines + 1))
-    heights, ups = found.height.tolist(), found.looks_up.tolist()
-    solids, clears = is_solid.tolist(), (~is_opaque).tolist()
+def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, limits: tuple[float, float]) -> Ground:
+    """Returns what each line meets first; `limits` are the widest seam and the thickest hollow board, metres."""
+    rows = [(-np.inf, -np.inf, 0.0, -np.inf, True)] * lines
+    starts = np.searchsorted(found.line, np.arange(lines + 1)).tolist()
+    steps = np.where(is_solid, np.where(found.looks_up, 1, -1), 0).tolist()
+    heights, opaque = found.height.tolist(), is_opaque.tolist()
     for line in range(lines):
-        inside = 0
-        for k in range(int(starts[line]), int(starts[line + 1])):
-            height = heights[k]
-            if face[line] == -np.inf:
-                face[line] = back[line] = height
-            elif inside <= 0 and back[line] - height > seam:
-                beneath[line] = height
-                break
-            opaque[line] &= not clears[k]
-            if inside > 0:
-                solid[line] += back[line] - height
-            back[line] = height
-            if solids[k]:
-                inside += 1 if ups[k] else -1
-    return Ground(face, back, solid, beneath, opaque)
+        span = slice(starts[line], starts[line + 1])
+        if span.start < span.stop:
+            rows[line] = _first_layer(heights[span], steps[span], opaque[span], *limits)
+    face, back, solid, beneath, clear = zip(*rows, strict=True)
+    return Ground(np.array(face), np.array(back), np.array(solid), np.array(beneath), np.array(clear))
+
+
+def _first_layer(
+    heights: list[float], steps: list[int], opaque: list[bool], seam: float, board: float
+) -> tuple[float, float, float, float, bool]:
+    """Returns a row of `Ground` from a line's crossings; a step is +1 into a solid, -1 out of one, 0 at a sheet."""
+    face = back = heights[0]
+    solid, inside, is_opaque = 0.0, 0, True
+    for height, step, is_dull in zip(heights, steps, opaque, strict=True):
+        if inside > 0:
+            solid += back - height
+        elif back - height > seam and not (solid == 0.0 and face - height <= board):
+            return face, back, solid, height, is_opaque
+        back, inside, is_opaque = height, inside + step, is_opaque and is_dull
+    return face, back, solid, -np.inf, is_opaque
 
 
 def site_of(scene: Scene, mover_id: str, front: Front, part: Part, scale: float) -> Site:

@@ -1,6 +1,7 @@
 """Where a grip may sit: spots from the motion, best first, and whether a front bears one there. It carves nothing."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -24,9 +25,11 @@ _REACH = 1.0  # metres above the floor: where tall doors are gripped (EN 12098 a
 _TALL, _HIGH, _LOW = 0.5, 1.2, 0.25  # metres: doors are gripped off their middle; hung high; share of a door's height
 _EVEN = 0.25  # steps in the face where a groove is cut, as a share of its depth
 _STEP = 0.003  # metres: steps in the face where a hole is cut
+_STEEPEST = 0.35  # metres per metre: how much a bowed front may slope where it is carved
 _BLUNT = 0.0015  # metres: how far edges may be rounded, and be straight all the same
 _BEFORE = 0.012  # metres: a finger's thickness before the front
 _SHOWN = 0.8  # share of a hole behind which fingers must find room
+_AWAY = 0.06  # metres: what is attached and stands farther before the front leaves the hand room
 _CLEAR = 0.004  # metres between a grip and what is attached
 
 
@@ -85,29 +88,39 @@ def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | GripRefusal:
     xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])
     ys = np.linspace(box.low[1] - ring, box.high[1] + over, _LINES[1])
     ground = site.ground(xs, ys)
-    if not ground.is_covered:
+    if not ground.is_covered or ground.is_mixed:
         return GripRefusal.UNEVEN
     if not ground.is_opaque.all():
         return GripRefusal.GLASS
+    x, y = (grid.reshape(-1) for grid in np.meshgrid(xs, ys, indexing="ij"))
+    cut = replace(cut, is_hollow=ground.is_hollow, tilt=_tilt(x, y, np.asarray(ground.face)))
+    if max(abs(t) for t in cut.tilt) > _STEEPEST:
+        return GripRefusal.UNEVEN
+    ground = ground.lowered(cut.lift(x, y))
     found = _groove(site, cut, ground, config) if cut.kind is GripKind.GROOVE else _through(site, cut, ground, config)
-    return found if isinstance(found, GripRefusal) else _unless_in_the_way(site, found, ground, xs, ys, config)
+    return found if isinstance(found, GripRefusal) else _unless_in_the_way(site, found, ground, (xs, ys), config)
+
+
+def _tilt(x: Scalars, y: Scalars, face: Scalars) -> tuple[float, float]:
+    """Returns how a front's face rises along x and y."""
+    columns = np.column_stack([x - x.mean(), y - y.mean(), np.ones(len(x))])
+    along, across, _ = np.linalg.lstsq(columns, face, rcond=None)[0]
+    return float(along), float(across)
 
 
 def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
     """Returns a groove as deep as the front allows."""
-    thickness = float(ground.solid.min())
-    if thickness <= 1e-3 * site.scale:
+    if float(ground.thickness.min()) <= 1e-3 * site.scale:
         return GripRefusal.NO_THICKNESS
     face = float(np.median(ground.face))
-    room = float((face - (ground.face - ground.solid)).min())
+    room = float((face - ground.back).min())
     depth = min(cut.size.depth, config.depth_share * room, room - config.wall * site.scale)
     if depth < _SHALLOW * site.scale:
         return GripRefusal.TOO_THIN
     if float(np.ptp(ground.face)) > _EVEN * depth:
         return GripRefusal.UNEVEN
     top = float(ground.face.max()) + _EVEN * depth
-    size = GripSize(cut.size.length, cut.size.width, depth)
-    return Cut(cut.kind, cut.profile, cut.x, cut.y, size, top, face, face - depth)
+    return replace(cut, size=replace(cut.size, depth=depth), top=top, face=face, bottom=face - depth)
 
 
 def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
@@ -120,30 +133,27 @@ def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | 
     if float(np.ptp(ground.back)) > _STEP * site.scale:
         return GripRefusal.UNEVEN
     over = 0.4 * site.seam
-    size = GripSize(cut.size.length, cut.size.width, max(face - back, 1e-6))
-    return Cut(cut.kind, cut.profile, cut.x, cut.y, size, face + over, face, back - over)
+    size = replace(cut.size, depth=max(face - back, 1e-6))
+    return replace(cut, size=size, top=face + over, face=face, bottom=back - over)
 
 
 def _unless_in_the_way(
-    site: Site, cut: Cut, ground: Ground, xs: Grid, ys: Grid, config: GripConfig
+    site: Site, cut: Cut, ground: Ground, grid: tuple[Grid, Grid], config: GripConfig
 ) -> Cut | GripRefusal:
-    scale = site.scale
-    zone = cut.box.grown(_CLEAR * scale)
-    zone = Box(
-        np.array([zone.low[0], zone.low[1], cut.bottom + site.seam]),
-        np.array([zone.high[0], zone.high[1], cut.face + 2 * _BEFORE * scale]),
-    )
-    if _meets(site.attached, zone):
+    """Returns the grip, unless something sits on it or leaves fingers no room; `ground` lies level."""
+    scale, near = site.scale, cut.box.grown(_CLEAR * site.scale)
+    low, high = (*near.low[:2], cut.bottom + site.seam), (*near.high[:2], cut.face + _AWAY * scale)
+    if _meets(site.attached, Box(np.array(low), np.array(high))):
         return GripRefusal.TAKEN
-    x, y = (grid.reshape(-1) for grid in np.meshgrid(xs, ys, indexing="ij"))
-    inside = _within(cut, x, y)
+    x, y = (values.reshape(-1) for values in np.meshgrid(*grid, indexing="ij"))
+    inside, lift = _within(cut, x, y), cut.lift(x, y)
     before = (cut.face, cut.face + _BEFORE * scale)
-    if _met([site.still], xs, ys, before)[inside].any():
+    if _met([site.still], grid, before, lift)[inside].any():
         return GripRefusal.NO_FINGER_ROOM
     if cut.kind is GripKind.GROOVE:
         return cut
     room = (cut.bottom - config.finger_room * scale, cut.bottom)
-    met = _met([site.still, site.others, site.attached], xs, ys, room) | (ground.beneath > room[0])
+    met = _met([site.still, site.others, site.attached], grid, room, lift) | (ground.beneath > room[0])
     return cut if (~met)[inside].mean() >= _SHOWN else GripRefusal.NO_FINGER_ROOM
 
 
@@ -160,13 +170,14 @@ def _meets(triangles: Triangles, zone: Box) -> bool:
     return bool(np.any(np.all((low <= zone.high) & (high >= zone.low), axis=1)))
 
 
-def _met(obstacles: list[Triangles], xs: Grid, ys: Grid, span: tuple[float, float]) -> Mask:
-    """Returns for each line of a grid whether it crosses an obstacle within a span of heights."""
-    met = np.zeros(len(xs) * len(ys), dtype=bool)
+def _met(obstacles: list[Triangles], grid: tuple[Grid, Grid], span: tuple[float, float], lift: Scalars) -> Mask:
+    """Returns for each line of a grid whether it crosses an obstacle within a span of heights, which rise by `lift`."""
+    met = np.zeros(len(lift), dtype=bool)
+    xs, ys = (aside(values) for values in grid)
     for triangles in obstacles:
         low, high = triangles.min(axis=1), triangles.max(axis=1)
-        near = (low[:, 2] <= span[1]) & (high[:, 2] >= span[0]) & (low[:, 0] <= xs[-1]) & (high[:, 0] >= xs[0])
-        found = line_crossings(triangles[near], aside(xs), aside(ys))
-        hit = (found.height > span[0]) & (found.height < span[1])
-        met[found.line[hit]] = True
+        near = (low[:, 2] <= span[1] + lift.max()) & (high[:, 2] >= span[0] + lift.min())
+        found = line_crossings(triangles[near & (low[:, 0] <= xs[-1]) & (high[:, 0] >= xs[0])], xs, ys)
+        height = found.height - lift[found.line]
+        met[found.line[(height > span[0]) & (height < span[1])]] = True
     return met

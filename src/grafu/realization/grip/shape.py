@@ -1,6 +1,6 @@
 """The solids that are cut away: convex, in the front frame (X along the gripped edge, Y towards it, Z outwards)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import final
 
@@ -9,14 +9,17 @@ from jaxtyping import Float
 
 from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.realization.grip.config import GripKind, GripProfile, GripSize
 
 Outline = Float[np.ndarray, "n 2"]
 
 _QUARTER = 6  # straight pieces of a quarter turn
-_STEPS = 5  # levels of a rounded bottom, and of an eased rim
+_STEPS = 5  # levels of a rounded bottom
+_RIM = 3  # slices of an eased rim
 _BOTTOM = 0.7  # the radius of a groove's rounded bottom, as a share of its depth
+_FLAT = 1e-9  # metres
 _EASED = 0.15  # the radius of a hole's rounded rim, as a share of the front's thickness
 
 
@@ -25,7 +28,9 @@ _EASED = 0.15  # the radius of a hole's rounded rim, as a share of the front's t
 class Cut:
     """One grip in the front frame: its middle (x, y), where an edge notch's y is the edge itself; its size; its levels.
 
-    It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face.
+    It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face. `is_hollow` says
+    that there is nothing but sheets to cut, so that the cut needs a lining. Levels hold in the middle; elsewhere they
+    rise with the front's face, `tilt` along x and y.
     """
 
     kind: GripKind
@@ -36,6 +41,12 @@ class Cut:
     top: float
     face: float
     bottom: float
+    is_hollow: bool = False
+    tilt: tuple[float, float] = (0.0, 0.0)
+
+    def lift(self, x: Scalars, y: Scalars) -> Scalars:
+        """Returns how much higher a tilted front lies at some points than in the grip's middle."""
+        return self.tilt[0] * (x - self.x) + self.tilt[1] * (y - self.y)
 
     @property
     def box(self) -> Box:
@@ -45,19 +56,39 @@ class Cut:
         return Box(np.array([self.x - half, low, self.bottom]), np.array([self.x + half, high, self.face]))
 
 
+def tilted(cut: Cut, points: Points) -> Points:
+    """Returns points that were made for a level front as they lie on the tilted one."""
+    return points + np.column_stack([np.zeros((len(points), 2)), cut.lift(points[:, 0], points[:, 1])])
+
+
 def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
-    """Returns the solids of a grip, in the front frame."""
+    """Returns the solids of a grip, in the front frame, as they are on a level front."""
     rounded = cut.profile == "rounded"
     if cut.kind is GripKind.GROOVE:
         solids = [_groove(cut)] if rounded else [_prism(_rectangle(cut), cut.bottom, cut.top)]
     elif cut.kind is GripKind.EDGE:
-        solids = [_prism(_notch(cut), cut.bottom, cut.top)]
+        solids = [_prism(_notch(cut, 0.25 * cut.size.width), cut.bottom, cut.top)]
     else:
-        outline = _oval(cut)
-        solids = [_prism(outline, cut.bottom, cut.top)]
-        if rounded and cut.face - cut.bottom > 0:
-            solids += _eased_rim(cut)
+        solids = _stages(cut) if _is_eased(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
     return tuple(solid for solid in solids if solid is not None)
+
+
+def lining(cut: Cut) -> TriangleMesh:
+    """Returns the walls of a grip in a hollow board, in the front frame, as on a level front: they look into it."""
+    if cut.kind is GripKind.GROOVE:
+        (solid,) = cutters(replace(cut, top=cut.face))
+    else:
+        outline = _notch(cut, 0.0) if cut.kind is GripKind.EDGE else _oval(cut)
+        made = _prism(outline, cut.face - cut.size.depth, cut.face)
+        assert made is not None
+        solid = made
+    level = np.abs(solid.mesh.triangles[:, :, 2] - cut.face).max(axis=1) < _FLAT
+    if cut.kind is not GripKind.GROOVE:
+        level |= np.abs(solid.mesh.triangles[:, :, 2] - cut.face + cut.size.depth).max(axis=1) < _FLAT
+    if cut.kind is GripKind.EDGE:
+        level |= np.abs(solid.mesh.triangles[:, :, 1] - cut.y).max(axis=1) < _FLAT
+    walls = solid.mesh.with_faces(~level)
+    return TriangleMesh(walls.vertices, walls.faces[:, ::-1])
 
 
 def _prism(outline: Outline, bottom: float, top: float) -> ConvexSolid | None:
@@ -93,9 +124,9 @@ def _groove(cut: Cut) -> ConvexSolid | None:
     return ConvexSolid.around(np.vstack([_at(_oval(cut), cut.top), *points]))
 
 
-def _notch(cut: Cut) -> Outline:
-    """Returns a notch that is open over the edge: half an ellipse, or a rectangle."""
-    half, width, over = cut.size.length / 2, cut.size.width, 0.25 * cut.size.width
+def _notch(cut: Cut, over: float) -> Outline:
+    """Returns half an ellipse or a rectangle that goes `over` metres beyond the edge."""
+    half, width = cut.size.length / 2, cut.size.width
     if cut.profile == "sharp":
         inner = np.array([(-half, -width), (half, -width)])
     else:
@@ -104,15 +135,43 @@ def _notch(cut: Cut) -> Outline:
     return np.array([cut.x, cut.y]) + np.vstack([inner, [(half, over), (-half, over)]])
 
 
-def _eased_rim(cut: Cut) -> list[ConvexSolid | None]:
-    """Returns solids that round a hole's rim at the face off by a quarter turn."""
+def union(cut: Cut) -> TriangleMesh | None:
+    """Returns the closed surface around all of a grip's cutters, in the frame that they are in; None: there is one."""
+    if not _is_eased(cut):
+        return None
+    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
+    count, size = len(rings), len(rings[0])
+    points = np.vstack([*rings, rings[0].mean(axis=0), rings[-1].mean(axis=0)])
+    at = np.arange(size)
+    after = (at + 1) % size
+    faces = [np.column_stack([np.full(size, count * size), after, at])]
+    for k in range(0, (count - 1) * size, size):
+        faces.append(np.column_stack([k + at, k + after, k + size + after]))
+        faces.append(np.column_stack([k + at, k + size + after, k + size + at]))
+    last = (count - 1) * size
+    faces.append(np.column_stack([np.full(size, count * size + 1), last + at, last + after]))
+    return TriangleMesh(points, np.vstack(faces))
+
+
+def _is_eased(cut: Cut) -> bool:
+    return cut.kind is GripKind.HOLE and cut.profile == "rounded" and not cut.is_hollow
+
+
+def _hole_levels(cut: Cut) -> list[tuple[float, float]]:
+    """Returns by how much a hole with a rounded rim is wider, and at which level, upwards: a quarter turn outwards.
+
+    It ends a trace above the face: an edge in the very face would leave slivers.
+    """
     radius = _EASED * (cut.face - cut.bottom)
-    angles = np.linspace(0.0, np.pi / 2, _STEPS)
-    inset = radius * (1 - np.sin(angles))
-    levels = cut.face - radius * (1 - np.cos(angles))
-    rings = [_at(_oval(cut, float(g)), float(level)) for g, level in zip(inset, levels, strict=True)]
-    rings = [_at(_oval(cut, radius), cut.top), *rings]
-    return [ConvexSolid.around(np.vstack([a, b])) for a, b in pairwise(rings)]
+    angles = np.linspace(np.pi / 2, 0.0, _RIM + 1)
+    rim = [(float(radius * (1 - np.sin(a))), float(cut.face - radius * (0.95 - np.cos(a)))) for a in angles]
+    return [(0.0, cut.bottom), *rim, (radius, cut.top)]
+
+
+def _stages(cut: Cut) -> list[ConvexSolid | None]:
+    """Returns the convex slices of a hole with a rounded rim."""
+    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
+    return [ConvexSolid.around(np.vstack(pair)) for pair in pairwise(rings)]
 
 
 def _half_turn(pieces: int, turn: float) -> Scalars:
