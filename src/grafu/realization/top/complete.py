@@ -29,7 +29,7 @@ from grafu.realization.top.slab import slab_mesh, with_corners, without_block
 from grafu.vocabulary import PartLabel
 
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
-_CLEAN = 0.001  # metres beside a slab's and its walls' edges, so that a groove ends at neither
+_CLEAN = 0.001  # metres beyond a slab's edges, so that grooves run out of it
 _NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is not the body's
 
 
@@ -136,7 +136,7 @@ def _slab(
         return None
     mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape)
     for region, height in free.grooves:
-        below = region.intersection(outline.buffer(_CLEAN * metre)).difference(rim.walls.buffer(_CLEAN * metre))
+        below = region.intersection(outline.buffer(_CLEAN * metre)).difference(rim.walls)
         groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
         mesh = without_block(mesh, groove, rim.seat - thickness, height)
     return mesh, outline

@@ -18,7 +18,16 @@ from grafu.realization.top.config import TopConfig
 from grafu.realization.top.coverage import Coverage, Views
 from grafu.realization.top.height_map import CellMask
 from grafu.realization.top.roles import Closed, Roles, triangles_of
-from grafu.realization.top.section import EMPTY, closed_up, filled, polygons_in, section, thinned, without_slivers
+from grafu.realization.top.section import (
+    EMPTY,
+    closed_up,
+    filled,
+    polygons_in,
+    section,
+    solid,
+    thinned,
+    without_slivers,
+)
 
 _NEAR_RIM = (0.03, 0.06)  # metres below and above a rim's height in which what carries the top is looked for
 _EVEN = 0.001  # metres: what differs by less carries together
@@ -29,6 +38,7 @@ _CARRIES = 0.15  # of the rim: what is enough to carry a top
 _RIM = 0.12  # metres around an opening that belong to its rim: a face frame, a post and a panel
 _SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be eased, a back may end lower
 _SPAN = 0.25  # metres: gaps beside an opening that a top spans
+_BOARD = 0.04  # metres: as thick as a board may be, of which a section shows both faces
 _KNEEHOLE = 1.3  # metres between two pedestals that one top spans
 _SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to which it was meant as a rectangle
 _FRONT = 0.08  # metres before the body in which a front belongs under the top
@@ -40,7 +50,7 @@ _TONGUE = 0.012  # metres: narrower pieces of a top are no top
 @final
 @dataclass(frozen=True, eq=False)
 class Rim:
-    """What carries a top: the height of its seat, the walls under it (as drawn), and the outline around them."""
+    """What carries a top: the height of its seat, the boards under it, and the outline around them."""
 
     seat: float
     walls: BaseGeometry
@@ -58,7 +68,7 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim 
     body = thinned(closed_up(walls.union(hollow), _SPAN * metre), metre)
     body = _joined(body, coverage, metre)
     body = _of_openings(_squared(body, _SQUARE * metre), coverage)
-    return Rim(seat, walls, body) if body.area > 0 else None
+    return Rim(seat, thinned(solid(walls, _BOARD * metre), metre), body) if body.area > 0 else None
 
 
 def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeometry:
@@ -70,7 +80,8 @@ def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeome
         if top < rim.seat - _REACH * metre or not _plan_box(mover).intersects(near):
             continue
         height = min(top, rim.seat) - 0.005 * metre
-        found.append(filled(section(mover.mesh.triangles, [height], metre)).intersection(near))
+        front = thinned(filled(section(mover.mesh.triangles, [height], metre)), metre)
+        found.append(front.intersection(near))
     if len(found) == 1:
         return rim.outline
     return _squared(closed_up(shapely.union_all(found), 2 * _FRONT * metre), _SQUARE * metre)

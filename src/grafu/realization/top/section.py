@@ -75,6 +75,11 @@ def _plain(polygon: Polygon, small: float) -> BaseGeometry:
     return polygon.convex_hull if max(high_x - low_x, high_y - low_y) <= small else Polygon(polygon.exterior)
 
 
+def solid(shape: BaseGeometry, width: float) -> BaseGeometry:
+    """Returns a section with what lies between lines up to `width` metres apart filled: boards, not rooms."""
+    return shape.buffer(0.5 * width, join_style="mitre").buffer(-0.5 * width, join_style="mitre")
+
+
 def without_slivers(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without tongues narrower than `width` metres; corners stay sharp."""
     return shape.buffer(-0.5 * width, join_style="mitre").buffer(0.5 * width, join_style="mitre").intersection(shape)
