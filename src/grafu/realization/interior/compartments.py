@@ -4,18 +4,16 @@ Cells say where there is room, rays where exactly it ends. A compartment is a bo
 none. It knows nothing of panels.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
-from grafu.geometry.free_space import Bounds, Grid, OneBox, cell_boxes, maximal_empty_boxes, without
 from grafu.realization.interior.config import InteriorConfig, Sizes
-from grafu.realization.interior.enclosure import FRONTS, LID, enclosed_cells, opened
-from grafu.realization.interior.occupied import Taken, taken_cells
+from grafu.realization.interior.enclosure import FRONTS, LID
+from grafu.realization.interior.occupied import taken_cells
+from grafu.realization.interior.rooms import find_rooms
 from grafu.realization.interior.surroundings import Surroundings
 from grafu.realization.scene import Scene
 
@@ -65,51 +63,13 @@ def find_compartments(scene: Scene, config: InteriorConfig = InteriorConfig()) -
     if not scene.parts or scene.unit <= 0:
         return ()
     sizes = config.sizes(scene.unit)
-    taken = taken_cells(scene, sizes)
-    rough = _rough_boxes(taken, sizes)
+    rough = find_rooms(taken_cells(scene, sizes), sizes)
     if not rough:
         return ()
     ends = np.array([(box.low, box.high) for _, box in rough])
     around = Surroundings(scene, Box(ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)), sizes.cell)
     made = (_compartment(box, opens, around, sizes, config) for opens, box in rough)
     return tuple(compartment for compartment in made if compartment is not None)[:_MOST]
-
-
-def _rough_boxes(taken: Taken, sizes: Sizes) -> list[tuple[str, Box]]:
-    """Returns disjoint boxes of enclosed free cells, and along which axis each opens."""
-    found: list[tuple[str, Box]] = []
-    used = np.zeros_like(taken.still)
-    steps = max(int(sizes.least_side / sizes.cell), 2)
-    for opens, cells in enclosed_cells(taken).items():
-        for box in _boxes_in(cells & ~used, steps):
-            used[tuple(slice(int(a), int(b)) for a, b in box.T)] = True
-            found.append((opens, Box(*(taken.origin + box * taken.cell))))
-    return found
-
-
-def _boxes_in(cells: Grid, steps: int) -> Iterator[OneBox]:
-    """Yields disjoint boxes of cells, no side shorter than `steps`, the largest of each connected room first."""
-    if not cells.any():
-        return
-    from scipy.ndimage import find_objects, label  # local: most commands need no interiors
-
-    least = np.full(3, float(steps))
-    names, _ = label(opened(cells, (steps, steps, steps)))
-    for number, region in enumerate(find_objects(names), start=1):
-        own = names[region] == number
-        start = np.array([s.start for s in region], dtype=np.float64)
-        whole = np.stack([np.zeros(3), np.array(own.shape, dtype=np.float64)])
-        empty = maximal_empty_boxes(whole, cell_boxes(~own).astype(np.float64), least)
-        for box in _largest_disjoint(empty, least):
-            yield box + start
-
-
-def _largest_disjoint(empty: Bounds, least: Scalars) -> Iterator[OneBox]:
-    """Yields the largest of maximal empty boxes, then the largest of what that leaves, and so on."""
-    while len(empty):
-        largest = empty[int(np.prod(empty[:, 1] - empty[:, 0], axis=1).argmax())]
-        yield largest
-        empty = without(empty, largest, least)
 
 
 def _compartment(

@@ -35,7 +35,7 @@ class InteriorConfig:
     """Free height that shirts on hangers need; wardrobes keep it."""
     most_panels: int = 8
     """Most panels that `auto` puts into one compartment."""
-    touch: float = 0.003
+    touch: float = 0.0015
     """Farthest that a wall may lie from a panel's edge and still carry it."""
     carried: float = 0.35
     """Share of each half of a panel's end that must touch the wall: pins at front and back hold a shelf."""
@@ -72,7 +72,7 @@ class InteriorConfig:
             shelf_pitch=_held(self.shelf_pitch, unit, 0.12, 0.42),
             divider_pitch=_held(self.divider_pitch, unit, 0.2, 0.5),
             hanging_height=_held(self.hanging_height, unit, 0.4, 1.2),
-            touch=_held(self.touch, unit, 0.001, 0.004),
+            touch=_held(self.touch, unit, 0.0008, 0.002),
             cell=unit / self.cells,
         )
 

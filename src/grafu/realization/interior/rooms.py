@@ -1,0 +1,96 @@
+"""Disjoint boxes of free cells that lie between walls: where compartments may be, to the cell. It casts no rays.
+
+Of all maximal empty boxes the largest that has a wall on both sides is taken, then the largest of what is left: so a
+vase in a cabinet does not cost it the room above the vase. What is left in front of a vase, open to a room that was
+taken, is no room of its own.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.box import Box
+from grafu.geometry.free_space import Bounds, Grid, OneBox, cell_boxes, maximal_empty_boxes, without
+from grafu.realization.interior.config import Sizes
+from grafu.realization.interior.enclosure import enclosed_cells, opened
+from grafu.realization.interior.occupied import Taken
+
+_NEAR = 10  # cells beyond a side within which its wall must be: brackets stand before it, or it runs askew
+_WALLED = 0.4  # of a side: less than what rays ask for later, since cells see less
+_OPEN = 0.5  # of a face open to a room that was taken: no room of its own
+_SIDES = {"z": (0, 1), "y": (0,), "x": (1,)}  # the axes along which walls must stand on both sides
+
+
+@final
+@dataclass
+class _Search:
+    """What is taken, and the cells of the rooms found so far; it changes as rooms are found."""
+
+    taken: Taken
+    steps: int
+    used: Grid = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.used = np.zeros_like(self.taken.still)
+
+
+def find_rooms(taken: Taken, sizes: Sizes) -> list[tuple[str, Box]]:
+    """Returns disjoint boxes of enclosed free cells (metres), each with the axis along which it opens."""
+    search = _Search(taken, max(int(sizes.least_side / sizes.cell), 2))
+    found: list[tuple[str, Box]] = []
+    for opens, cells in enclosed_cells(taken).items():
+        for box in _rooms_in(cells & ~search.used, opens, search):
+            low, high = taken.origin + box * taken.cell
+            found.append((opens, Box(low, high)))
+    return found
+
+
+def _rooms_in(cells: Grid, opens: str, search: _Search) -> Iterator[OneBox]:
+    """Yields boxes of cells, no side shorter than the least, one connected space after the other."""
+    if not cells.any():
+        return
+    from scipy.ndimage import find_objects, label  # local: most commands need no interiors
+
+    least = np.full(3, float(search.steps))
+    names, _ = label(opened(cells, (search.steps,) * 3))
+    for number, region in enumerate(find_objects(names), start=1):
+        own = names[region] == number
+        start = np.array([s.start for s in region], dtype=np.float64)
+        whole = np.stack([np.zeros(3), np.array(own.shape, dtype=np.float64)])
+        empty = maximal_empty_boxes(whole, cell_boxes(~own).astype(np.float64), least)
+        while (box := _largest_room(empty, start, opens, search)) is not None:
+            placed = box + start
+            search.used[_slices(placed)] = True
+            yield placed
+            empty = without(empty, box, least)
+
+
+def _largest_room(empty: Bounds, start: np.ndarray, opens: str, search: _Search) -> OneBox | None:
+    """Returns the largest of some boxes that is a room."""
+    order = np.argsort(-np.prod(empty[:, 1] - empty[:, 0], axis=1), kind="stable")
+    return next((empty[k] for k in order if _is_room(empty[k] + start, opens, search)), None)
+
+
+def _is_room(box: OneBox, opens: str, search: _Search) -> bool:
+    walls = search.taken.walls
+    for axis in _SIDES[opens]:
+        for is_high in (False, True):
+            beyond = walls[_beyond(box, axis, is_high, _NEAR)]
+            if not beyond.size or beyond.any(axis=axis).mean() < _WALLED:
+                return False
+    layers = (search.used[_beyond(box, axis, is_high, 1)] for axis in range(3) for is_high in (False, True))
+    return all(not layer.size or layer.mean() < _OPEN for layer in layers)
+
+
+def _beyond(box: OneBox, axis: int, is_high: bool, depth: int) -> tuple[slice, ...]:
+    """Returns the cells in so many layers outside one face of a box of cells."""
+    found = list(_slices(box))
+    low, high = found[axis].start, found[axis].stop
+    found[axis] = slice(high, high + depth) if is_high else slice(max(low - depth, 0), low)
+    return tuple(found)
+
+
+def _slices(box: OneBox) -> tuple[slice, ...]:
+    return tuple(slice(int(a), int(b)) for a, b in box.T)
