@@ -23,6 +23,7 @@ from grafu.realization.scene import Scene
 from grafu.vocabulary import JointType
 
 _LEVEL = 0.3  # the most of a unit direction that points up where a front stands upright
+_SQUARE = float(np.cos(np.radians(8.0)))  # how near to an axis of the object a front's way is taken to be along it
 _SAME_WAY = 0.97  # cosine between the directions of two fronts of one view
 _INNER = np.linspace(0.15, 0.85, 7)  # shares of a front's sides: its edges lap onto the case
 _DEEP = 24  # places along the depth at which walls are felt for
@@ -67,7 +68,8 @@ class Bay(ArrayValue):
     """A space behind fronts: its low and high corner in the view, from the walls' front edges to their rear ones.
 
     `outline` is what the fronts themselves cover: x and z from and to. `walled` is the share of the depth at which
-    walls stand on both sides; `has_door` whether one of the fronts is a door, `inset` whether they lie between them.
+    walls stand on both sides; `has_door` whether one of the fronts is a door, `inset` whether they lie between them,
+    `lowest` how high the lowest of them is.
     """
 
     movers: tuple[str, ...]
@@ -77,6 +79,7 @@ class Bay(ArrayValue):
     walled: float
     has_door: bool
     inset: bool
+    lowest: float
 
     def joined(self, other: "Bay") -> "Bay":
         """Returns both as one."""
@@ -90,6 +93,7 @@ class Bay(ArrayValue):
             min(self.walled, other.walled),
             self.has_door or other.has_door,
             self.inset and other.inset,
+            self.lowest if a[2] < b[2] else other.lowest,
         )
 
 
@@ -132,7 +136,10 @@ def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
     if abs(float(way[2])) > _LEVEL:
         return None
     level = vec3(float(way[0]), float(way[1]), 0.0)
-    return level / np.linalg.norm(level)
+    level = level / np.linalg.norm(level)
+    nearest = int(np.argmax(np.abs(level)))  # carved leaves lie a little crooked in their boxes
+    square = np.sign(level[nearest]) * np.eye(3)[nearest]
+    return square if float(square @ level) > _SQUARE else level
 
 
 def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, movers: tuple[str, ...]) -> View:
@@ -182,11 +189,22 @@ def _bay(view: View, scene: Scene, mover: str, is_door: bool, config: CarcassCon
     if end - start < config.least_depth * scene.unit:
         return None
     sides = [_walls(view, x, depths[both], z, sign) for sign in (-1.0, 1.0)]
-    x0, x1 = (x + sign * _innermost(found) for sign, found in zip((-1.0, 1.0), sides, strict=True))
+    x0, x1 = (
+        x + sign * float(np.median(found[np.isfinite(found)])) for sign, found in zip((-1.0, 1.0), sides, strict=True)
+    )
     walled = float(both[first : last + 1].mean()) * (end - start) / depth
     outline = np.array([low[0], high[0], low[2], high[2]])
     inset = start < float(low[1]) + 0.5 * min(float(high[1] - low[1]), _FRONT)
-    return Bay((mover,), vec3(x0, start, outline[2]), vec3(x1, end, outline[3]), outline, walled, is_door, inset)
+    return Bay(
+        (mover,),
+        vec3(x0, start, outline[2]),
+        vec3(x1, end, outline[3]),
+        outline,
+        walled,
+        is_door,
+        inset,
+        float(high[2] - low[2]),
+    )
 
 
 def _walls(view: View, x: float, depths: Scalars, z: np.ndarray, sign: float) -> np.ndarray:
@@ -207,9 +225,3 @@ def _refined(view: View, x: float, z: np.ndarray, span: tuple[float, float]) -> 
     depths = np.linspace(*span, _FINE)
     both = _between(view, x, depths, z)
     return float(depths[int(np.argmax(both))]) if both.any() else span[1]
-
-
-def _innermost(distances: np.ndarray) -> float:
-    """Returns the least distance that is no odd one out: what a tenth of the rays fall short of."""
-    found = np.sort(distances[np.isfinite(distances)])
-    return float(found[len(found) // 10])

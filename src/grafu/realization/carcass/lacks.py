@@ -22,7 +22,10 @@ from grafu.vocabulary import PartLabel
 DEFAULT = CarcassConfig()
 
 _GRID = np.linspace(0.12, 0.88, 13)  # shares of a bay's sides at which rays are cast: walls and edges lie outside
-_BELOW = (0.2, 0.15)  # share of a bay's height, and of the object's largest side, from which a bottom is looked for
+_BELOW = (
+    0.2,
+    0.15,
+)  # share of the lowest front's height, and of the object's largest side, from which a bottom is looked for
 
 
 @final
@@ -93,9 +96,9 @@ def _back_covered(view: View, bay: Bay) -> float:
 
 def _bottom_covered(view: View, bay: Bay, unit: float) -> float:
     """Returns the share of a bay's bottom at which something stands below it."""
-    (x0, y0, z0), (x1, y1, z1) = bay.low.tolist(), bay.high.tolist()
+    (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
     x, y = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), y0 + _GRID * (y1 - y0), indexing="ij"))
-    start = z0 + min(_BELOW[0] * (z1 - z0), _BELOW[1] * unit)
+    start = z0 + min(_BELOW[0] * bay.lowest, _BELOW[1] * unit)
     hits = view.cast(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     return float(np.isfinite(hits).mean())
 

@@ -18,8 +18,8 @@ from grafu.geometry.raycast import RayCaster
 from grafu.realization.drawer_box.config import DrawerBoxConfig
 from grafu.realization.rail.body_region import DrawerFrame
 
-_COLUMNS = (40, 20)  # across and upwards
-_SLICES = 10  # along the way into the cabinet
+_COLUMNS = (32, 16)  # across and upwards
+_SLICES = 6  # along the way into the cabinet
 _LEVELS = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)  # of all columns' depths: those that a box may end at
 _CROOKED = 0.02  # share of the depth by which a back may lie crooked before its columns differ in depth
 _INSIDE = 5e-4  # metres by which the front's outline is drawn in: what merely touches it is not in the way
