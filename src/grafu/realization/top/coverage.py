@@ -117,14 +117,20 @@ def _between(stands: CellMask) -> CellMask:
 
 def _openings(views: Views, recess: float, gallery: float) -> tuple[Heights, CellMask]:
     """Returns for each cell the height of its rim, and whether what covers it lies too far below that."""
-    ahead = [np.maximum.accumulate(views.wall, axis=a) for a in (0, 1)]
-    behind = [np.flip(np.maximum.accumulate(np.flip(views.wall, a), axis=a), a) for a in (0, 1)]
-    around: Float[np.ndarray, "4 x y"] = np.maximum(np.sort(np.stack([*ahead, *behind]), axis=0), views.floor)
+    around, fixed = _around(views.wall, views.floor), _around(views.cover, views.floor)
     covered = np.where(np.isfinite(views.cover), views.cover, views.floor)
     enclosed, niche = around[0] - covered > recess, around[1] - covered > gallery
     niche &= around[1] - views.floor >= _NICHE * _height(views)
     rim = np.where(niche, around[1], around[0])
-    return rim, views.region & (enclosed | niche)
+    held = fixed[2] >= rim - recess  # by two sides at least: the four walls of an open drawer are no rim
+    return rim, views.region & (enclosed | niche) & held
+
+
+def _around(heights: Heights, floor: float) -> Float[np.ndarray, "4 x y"]:
+    """Returns the greatest heights that one meets from each cell in the four directions, the least first."""
+    ahead = [np.maximum.accumulate(heights, axis=a) for a in (0, 1)]
+    behind = [np.flip(np.maximum.accumulate(np.flip(heights, a), axis=a), a) for a in (0, 1)]
+    return np.maximum(np.sort(np.stack([*ahead, *behind]), axis=0), floor)
 
 
 def _by_level(opened: CellMask, rim: Heights, step: float) -> list[tuple[float, CellMask]]:

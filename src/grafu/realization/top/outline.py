@@ -127,8 +127,8 @@ def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: f
 def one_piece(shape: BaseGeometry, coverage: Coverage, metre: float) -> Polygon | None:
     """Returns the piece of a slab's outline that covers most of the opening, without tongues; None if none does."""
     pieces = [p for p in polygons_in(without_slivers(shape, _TONGUE * metre)) if p.area > 0]
-    points = shapely.points(coverage.grid.centers(coverage.opened))
-    best = max(pieces, key=lambda p: int(shapely.contains(p, points).sum()), default=None)
+    x, y = coverage.grid.centers(coverage.opened).T
+    best = max(pieces, key=lambda p: int(shapely.contains_xy(p, x, y).sum()), default=None)
     if best is None:
         return None
     plain = shapely.simplify(best, 2e-4 * metre)
@@ -200,8 +200,8 @@ def _joined(body: BaseGeometry, coverage: Coverage, metre: float) -> BaseGeometr
 
 def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:
     """Returns the polygons of a shape that hold a share of the openings; all of it, where there are several."""
-    points = shapely.points(coverage.grid.centers(coverage.opened))
-    held = [p for p in polygons_in(shape) if shapely.contains(p, points).sum() > 0.02 * len(points)]
+    x, y = coverage.grid.centers(coverage.opened).T
+    held = [p for p in polygons_in(shape) if shapely.contains_xy(p, x, y).sum() > 0.02 * len(x)]
     return shapely.union_all(held) if held else EMPTY
 
 

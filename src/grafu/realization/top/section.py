@@ -39,8 +39,16 @@ def section(triangles: Float[np.ndarray, "n 3 3"], heights: Iterable[float], met
     lines = np.concatenate([section_lines(triangles, z) for z in heights])
     if not len(lines):
         return EMPTY
-    drawn = shapely.unary_union(shapely.linestrings(_few(lines, metre)))
-    return drawn.buffer(_HAIR * metre, cap_style="square", join_style="mitre")
+    return shapely.union_all(shapely.polygons(_widened(_few(lines, metre), _HAIR * metre)))
+
+
+def _widened(lines: Fewer, half: float) -> Float[np.ndarray, "f 4 2"]:
+    """Returns the rectangle around each line, `half` wider on all four sides."""
+    along = lines[:, 1] - lines[:, 0]
+    along = half * along / np.linalg.norm(along, axis=1, keepdims=True)
+    left = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    a, b = lines[:, 0] - along, lines[:, 1] + along
+    return np.stack([a - left, b - left, b + left, a + left], axis=1)
 
 
 def _few(lines: Segments, metre: float) -> Fewer:
@@ -65,8 +73,13 @@ def filled(shape: BaseGeometry) -> BaseGeometry:
 def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without holes, and without bays and gaps up to `width` metres wide; corners stay sharp."""
     plain = [_plain(p, 0.1 * width) for p in polygons_in(shape)]
-    grown = filled(shapely.union_all(plain).buffer(0.5 * width, join_style="mitre"))
-    return filled(grown.buffer(-0.5 * width, join_style="mitre"))
+    return filled(_moved(filled(_moved(shapely.union_all(plain), 0.5 * width)), -0.5 * width))
+
+
+def _moved(shape: BaseGeometry, distance: float) -> BaseGeometry:
+    """Returns a shape with its edges moved outwards by a distance, corners sharp."""
+    with np.errstate(invalid="ignore"):  # of edges that meet at no angle, which come out right
+        return shape.buffer(distance, join_style="mitre")
 
 
 def _plain(polygon: Polygon, small: float) -> BaseGeometry:
@@ -77,17 +90,17 @@ def _plain(polygon: Polygon, small: float) -> BaseGeometry:
 
 def solid(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a section with what lies between lines up to `width` metres apart filled: boards, not rooms."""
-    return shape.buffer(0.5 * width, join_style="mitre").buffer(-0.5 * width, join_style="mitre")
+    return _moved(_moved(shape, 0.5 * width), -0.5 * width)
 
 
 def without_slivers(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without tongues narrower than `width` metres; corners stay sharp."""
-    return shape.buffer(-0.5 * width, join_style="mitre").buffer(0.5 * width, join_style="mitre").intersection(shape)
+    return _moved(_moved(shape, -0.5 * width), 0.5 * width).intersection(shape)
 
 
 def thinned(shape: BaseGeometry, metre: float) -> BaseGeometry:
     """Returns a shape less the hair's width that `section` gave it."""
-    return shape.buffer(-_HAIR * metre, join_style="mitre")
+    return _moved(shape, -_HAIR * metre)
 
 
 def polygons_in(shape: BaseGeometry) -> list[Polygon]:
