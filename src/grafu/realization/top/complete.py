@@ -24,7 +24,7 @@ from grafu.realization.top.evidence import basins_of, cells_of, named_cells, pla
 from grafu.realization.top.freedom import freedom_of, thick_enough
 from grafu.realization.top.outline import one_piece, over_the_base, overhanging, rim_of, what_pierces, with_fronts
 from grafu.realization.top.roles import Roles, roles_of
-from grafu.realization.top.section import EMPTY, closed_up, section, without_slivers
+from grafu.realization.top.section import EMPTY, closed_up, offset, section, without_slivers
 from grafu.realization.top.slab import slab_mesh, with_corners, without_block
 from grafu.vocabulary import PartLabel
 
@@ -136,7 +136,7 @@ def _slab(
         return None
     mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape)
     for region, height in free.grooves:
-        below = region.intersection(outline.buffer(_CLEAN * metre)).difference(rim.walls)
+        below = region.intersection(offset(outline, _CLEAN * metre)).difference(rim.walls)
         groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
         mesh = without_block(mesh, groove, rim.seat - thickness, height)
     return mesh, outline

@@ -13,7 +13,7 @@ from shapely.geometry.base import BaseGeometry
 from grafu.geometry.transform import transform_points
 from grafu.realization.limits import motion_about
 from grafu.realization.top.roles import Closed
-from grafu.realization.top.section import EMPTY, section_lines
+from grafu.realization.top.section import EMPTY, offset, section_lines
 from grafu.vocabulary import JointType
 
 _LEFT = 0.4  # of the thickness that must be left over a groove
@@ -48,7 +48,7 @@ def freedom_of(
             cuts.append(_beyond(mover, outline, metre))
         if top <= seat - gap:
             continue
-        way = _swept(mover, seat - gap).buffer(gap, join_style="mitre")
+        way = offset(_swept(mover, seat - gap), gap)
         if not way.intersects(outline):
             continue
         if top + gap - seat > (1 - _LEFT) * thickness:

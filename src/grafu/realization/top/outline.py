@@ -22,6 +22,7 @@ from grafu.realization.top.section import (
     EMPTY,
     closed_up,
     filled,
+    offset,
     polygons_in,
     section,
     solid,
@@ -73,7 +74,7 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim 
 
 def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeometry:
     """Returns a rim's outline with the doors and drawers before it whose upper ends come near it."""
-    near = rim.outline.buffer(_FRONT * metre, join_style="mitre")
+    near = offset(rim.outline, _FRONT * metre)
     found = [rim.outline]
     for mover in movers:
         top = float(mover.mesh.box.high[2])
@@ -187,7 +188,7 @@ def _squared(shape: BaseGeometry, tolerance: float) -> BaseGeometry:
         rectangle = upright if upright.area <= 1.02 * turned.area else turned
         corners = shapely.points(np.asarray(rectangle.exterior.coords)[:-1])
         is_meant = float(shapely.distance(polygon, corners).max()) <= tolerance
-        is_full = rectangle.difference(polygon.buffer(2 * tolerance)).area <= 0.02 * rectangle.area
+        is_full = rectangle.difference(offset(polygon, 2 * tolerance)).area <= 0.02 * rectangle.area
         made.append(rectangle if is_meant and is_full else polygon)
     return shapely.union_all(made) if made else EMPTY
 

@@ -73,12 +73,12 @@ def filled(shape: BaseGeometry) -> BaseGeometry:
 def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without holes, and without bays and gaps up to `width` metres wide; corners stay sharp."""
     plain = [_plain(p, 0.1 * width) for p in polygons_in(shape)]
-    return filled(_moved(filled(_moved(shapely.union_all(plain), 0.5 * width)), -0.5 * width))
+    return filled(offset(filled(offset(shapely.union_all(plain), 0.5 * width)), -0.5 * width))
 
 
-def _moved(shape: BaseGeometry, distance: float) -> BaseGeometry:
+def offset(shape: BaseGeometry, distance: float) -> BaseGeometry:
     """Returns a shape with its edges moved outwards by a distance, corners sharp."""
-    with np.errstate(invalid="ignore"):  # of edges that meet at no angle, which come out right
+    with np.errstate(invalid="ignore", divide="ignore"):  # of edges that meet at no angle, which come out right
         return shape.buffer(distance, join_style="mitre")
 
 
@@ -90,17 +90,17 @@ def _plain(polygon: Polygon, small: float) -> BaseGeometry:
 
 def solid(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a section with what lies between lines up to `width` metres apart filled: boards, not rooms."""
-    return _moved(_moved(shape, 0.5 * width), -0.5 * width)
+    return offset(offset(shape, 0.5 * width), -0.5 * width)
 
 
 def without_slivers(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without tongues narrower than `width` metres; corners stay sharp."""
-    return _moved(_moved(shape, -0.5 * width), 0.5 * width).intersection(shape)
+    return offset(offset(shape, -0.5 * width), 0.5 * width).intersection(shape)
 
 
 def thinned(shape: BaseGeometry, metre: float) -> BaseGeometry:
     """Returns a shape less the hair's width that `section` gave it."""
-    return _moved(shape, -_HAIR * metre)
+    return offset(shape, -_HAIR * metre)
 
 
 def polygons_in(shape: BaseGeometry) -> list[Polygon]:

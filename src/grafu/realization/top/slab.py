@@ -9,11 +9,12 @@ from shapely.geometry.polygon import orient
 
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.top.config import TopShape
-from grafu.realization.top.section import polygons_in
+from grafu.realization.top.section import offset, polygons_in
 
 Ring = Float[np.ndarray, "n 2"]
 
 _ARRIS = 0.35  # of the thickness: how far the upper edge is broken
+_FINE = 1e-5  # of a slab's length: edges shorter than that are no edges
 _STEPS = 4  # of a quarter round
 _CORNER = 0.02  # metres: how far the corners are broken, seen from above
 
@@ -24,7 +25,7 @@ def with_corners(outline: BaseGeometry, shape: TopShape, metre: float) -> BaseGe
         return outline
     least = min((min(p.minimum_rotated_rectangle.exterior.length / 8, 1e9) for p in polygons_in(outline)), default=0.0)
     radius = min(_CORNER * metre, 0.2 * least)
-    inner = outline.buffer(-radius, join_style="mitre")
+    inner = offset(outline, -radius)
     if shape == "rounded":
         return inner.buffer(radius, join_style="round", quad_segs=_STEPS)
     return inner.buffer(radius, join_style="bevel")
@@ -53,7 +54,7 @@ def without_block(mesh: TriangleMesh, region: BaseGeometry, low: float, high: fl
     body = _manifold(mesh)
     for polygon in polygons_in(region):
         body = body - _manifold(slab_mesh(polygon, low, high, "rectangle"))
-    cut = body.to_mesh()
+    cut = body.simplify(_FINE * float(mesh.box.size.max())).to_mesh()
     found = TriangleMesh(np.asarray(cut.vert_properties, np.float64)[:, :3], np.asarray(cut.tri_verts, np.int64))
     return found if len(found.faces) else mesh
 
