@@ -314,3 +314,14 @@ def test_an_empty_scene_has_no_compartments() -> None:
 def test_sizes_must_be_positive(field: str) -> None:
     with pytest.raises(ValueError, match=field):
         InteriorConfig(**{field: 0.0})
+
+
+def test_two_panels_never_stand_in_one_place() -> None:
+    scene = scene_of(*CASE)
+    found = find_compartments(scene)
+
+    result = furnish([*found, *found], parse_interior("dividers=1"), scene)
+
+    first, second = (addition.part.box for addition in result.additions)
+    assert first.axis_gaps(second).max() > 0
+    assert faults_of_panels(result.additions, scene) == []

@@ -13,7 +13,7 @@ from grafu.geometry.box import Box
 from grafu.realization.interior.compartments import Compartment
 from grafu.realization.interior.config import Sizes
 
-_ALIKE = 0.1  # of a side, by which two compartments of one column may differ
+_ALIKE = 0.7  # of the smaller side, by which two compartments of one column overlap: things in one make it narrower
 _BOARD = 3.5  # panel thicknesses that may lie between two compartments of one column
 _HANGING_DEPTH = 0.42  # metres: hangers are 0.42 to 0.45 wide
 _HAT = 0.3  # metres that a hat shelf leaves above itself at least
@@ -125,9 +125,7 @@ def _follows(one: Compartment, other: Compartment, axis: int, sizes: Sizes) -> b
         return False
     gap = float(other.box.low[axis] - one.box.high[axis])
     across = [k for k in range(3) if k not in (axis, one.depth_axis)]
-    alike = all(
-        _overlap(one.box, other.box, k) >= (1 - _ALIKE) * max(one.box.size[k], other.box.size[k]) for k in across
-    )
+    alike = all(_overlap(one.box, other.box, k) >= _ALIKE * min(one.box.size[k], other.box.size[k]) for k in across)
     return alike and -sizes.cell <= gap <= _BOARD * sizes.thickness
 
 

@@ -30,6 +30,9 @@ class Clearing:
 
     def blocker(self, mesh: TriangleMesh) -> str:
         """Returns the id of something that a panel would cut into or stop on its way; empty: it stands free."""
+        for other in self._panels:  # alike and in one place, two panels would not cut each other's surface
+            if (mesh.box.axis_gaps(other.collider.box) < -self._depth).all():
+                return other.id
         body = MovingBody(mesh, self._depth)
         body.place(np.eye(4))
         still = [*self._scene.static_obstacles, *self._panels, *self._hardware, *self._at_rest]

@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.interior.arrangement import (
@@ -27,7 +27,7 @@ from grafu.realization.interior.compartments import Compartment
 from grafu.realization.interior.config import InteriorConfig, Sizes
 from grafu.realization.interior.hints import placed_hints
 from grafu.realization.interior.occupied import is_drawer
-from grafu.realization.interior.panels import BEYOND, Place, cut_panel, moved_to
+from grafu.realization.interior.panels import BEYOND, Place, Walls, cut_panel, moved_to
 from grafu.realization.interior.request import InteriorKind, InteriorRequest, PanelHint
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import Scene
@@ -82,16 +82,27 @@ def furnish(
         return Furnished((), (Unfurnished(None, None, why_inapplicable(scene)),))
     sizes = config.sizes(scene.unit)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
-    clearing = clearing_of(scene)
+    if all(arrangement == Arrangement() for arrangement in wanted):
+        return Furnished((), tuple(refused))
+    clearing, walls = clearing_of(scene), _walls(compartments, scene, sizes)
     panels: list[_Panel] = []
     for number, arrangement in enumerate(wanted):
-        maker = _Maker(number, compartments[number], scene, clearing, sizes, config)
+        maker = _Maker(number, compartments[number], walls, clearing, sizes, config)
         for outcome in maker.panels(arrangement):
             if isinstance(outcome, _Panel):
                 panels.append(outcome)
             else:
                 refused.append(outcome)
     return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+
+
+def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> Walls:
+    """Returns the still meshes in and around some compartments."""
+    whole = Box(
+        np.min([compartment.box.low for compartment in compartments], axis=0),
+        np.max([compartment.box.high for compartment in compartments], axis=0),
+    )
+    return Walls((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
 
 
 def why_inapplicable(scene: Scene) -> str:
@@ -150,7 +161,7 @@ class _Maker:
         self,
         number: int,
         compartment: Compartment,
-        scene: Scene,
+        walls: Walls,
         clearing: Clearing,
         sizes: Sizes,
         config: InteriorConfig,
@@ -160,8 +171,7 @@ class _Maker:
         self._clearing = clearing
         self._sizes = sizes
         self._config = config
-        self._still = scene.static_mesh_near(compartment.box, BEYOND * sizes.cell)
-        self._walls = RayCaster(self._still)
+        self._walls = walls
 
     def panels(self, wanted: Arrangement) -> Iterator[_Panel | Unfurnished]:
         """Yields the dividers, then the shelves between them, or why one is missing."""
@@ -170,8 +180,8 @@ class _Maker:
             if isinstance(outcome, _Panel):
                 dividers.append(outcome)
             yield outcome
-        if dividers:
-            self._walls = RayCaster(merge_meshes([self._still, *(panel.mesh for panel in dividers)]))
+        for panel in dividers:
+            self._walls = self._walls.and_also(panel.mesh)
         for cell in _between(self._whole, [panel.mesh.box for panel in dividers]):
             yield from self._row(cell, PartLabel.SHELF, wanted.shelves, wanted.shelf_at)
 

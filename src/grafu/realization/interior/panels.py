@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import Scalars
+from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import SomePoints
 from grafu.geometry.mesh import TriangleMesh
@@ -50,7 +50,24 @@ class Place:
         return 3 - self.stack - self.compartment.depth_axis
 
 
-def cut_panel(place: Place, walls: RayCaster, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | str:
+@final
+@dataclass(frozen=True, eq=False)
+class Walls:
+    """The meshes that panels may rest on, prepared for rays; not a value."""
+
+    casters: tuple[RayCaster, ...]
+
+    def along(self, origins: Points, direction: Vec3) -> Scalars:
+        """Returns the distances of many origins along one unit direction to the first face hit; infinity: none."""
+        nearest = [caster.along(origins, direction) for caster in self.casters]
+        return np.minimum.reduce(nearest)
+
+    def and_also(self, mesh: TriangleMesh) -> "Walls":
+        """Returns these walls and one more mesh."""
+        return Walls((*self.casters, RayCaster(mesh)))
+
+
+def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | str:
     """Returns a panel that touches the walls at both ends, or why there is none. `walls` are the still meshes."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     inward = -1.0 if place.compartment.opening % 2 else 1.0
@@ -72,7 +89,7 @@ def cut_panel(place: Place, walls: RayCaster, sizes: Sizes, config: InteriorConf
     return _prism(place, sizes.thickness, (front, back), ends[0], ends[1])
 
 
-def _back(place: Place, walls: RayCaster, sizes: Sizes, inward: float) -> float:
+def _back(place: Place, walls: Walls, sizes: Sizes, inward: float) -> float:
     """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     end = float(box.low[depth] if inward < 0 else box.high[depth])
@@ -87,7 +104,7 @@ def _back(place: Place, walls: RayCaster, sizes: Sizes, inward: float) -> float:
     return float(origins[0, depth] + inward * found[hit].min())
 
 
-def _distances(place: Place, walls: RayCaster, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
+def _distances(place: Place, walls: Walls, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
     """Returns how far the wall is from the compartment's middle along a panel's end; infinity where there is none."""
     origins = _origins(place, sizes.thickness, place.compartment.depth_axis, along)
     direction = np.zeros(3)

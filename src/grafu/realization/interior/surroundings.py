@@ -3,7 +3,6 @@
 It knows no compartments: a box goes in, six faces come out.
 """
 
-from collections import Counter
 from dataclasses import dataclass
 from typing import final
 
@@ -19,6 +18,7 @@ _RAYS = 9  # along each side of a face
 _MARGIN = 0.94  # of a face: rays keep off its rim, where neighbours meet
 _REACH = 1.05  # cells beyond a box of cells: what bounds it lies in the next one
 _NEAR = 10.0  # cells behind the nearest hit at which a wall still counts: brackets stand before it, or it runs askew
+_SKIN = 0.05  # cells around a part's box in which a hit is still on the part
 _WALL = 0.1  # share of the hits on a face that makes a part one of its walls
 
 
@@ -42,7 +42,10 @@ class Surroundings:
         reach = near.grown((_NEAR + 2) * cell)
         self._still = RayCaster(_within([part.mesh for part in scene.static_parts], reach))
         self._moving = RayCaster(_within([scene.moving_mesh(mover) for mover in scene.movers], reach))
-        self._parts = scene.static_parts
+        own = [part for part in scene.static_parts if part.box.overlaps(reach)]
+        self._names = np.array([part.id for part in own], dtype=object)
+        self._lows = np.array([part.box.low for part in own]).reshape(-1, 3) - _SKIN * cell
+        self._highs = np.array([part.box.high for part in own]).reshape(-1, 3) + _SKIN * cell
         self._movers = [(mover, scene.moving_mesh(mover).box) for mover in scene.movers]
 
     def faces_of(self, box: Box) -> tuple[Face, ...]:
@@ -71,12 +74,10 @@ class Surroundings:
         """Returns the ids of the still parts on which points lie, by their boxes, the most frequent first."""
         if not len(points):
             return ()
-        count: Counter[str] = Counter()
-        tolerance = 0.05 * self._cell
-        for part in self._parts:
-            if number := int(part.box.grown(tolerance).contains(points).sum()):
-                count[part.id] = number
-        return tuple(name for name, number in count.most_common() if number >= _WALL * len(points))
+        inside = (points[:, None] >= self._lows).all(axis=2) & (points[:, None] <= self._highs).all(axis=2)
+        counts = inside.sum(axis=0)
+        order = np.argsort(-counts, kind="stable")
+        return tuple(self._names[k] for k in order if counts[k] >= _WALL * len(points))
 
     def within_walls(self, box: Box, opening: int) -> Box:
         """Returns an open box drawn back, or let out by up to two cells, to where the walls beside it begin."""
