@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from grafu.templates.handle import HandleTemplate
     from grafu.templates.template import Gallery
 
 
@@ -20,3 +21,16 @@ def open_gallery(folder: Path | None) -> "Gallery":
     from grafu.templates.user import load_gallery
 
     return builtin_gallery().extended(load_gallery(folder))
+
+
+def open_handles(folder: Path | None) -> "dict[str, HandleTemplate]":
+    """Returns all handles by id, the user's own in `folder` first; one of theirs replaces a built-in one of its name.
+
+    Raises:
+        TemplateError: if a handle in the folder is at fault.
+    """
+    from grafu.templates.handles import HANDLES
+    from grafu.templates.user_handles import load_handles
+
+    own = load_handles(folder) if folder is not None else {}
+    return {**own, **{template.id: template for template in HANDLES if template.id not in own}}

@@ -5,11 +5,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from grafu.templates.handle import HandleTemplate
     from grafu.templates.template import Gallery, HingeModel, RailModel
 
 _DESCRIPTION = """\
-Lists the hinges and rails that can be installed. With --out it writes each as DIR/<id>.glb, which opens and closes, and
-DIR/templates.png, a page of pictures closed and open.
+Lists the hinges and rails that can be installed and the handles that can be added. With --out it writes each mechanism
+as DIR/<id>.glb, which opens and closes, and DIR/templates.png, a page of pictures closed and open; and each handle as
+DIR/handle_<id>.glb, and DIR/handles.png.
 """
 _EXAMPLES = """\
 examples:
@@ -22,7 +26,7 @@ examples:
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
     """Adds the verb and returns its parser."""
     parser = verbs.add_parser(
-        "templates", help="list and render hinges and rails", description=_DESCRIPTION, epilog=_EXAMPLES
+        "templates", help="list and render hinges, rails and handles", description=_DESCRIPTION, epilog=_EXAMPLES
     )
     parser.add_argument("--out", type=Path, metavar="DIR", help="write GLB files and a contact sheet here")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own, listed first")
@@ -37,15 +41,18 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the user's templates are at fault or the output cannot be written.
     """
-    from grafu.cli.gallery import open_gallery
+    from grafu.cli.gallery import open_gallery, open_handles
 
-    gallery = open_gallery(options.templates)
+    gallery, handles = open_gallery(options.templates), open_handles(options.templates)
     _print_gallery(gallery)
+    _print_handles(handles.values())
     if options.out is not None:
-        from grafu.export.files import write_files
+        from grafu.export.files import ExportFiles, write_files
         from grafu.export.gallery import gallery_files
+        from grafu.export.handle_gallery import handle_files
 
-        write_files(gallery_files(gallery), options.out, options.overwrite)
+        contents = {**gallery_files(gallery).contents, **handle_files(list(handles.values())).contents}
+        write_files(ExportFiles(contents), options.out, options.overwrite)
         print(f"written to {options.out}")
     return 0
 
@@ -59,6 +66,19 @@ def _print_gallery(gallery: "Gallery") -> None:
     models: list[HingeModel | RailModel] = [*gallery.hinges, *gallery.rails]
     for model in models:
         table.add_row(*(escape(cell) for cell in (model.id, model.title, model.mechanism, *_size_and_range(model))))
+    wide_console().print(table)
+
+
+def _print_handles(handles: "Iterable[HandleTemplate]") -> None:
+    from rich.markup import escape
+
+    from grafu.cli.tables import plain_table, wide_console
+
+    table = plain_table("id", "title", "family", "natural size (mm)", "longest (mm)")
+    for handle in handles:
+        size = f"{handle.natural.length * 1000:.0f} long, stands out {handle.natural.protrusion * 1000:.0f}"
+        longest = f"{handle.longest * 1000:.0f}"
+        table.add_row(*(escape(cell) for cell in (handle.id, handle.title, handle.family, size, longest)))
     wide_console().print(table)
 
 

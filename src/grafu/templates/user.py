@@ -28,6 +28,7 @@ from grafu.templates.annotation import (
     read_annotation,
     snap_plane,
 )
+from grafu.templates.handle_annotation import is_handle
 from grafu.templates.template import (
     Gallery,
     HingeModel,
@@ -52,13 +53,16 @@ Ends = tuple[TemplateEnd, TemplateEnd]
 def load_gallery(folder: Path) -> Gallery:
     """Returns the templates in the sub-folders of `folder` that hold a `template.json`; a template's id is its folder.
 
+    Handles are left to `user_handles`.
+
     Raises:
         TemplateError: if there is none, or one of them is incomplete or contradicts itself.
     """
     if not folder.is_dir():
         raise TemplateError(f"{folder} is not a folder: expected one sub-folder per template; see docs/templates.md")
-    models = [load_template(path.parent) for path in sorted(folder.glob(f"*/{ANNOTATION}"))]
-    if not models:
+    notes = sorted(folder.glob(f"*/{ANNOTATION}"))
+    models = [load_template(path.parent) for path in notes if not is_handle(path)]
+    if not notes:
         raise TemplateError(f"{folder} holds no template: expected <id>/{ANNOTATION}; see docs/templates.md")
     hinges = tuple(m for m in models if isinstance(m, HingeModel))
     return Gallery(hinges, tuple(m for m in models if isinstance(m, RailModel)))

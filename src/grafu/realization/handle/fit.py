@@ -38,10 +38,9 @@ class Ground:
         """Returns points, (u, any, v), moved onto the front's first surface; NaN where that is a pane or nothing."""
         lead = points.copy()
         lead[:, 1] = -0.05 * self.relief.factor
-        seen, other = self.relief.cast(lead, np.array([0.0, 1.0, 0.0]))
-        origins = self.relief.front.to_object(lead)
-        solid = self.solid.along(origins, self.relief.front.inwards)
-        good = np.isfinite(seen) & (solid <= seen + _TRUST) & (other >= seen - _TRUST)
+        origins, inwards = self.relief.front.to_object(lead), self.relief.front.inwards
+        seen, solid = self.relief.mover.along(origins, inwards), self.solid.along(origins, inwards)
+        good = np.isfinite(seen) & (solid <= seen + _TRUST)
         found = lead.copy()
         found[:, 1] = np.where(good, lead[:, 1] + np.where(good, seen, 0.0), np.nan)
         return found

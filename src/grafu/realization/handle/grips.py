@@ -85,6 +85,8 @@ def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarra
         return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
     if length < min(s * config.length, _SHORT * relief.front.width, _SHORT * relief.front.height):
         return None
+    if within > 0.5 and not _meets_border(relief, cluster):
+        return None  # behind slats or mouldings
     if within > 0.5:
         return Grip("recess", 0.85, "fingers reach round the edge of a cut-out", center, length)
     return Grip(
@@ -136,7 +138,7 @@ def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
         center = _center(relief, cluster, _depth(relief, cluster))
         if narrow >= s * config.hole and (wide >= length or wide <= widest):
             yield Grip("recess", 0.8, "a hollow takes fingers", center, wide)
-        elif wide <= s * config.longest_notch:
+        elif wide <= widest:
             small.append(Grip("recess", 0.5, "a hole drawn for a finger", center, wide))
     yield from small if len(small) <= _MOST_HOLES else ()
     for cluster in _clusters(find_channels(relief, s * config.hollow, s * config.gap, widest, where)):

@@ -29,6 +29,7 @@ _SMALLER = (1.0, 0.65, 0.4)  # of the length: what is tried where a handle does 
 _FLATTER = (1.0, 0.7)  # of the protrusion: between a drawer and the door before it there is little room
 _SPARE = (("knob-round", 1.0, 1.0), ("bar-strip", 0.6, 0.75), ("knob-flat", 0.75, 0.7), ("cup-slim", 0.7, 0.8))
 _LOOKED_AT = 60  # spots for one size before the next size is tried
+_BLOCKED = 150  # places in which something was in the way, before a front is given up
 
 
 class NoHandle(StrEnum):
@@ -126,7 +127,7 @@ def _handles_for(scene: Scene, mover: str, around: Surroundings, task: _Task) ->
     """Returns the handle of one mover, two on a wide drawer, or why there is none."""
     relief = task.reliefs.of(mover)
     ground = ground_of(scene, mover, relief)
-    met, tried = "", False
+    met, tried, blocked = "", False, 0
     for template, length, protrusion in _sizes(task.style, relief, task.config):
         shape = Shape(template.build(length, protrusion))
         spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(mover), task.config)
@@ -140,10 +141,17 @@ def _handles_for(scene: Scene, mover: str, around: Surroundings, task: _Task) ->
             if not met:
                 kept = [pose for pose in poses if pose is not None]
                 return _additions(scene, mover, template, shape, kept, spot, task)
+            blocked += 1
+            if blocked >= _BLOCKED:
+                return _blocked(mover, met)
     if not tried:
         return Refused(mover, NoHandle.TOO_SMALL, "its front is smaller than the smallest handle")
     if not met:
         return Refused(mover, NoHandle.NO_GROUND, "its front has no even, solid place for a handle's foot")
+    return _blocked(mover, met)
+
+
+def _blocked(mover: str, met: str) -> Refused:
     return Refused(mover, NoHandle.BLOCKED, f"wherever a handle sits, {met} is in the way")
 
 

@@ -47,8 +47,8 @@ class Relief:
     front: Front
     factor: float
     cell: float
-    u: Scalars
-    v: Scalars
+    u: Float[np.ndarray, " n"]
+    v: Float[np.ndarray, " m"]
     face: Grid
     first: Grid
     plane: float

@@ -18,6 +18,7 @@ from grafu.realization.handle.style import Sibling
 _FIFTH = 0.2  # of a front's side: the farthest that a handle lies from the free edge, where there is room for more
 _INSETS = (1.0, 0.7, 1.4, 0.5, 1.9)  # shares of the usual inset that are tried
 _ALONG = (0.0, 0.12, -0.12, 0.25, -0.25)  # shares of a side by which a handle is moved along its edge
+_BOTH = 0.65  # of a drawer's width: what two handles take of it at most
 _FROM_END = 0.1  # metres from the end of a door to the near end of its handle
 _LEVEL = 0.7  # cosine: fronts that look up more than this are lids
 _TURNS: dict[Side, Mat3] = {  # about b: where the template's upper side comes to lie
@@ -100,7 +101,7 @@ def _on_drawer(relief: Relief, extent: Extent, siblings: Sequence[Sibling], conf
         level = float(near.box.center[2]) / near.front.height
     if extent.at_edge:
         level = 1.0
-    pairs = box.size[0] > s * config.wide and 2 * extent.along < config.most * box.size[0]
+    pairs = box.size[0] > s * config.wide and 2 * extent.along < _BOTH * box.size[0]
     wants_two = _pairs(alike) if alike else pairs
     for share in dict.fromkeys((level, 0.5, 0.7, 0.82, 0.3, 0.9, 0.18)):
         v = float(box.low[2]) + share * height

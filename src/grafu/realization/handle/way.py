@@ -11,7 +11,7 @@ from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.handle.front import Front
 from grafu.realization.handle.relief import stands_before
-from grafu.realization.limits import Motion, in_the_way, is_free, motion_about, swept_box
+from grafu.realization.limits import Motion, in_the_way, motion_about, opening_values, swept_box
 from grafu.realization.scene import Obstacle, Scene
 
 _TOUCH = 0.0002  # of the object's largest side: how deep a handle may touch something
@@ -38,13 +38,13 @@ class Surroundings:
         """
         body = MovingBody(handle, _TOUCH * self.scene.unit)
         others = [other for other in self.moving if other != mover_id]
-        before = [other for other in others if stands_before(self.scene, other, front)]
-        at_rest = [o for other in others for o in in_the_way(self.moving[other], handle.box)]
-        found = _met(body, _closed, 0.0, [*at_rest, *in_the_way(self._own_hardware(mover_id), handle.box)], 2)
+        at_rest = [*self.still, *self._own_hardware(mover_id), *(o for other in others for o in self.moving[other])]
+        found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)
         if found:
             return found
         motion, upper = self._way(mover_id)
-        fixed = [*self.still, *(o for other in others if other not in before for o in self.moving[other])]
+        after = [other for other in others if not stands_before(self.scene, other, front)]
+        fixed = [*self.still, *(o for other in after for o in self.moving[other])]
         found = _met(body, motion, upper, in_the_way(fixed, swept_box(handle.box, motion, upper)), poses)
         return found or next((other for other in others if self._runs_into(other, body, handle, poses)), "")
 
@@ -84,6 +84,10 @@ def surroundings_of(scene: Scene) -> Surroundings:
 
 def _met(body: MovingBody, motion: Motion, upper: float, near: Sequence[Obstacle], poses: int) -> str:
     """Returns the id of an obstacle that the body meets on its way; empty: none."""
-    if not near or is_free(body, motion, upper, near, poses):
-        return ""
-    return next((o.id for o in near if not is_free(body, motion, upper, [o], poses)), near[0].id)
+    colliders = [obstacle.collider for obstacle in near]
+    for value in opening_values(upper, poses)[::-1] if near else ():
+        body.place(motion(float(value)))
+        met = body.penetrated(colliders)
+        if met:
+            return near[met[0]].id
+    return ""
