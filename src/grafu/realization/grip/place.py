@@ -26,6 +26,7 @@ _TALL, _HIGH, _LOW = 0.5, 1.2, 0.25  # metres: doors are gripped off their middl
 _EVEN = 0.25  # steps in the face where a groove is cut, as a share of its depth
 _STEP = 0.003  # metres: steps in the face where a hole is cut
 _STEEPEST = 0.35  # metres per metre: how much a bowed front may slope where it is carved
+_RIM = 0.12  # share of a front's sides that a margin takes at most
 _BLUNT = 0.0015  # metres: how far edges may be rounded, and be straight all the same
 _BEFORE = 0.012  # metres: a finger's thickness before the front
 _SHOWN = 0.8  # share of a hole behind which fingers must find room
@@ -38,7 +39,7 @@ def spots(front: Front, config: GripConfig, kind: GripKind, scale: float, wish: 
 
     `wish` is a point of the object frame near which the grip is wanted.
     """
-    margin = min(config.margin * scale, 0.12 * front.breadth)
+    margin = _margin(front, config, scale)
     wanted = config.wanted(kind)
     length = min(wanted.length * scale, config.length_share * front.length)
     width = min(wanted.width * scale, config.width_share * front.breadth)
@@ -63,6 +64,11 @@ def spots(front: Front, config: GripConfig, kind: GripKind, scale: float, wish: 
             yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
 
 
+def _margin(front: Front, config: GripConfig, scale: float) -> float:
+    """Returns how much material stays between a grip and the edges, metres."""
+    return min(config.margin * scale, _RIM * front.length, _RIM * front.breadth)
+
+
 def _is_too_small(size: GripSize, scale: float) -> bool:
     across, along = sorted((size.width, size.length))
     return across < _FINGERS.width * scale - 1e-9 or along < _FINGERS.length * scale - 1e-9
@@ -82,7 +88,7 @@ def best_along(front: Front, scale: float) -> float:
 
 def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | GripRefusal:
     """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
-    ring = min(config.margin * site.scale, 0.12 * site.front.breadth) / 2
+    ring = _margin(site.front, config, site.scale) / 2
     box = cut.box
     over = -_BLUNT * site.scale if cut.kind is GripKind.EDGE else ring
     xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])
@@ -130,11 +136,12 @@ def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | 
     face, back = float(ground.face.max()), float(ground.back.min())
     if face - back > min(config.thickest * site.scale, 1.5 * cut.size.length):
         return GripRefusal.TOO_THICK
-    if float(np.ptp(ground.back)) > _STEP * site.scale:
-        return GripRefusal.UNEVEN
     over = 0.4 * site.seam
+    bottom = back - over
+    if float(np.ptp(ground.back)) > 2 * _STEP * site.scale or np.any(ground.beneath > bottom):
+        return GripRefusal.UNEVEN
     size = replace(cut.size, depth=max(face - back, 1e-6))
-    return replace(cut, size=size, top=face + over, face=face, bottom=back - over)
+    return replace(cut, size=size, top=face + over, face=face, bottom=bottom)
 
 
 def _unless_in_the_way(
