@@ -26,9 +26,9 @@ class _Closed(NamedTuple):
 def enclosed_cells(taken: Taken) -> dict[str, Grid]:
     """Returns the cells inside furniture that opens upwards under a lid, along y, and along x."""
     still = tuple(_met(taken.walls, face) for face in range(6))
-    if not taken.moving.any():  # nothing but a door opens a lid or a side
-        return {"y": taken.free & _opens_along(_Closed(still, (taken.moving,) * 6), 1)}
-    moving = tuple(_met(taken.moving, face) for face in range(6))
+    if not taken.doors.any():  # nothing but a door opens a lid or a side
+        return {"y": taken.free & _opens_along(_Closed(still, (taken.doors,) * 6), 1)}
+    moving = tuple(_met(taken.doors, face) for face in range(6))
     closed = _Closed(still, moving)
     return {
         "z": taken.free & _opens_up(closed),

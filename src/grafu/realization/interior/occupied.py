@@ -45,6 +45,11 @@ class Taken(ArrayValue):
         freeze_arrays(self)
 
     @cached_property
+    def doors(self) -> Grid:
+        """The cells with a surface that moves and is no drawer's."""
+        return self.moving & ~self.drawers
+
+    @cached_property
     def free(self) -> Grid:
         """The cells that nothing takes."""
         return ~(self.still | self.moving | self.drawers)

@@ -22,6 +22,9 @@ _WALLED = 0.4  # of a side: less than what rays ask for later, since cells see l
 _OPEN = 0.5  # of a face open to a room that was taken: no room of its own
 _SIDES = {"z": (0, 1), "y": (0,), "x": (1,)}  # the axes along which walls must stand on both sides
 
+_FRONTS = {"z": ((2, True),), "y": ((1, False), (1, True)), "x": ((0, False), (0, True))}
+_CLOSED = 0.65  # of a face that walls cover for it to be no opening
+
 
 @final
 @dataclass
@@ -80,6 +83,9 @@ def _is_room(box: OneBox, opens: str, search: _Search) -> bool:
             beyond = walls[_beyond(box, axis, is_high, _NEAR)]
             if not beyond.size or beyond.any(axis=axis).mean() < _WALLED:
                 return False
+    fronts = (search.taken.still[_beyond(box, axis, is_high, _NEAR)].any(axis=axis) for axis, is_high in _FRONTS[opens])
+    if all(front.size and front.mean() >= _CLOSED for front in fronts):
+        return False
     layers = (search.used[_beyond(box, axis, is_high, 1)] for axis in range(3) for is_high in (False, True))
     return all(not layer.size or layer.mean() < _OPEN for layer in layers)
 
