@@ -133,11 +133,11 @@ def find_channels(relief: Relief, deep: float, narrow: float, wide: float, where
 
 def _walled(relief: Relief, sizes: tuple[float, float, float], where: Cells, at_border: bool) -> Cells:
     inside, found = _inside(relief), np.zeros(relief.face.shape, bool)
-    through = relief.plane + _THROUGH * relief.factor
     shown = (relief.face <= relief.first + 1e-6) & np.isfinite(relief.face)
     seen = np.where(shown & inside, relief.face, np.nan)
-    if not at_border:  # behind a hole all is equally deep
-        seen = np.where(inside & (relief.first >= through), through, seen)
+    # What is seen through a hole or past a cut-out is its floor; beyond a finger's reach all is equally deep.
+    past = inside & (relief.first >= relief.plane + sizes[0])
+    seen = np.where(past, np.minimum(relief.first, relief.plane + _THROUGH * relief.factor), seen)
     deep, least, most = sizes[0], *(max(round(width / relief.cell), 1) for width in sizes[1:])
     for ways in _WAYS:
         wall = [_distance_to_wall(relief, seen, way, most, deep) for way in ways]
@@ -195,9 +195,10 @@ def find_lips(relief: Relief, drop: float, wide: float, gap: float, where: Cells
     """Returns the cells of narrow ledges that stand out along the border of the outline; see `find_ridges`."""
     inside = _inside(relief)
     seen = np.where((relief.face <= relief.first + 1e-6) & inside, relief.face, np.inf)
+    beside = np.where(np.isfinite(seen), seen, -np.inf)
     counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
     for ways in _WAYS:
-        free = [_distance_to_drop(relief.face, seen, way, counts, drop) for way in ways]
+        free = [_distance_to_drop(beside, seen, way, counts, drop) for way in ways]
         border = [_distance_to_border(inside, way, counts[0]) for way in ways]
         found |= (free[0] + border[1] - 1 <= counts[0]) | (border[0] + free[1] - 1 <= counts[0])
     return found & where & np.isfinite(seen)

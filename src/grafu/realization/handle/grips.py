@@ -85,7 +85,7 @@ def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarra
         return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
     if length < min(s * config.length, _SHORT * relief.front.width, _SHORT * relief.front.height):
         return None
-    if within > 0.5 and not _meets_border(relief, cluster):
+    if within > 0.5 and not _open_to_border(relief, cluster.cells[ways == way], STEPS[way], lip + s * config.hollow):
         return None  # behind slats or mouldings
     if within > 0.5:
         return Grip("recess", 0.85, "fingers reach round the edge of a cut-out", center, length)
@@ -172,6 +172,20 @@ def _depth(relief: Relief, cluster: Cluster) -> float:
 def _center(relief: Relief, cluster: Cluster, depth: float) -> Vec3:
     i, j = cluster.cells.T
     return relief.front.to_object(np.array([[relief.u[i].mean(), depth, relief.v[j].mean()]]))[0]
+
+
+def _open_to_border(relief: Relief, cells: np.ndarray, step: Step, depth: float) -> bool:
+    """Whether most cells see free space `depth` deep all the way to the outline's border, away from `step`."""
+    (i, j), box = np.array(step), relief.outline
+    free = relief.first >= depth
+    free |= ((relief.u < box.low[0]) | (relief.u > box.high[0]))[:, None]
+    free |= ((relief.v < box.low[2]) | (relief.v > box.high[2]))[None, :]
+    clear = []
+    for a, b in cells.tolist():
+        line = free[:, b] if i else free[a, :]
+        at, forwards = (a, i < 0) if i else (b, j < 0)
+        clear.append(bool(line[at:].all() if forwards else line[: at + 1].all()))
+    return float(np.mean(clear)) > 0.5
 
 
 def _meets_border(relief: Relief, cluster: Cluster) -> bool:
