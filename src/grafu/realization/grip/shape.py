@@ -65,7 +65,9 @@ def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
     """Returns the solids of a grip, in the front frame, as they are on a level front."""
     rounded = cut.profile == "rounded"
     if cut.kind is GripKind.GROOVE:
-        solids = [_groove(cut)] if rounded else [_prism(_rectangle(cut), cut.bottom, cut.top)]
+        outline = _oval(cut) if rounded else _rectangle(cut)
+        # sheets are cut by the outline alone, which is quick; what curves is their lining
+        solids = [_groove(cut) if rounded and not cut.is_hollow else _prism(outline, cut.bottom, cut.top)]
     elif cut.kind is GripKind.EDGE:
         solids = [_prism(_notch(cut, 0.25 * cut.size.width), cut.bottom, cut.top)]
     else:
@@ -76,7 +78,7 @@ def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
 def lining(cut: Cut) -> TriangleMesh:
     """Returns the walls of a grip in a hollow board, in the front frame, as on a level front: they look into it."""
     if cut.kind is GripKind.GROOVE:
-        (solid,) = cutters(replace(cut, top=cut.face))
+        (solid,) = cutters(replace(cut, top=cut.face, is_hollow=False))
     else:
         outline = _notch(cut, 0.0) if cut.kind is GripKind.EDGE else _oval(cut)
         made = _prism(outline, cut.face - cut.size.depth, cut.face)
