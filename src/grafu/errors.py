@@ -10,6 +10,7 @@
       ArticulationError       an articulated object is not a tree, or a limit is upside down
       TemplateError           a mechanism template is at fault
       WeightsError            the network's trained weights are missing or do not fit
+      OptionError             options contradict each other, or ask for what there is not
       ExportError             a format cannot say this, or the output cannot be written
 
 A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.realization.report`).
@@ -55,6 +56,10 @@ class TemplateError(FunctionalizationError):
 
 class WeightsError(FunctionalizationError):
     """The trained weights of the network are missing, damaged, or made for another network."""
+
+
+class OptionError(FunctionalizationError):
+    """Options contradict each other, or ask for something that there is not."""
 
 
 class ExportError(FunctionalizationError):

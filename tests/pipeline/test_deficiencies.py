@@ -4,9 +4,12 @@ from dataclasses import replace
 
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.deficiencies import DeficiencyKind, find_deficiencies
+from grafu.pipeline.deficiencies import DeficiencyKind, Findings, find_deficiencies
+from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.motion_source import MotionSource
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.layout import Door, Drawer, Stack
+from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
 KIND = DeficiencyKind
@@ -37,11 +40,45 @@ def test_handles_are_missing_where_none_rides() -> None:
     assert (KIND.HANDLE, PartLabel.DRAWER) in found
 
 
-def test_a_top_and_labels_are_missing_once_masked() -> None:
+def test_labels_are_missing_once_masked_and_the_top_is_there_all_the_same() -> None:
     asset = made()
     masked = asset.with_labels({part.id: PartLabel.UNKNOWN for part in asset.parts})
     lacks = find_deficiencies(masked, parse_graph(masked))
 
-    assert [lack.part for lack in lacks if lack.kind is KIND.TOP] == [""]
     assert len([lack for lack in lacks if lack.kind is KIND.LABEL]) == len(asset.parts)
-    assert KIND.TOP not in {lack.kind for lack in find_deficiencies(asset, parse_graph(asset))}
+    assert KIND.TOP not in {lack.kind for lack in lacks}
+
+
+def test_a_top_is_missing_once_it_is_taken_away() -> None:
+    asset = made()
+    topless = replace(asset, parts=tuple(p for p in asset.parts if p.label is not PartLabel.TOP_PANEL))
+    lacks = find_deficiencies(topless, parse_graph(topless))
+
+    assert [lack.part for lack in lacks if lack.kind is KIND.TOP] == [""]
+
+
+def found_by_a_run(asset: Asset) -> dict[KIND, list[str]]:
+    made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
+    findings = Findings(made.body.top, made.body.carcass.lacks, made.body.drawers.verdicts, made.fittings.grasps)
+    lacks = find_deficiencies(asset, made.completion.completed, findings)
+    return {kind: [lack.part for lack in lacks if lack.kind is kind] for kind in KIND}
+
+
+def test_a_run_says_what_geometry_lacks() -> None:
+    spec = Cabinet("made", layout=Stack((Drawer("front only", handle="none"), Door(handle="none"))))
+    asset = make_cabinet(spec)
+    panels = (PartLabel.TOP_PANEL, PartLabel.BACK_PANEL)
+    found = found_by_a_run(replace(asset, parts=tuple(p for p in asset.parts if p.label not in panels)))
+    drawer = next(p.id for p in asset.parts if p.label is PartLabel.DRAWER)
+    door = next(p.id for p in asset.parts if p.label is PartLabel.DOOR)
+
+    assert found[KIND.TOP] == [""]
+    assert found[KIND.BACK]
+    assert found[KIND.DRAWER_BOX] == [drawer]
+    assert sorted(found[KIND.HANDLE]) == sorted([door, drawer])
+
+
+def test_a_run_on_a_whole_cabinet_finds_nothing_of_it() -> None:
+    found = found_by_a_run(made())
+    missing = (KIND.TOP, KIND.BACK, KIND.BOTTOM, KIND.DRAWER_BOX, KIND.HANDLE)
+    assert {kind: found[kind] for kind in missing} == {kind: [] for kind in missing}

@@ -14,10 +14,12 @@ from grafu.completion.session import open_network
 from grafu.errors import WeightsError
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source, functionalize
+from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
+from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig, choose_source, functionalize
 from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
+from grafu.realization.interior.request import parse_interior
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.layout import Door, Drawer, Stack
@@ -123,11 +125,50 @@ def test_the_report_tells_what_was_built(result: Functionalized) -> None:
         assert record.mount in {part.id for part in report.parts}
 
 
-def test_the_report_names_how_each_part_is_grasped(result: Functionalized) -> None:
-    grasp = {joint.part: joint.grasp for joint in report_of(result).joints}
+def grasps(result: Functionalized) -> dict[PartLabel, str]:
     label_of = {part.id: part.label for part in result.asset.parts}
+    return {label_of[joint.part]: joint.grasp for joint in report_of(result).joints}
 
-    assert {label_of[part]: how for part, how in grasp.items()} == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "none"}
+
+def test_the_report_names_how_each_part_is_grasped(result: Functionalized) -> None:
+    assert grasps(result) == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "handle"}
+
+
+def test_what_may_not_be_added_is_not(asset: Asset) -> None:
+    bare = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(additions=NO_ADDITIONS))
+    assert grasps(bare) == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "none"}
+    assert bare.additions == ()
+    assert report_of(bare).added == ()
+
+
+def test_what_was_added_is_a_part_like_any_other(result: Functionalized) -> None:
+    (added,) = report_of(result).added
+    door = next(part.id for part in result.asset.parts if part.label is PartLabel.DOOR)
+    assert added.link == door
+    assert added.category is PartLabel.HANDLE
+    assert added.part in {visual.name for visual in result.object.link(door).visuals}
+    assert result.completion.added == (added.part,)
+    assert [edge.parent for edge in result.completion.completed.attachments if edge.child == added.part] == [door]
+
+
+def test_a_grip_is_carved_where_it_is_asked_for(asset: Asset) -> None:
+    config = PipelineConfig(additions=replace(AdditionConfig(), handles=None))
+    carved = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
+    assert grasps(carved) == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "recess"}
+    (grip,) = report_of(carved).added
+    assert asset.part(grip.part).label is PartLabel.DOOR
+    before, after = asset.part(grip.part).mesh, carved.object.link(grip.part).visuals[0].mesh
+    assert after.to_trimesh().volume < before.to_trimesh().volume
+
+
+def test_interiors_are_furnished_on_request(asset: Asset) -> None:
+    config = PipelineConfig(additions=replace(AdditionConfig(), interior=parse_interior("shelves=1")))
+    furnished = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
+    shelves = [part for part in report_of(furnished).added if part.category is PartLabel.SHELF]
+    assert [shelf.link for shelf in shelves] == [furnished.object.root]
+    assert np.allclose(
+        [j.upper for j in report_of(furnished).joints], [j.limits.upper for j in furnished.object.joints]
+    )
 
 
 def test_the_matrix_in_the_report_is_the_frames(result: Functionalized) -> None:

@@ -6,7 +6,8 @@ from collections import defaultdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grafu.cli.gallery import open_gallery
+from grafu.cli.addition_options import add_addition_options, addition_config
+from grafu.cli.gallery import open_gallery, open_handles
 from grafu.cli.input_options import add_input_options, load_options, output_name, positive_count
 from grafu.cli.messages import complain
 from grafu.errors import AssetError
@@ -24,6 +25,7 @@ examples:
   grafu functionalize cabinet.glb --out results
   grafu functionalize models/* --motion annotation --jobs 4 --out results
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
+  grafu functionalize cabinet.glb --handle knob-round --interior shelves=2 --out results
 """
 
 
@@ -47,9 +49,10 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"
     )
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
-    parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges and rails")
+    parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
     parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
     parser.add_argument("--overwrite", action="store_true", help="replace results that are there already")
+    add_addition_options(parser)
     add_input_options(parser)
     parser.set_defaults(run=run)
     return parser
@@ -102,6 +105,7 @@ def _job_options(options: argparse.Namespace) -> "JobOptions":
         formats=formats,
         templates=options.templates,
         trim=not options.no_trim,
+        additions=addition_config(options, open_handles(options.templates)),
         overwrite=options.overwrite,
         debug=options.debug,
     )

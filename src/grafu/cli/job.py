@@ -16,6 +16,7 @@ from grafu.pipeline.motion_source import MotionSource
 
 if TYPE_CHECKING:
     from grafu.export.files import ExportFiles
+    from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import Functionalized
     from grafu.pipeline.report_schema import Report
 
@@ -23,7 +24,10 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class JobOptions:
-    """What all inputs of one call share. `templates` is a folder of the user's own, or None."""
+    """What all inputs of one call share.
+
+    `templates` is a folder of the user's own, or None; `additions` says what may be added (None: all by default).
+    """
 
     out: Path
     motion: MotionSource = MotionSource.AUTO
@@ -31,6 +35,7 @@ class JobOptions:
     formats: tuple[str, ...] = ("glb", "urdf")
     templates: Path | None = None
     trim: bool = True
+    additions: "AdditionConfig | None" = None
     overwrite: bool = False
     debug: bool = False
 
@@ -91,16 +96,22 @@ def _functionalize(job: Job) -> "Report":
     from grafu.asset.load import load_asset
     from grafu.export.files import write_files
     from grafu.export.formats import export
+    from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import PipelineConfig, functionalize
     from grafu.pipeline.report import report_of
     from grafu.realization.config import RealizationConfig
+    from grafu.templates.user_handles import load_handles
 
     options = job.options
     _require_absent(job)
     clock = _Stopwatch()
     asset = load_asset(job.input, options.load)
     clock.lap("load")
-    config = PipelineConfig(realization=RealizationConfig(trim=options.trim))
+    config = PipelineConfig(
+        realization=RealizationConfig(trim=options.trim),
+        additions=options.additions or AdditionConfig(),
+        own_handles=load_handles(options.templates) if options.templates else {},
+    )
     result = functionalize(asset, options.motion, open_gallery(options.templates), config)
     clock.lap("functionalize")
     files = export(result.object, options.formats)

@@ -1,11 +1,16 @@
-"""What an asset lacks before it is worked on: joints, hinges, rails, handles, a top. It mends nothing."""
+"""What an asset lacks before it is worked on: joints, hinges, rails, handles, a top, boards. It mends nothing."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
 from grafu.asset.part import Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.realization.carcass.lacks import Lack
+from grafu.realization.drawer_box.verdict import BoxVerdict
+from grafu.realization.handle.grasp import Grasp
+from grafu.realization.top.complete import TopVerdict, missing_top
 from grafu.vocabulary import PartLabel
 
 
@@ -16,7 +21,10 @@ class DeficiencyKind(StrEnum):
     HINGE = "hinge"  # a door without hardware
     RAIL = "rail"  # a drawer without hardware
     HANDLE = "handle"  # nothing to grasp the part by
-    TOP = "top panel"  # no part is the top
+    TOP = "top panel"  # nothing closes it from above
+    BACK = "back panel"  # the back of a carcass is open
+    BOTTOM = "bottom panel"  # its bottom is open
+    DRAWER_BOX = "drawer box"  # a drawer is only a front, or its box lacks boards
     LABEL = "label"  # the part's category is not known
 
 
@@ -30,20 +38,49 @@ class Deficiency:
     detail: str
 
 
-def find_deficiencies(asset: Asset, graph: FunctionalGraph) -> tuple[Deficiency, ...]:
-    """Returns what the asset lacks, judged by the labels of `graph` (completed, or as parsed), part by part."""
+@final
+@dataclass(frozen=True)
+class Findings:
+    """What a run found missing by geometry, once it knew what moves: see `body_additions` and `fittings`."""
+
+    top: TopVerdict
+    carcass: Sequence[Lack]
+    drawers: Sequence[BoxVerdict]
+    grasps: Mapping[str, Grasp]
+
+
+def find_deficiencies(asset: Asset, graph: FunctionalGraph, findings: Findings | None = None) -> tuple[Deficiency, ...]:
+    """Returns what the asset lacks, judged by the labels of `graph` (completed, or as parsed), part by part.
+
+    Without `findings`, of what moves only labels are known: a part without a handle may still offer an edge to grasp.
+    """
     label_of = {node.id: node.label for node in graph.nodes}
-    held = handled_parts(asset, graph)
     jointed = {joint.part for joint in asset.joints}
     found = [lack for part in asset.parts for lack in _of_part(part, label_of[part.id], part.id in jointed)]
-    found += [
-        Deficiency(DeficiencyKind.HANDLE, node.id, "no handle is attached to it")
-        for node in graph.nodes
-        if node.label.is_movable and node.id not in held
-    ]
-    if PartLabel.TOP_PANEL not in label_of.values():
-        found.append(Deficiency(DeficiencyKind.TOP, "", "no part is labelled so; whether one is needed is not judged"))
-    return tuple(found)
+    found += _without_handle(asset, graph, findings.grasps if findings else {})
+    top = findings.top if findings else missing_top(asset.parts)
+    if top.missing:
+        found.append(Deficiency(DeficiencyKind.TOP, "", top.why))
+    return (*found, *(_of_boards(findings) if findings else ()))
+
+
+def _without_handle(asset: Asset, graph: FunctionalGraph, grasps: Mapping[str, Grasp]) -> list[Deficiency]:
+    held = handled_parts(asset, graph)
+    found = []
+    for part in asset.parts:
+        grasp = grasps.get(part.id)
+        if grasp is not None and grasp.kind == "none":
+            found.append(Deficiency(DeficiencyKind.HANDLE, part.id, grasp.why))
+        elif grasp is None and graph.node(part.id).label.is_movable and part.id not in held:
+            found.append(Deficiency(DeficiencyKind.HANDLE, part.id, "no handle is attached to it"))
+    return found
+
+
+def _of_boards(findings: Findings) -> list[Deficiency]:
+    found = [Deficiency(DeficiencyKind(lack.what.value), "", lack.why) for lack in findings.carcass]
+    open_boxes = (verdict for verdict in findings.drawers if verdict.missing)
+    found += [Deficiency(DeficiencyKind.DRAWER_BOX, v.drawer, f"{v.kind}: {v.why}") for v in open_boxes]
+    return found
 
 
 def handled_parts(asset: Asset, graph: FunctionalGraph) -> frozenset[str]:

@@ -1,7 +1,7 @@
-"""The paper's pipeline as one function: graph, completion, plan, realization. It reads and writes no files."""
+"""The paper's pipeline as one function: graph, completion, plan, what is missing, joints. It touches no files."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from time import perf_counter
 from typing import TypeVar, final
 
@@ -12,14 +12,20 @@ from grafu.completion.session import has_shipped_weights
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.annotation import complete_by_annotation
+from grafu.pipeline.body_additions import Body, complete_body
+from grafu.pipeline.built_graph import as_built
+from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
 from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
+from grafu.realization.addition import Addition
 from grafu.realization.config import RealizationConfig
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
 from grafu.realization.plan import RealizationPlan
 from grafu.realization.realize import realize
 from grafu.realization.report import RealizationReport
+from grafu.templates.handle import HandleTemplate
 from grafu.templates.template import Gallery
 
 T = TypeVar("T")
@@ -32,6 +38,9 @@ class PipelineConfig:
 
     parsing: ParsingConfig = ParsingConfig()
     realization: RealizationConfig = RealizationConfig()
+    additions: AdditionConfig = field(default_factory=AdditionConfig)
+    own_handles: Mapping[str, HandleTemplate] = field(default_factory=dict)
+    """The user's handle templates by id."""
 
 
 @final
@@ -39,7 +48,9 @@ class PipelineConfig:
 class Functionalized:
     """Everything that came of one asset.
 
-    `source` is the motion source that was used (never `auto`); `timings` are seconds per stage, in order.
+    `asset` is the input, `source` the motion source that was used (never `auto`). `completion` is the graph as it was
+    built, additions included. `body` and `fittings` say what was missing and what was added. `timings` are seconds per
+    stage, in order.
     """
 
     asset: Asset
@@ -48,7 +59,14 @@ class Functionalized:
     plan: RealizationPlan
     object: ArticulatedObject
     report: RealizationReport
+    body: Body
+    fittings: Fittings
     timings: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def additions(self) -> tuple[Addition, ...]:
+        """All parts that the input did not have."""
+        return (*self.body.additions, *self.fittings.additions)
 
 
 @final
@@ -102,8 +120,22 @@ def functionalize(
     graph = clock.timed("parse", lambda: parse_graph(asset, config.parsing))  # contacts only
     completion = clock.timed("complete", lambda: motion.complete(asset, graph))  # who moves, and how
     plan = clock.timed("plan", lambda: motion.plan(asset, completion))  # initial axes
-    realized = clock.timed("realize", lambda: realize(plan, asset, gallery, config.realization))  # hardware, limits
-    return Functionalized(asset, chosen, completion, plan, realized.object, realized.report, tuple(clock.laps))
+    body = clock.timed("body", lambda: complete_body(asset, completion, plan, config.additions))  # top, drawer boxes
+    realized = clock.timed("realize", lambda: realize(body.plan, body.asset, gallery, config.realization))  # joints
+    fittings = clock.timed(
+        "fittings", lambda: add_fittings(realized.scene, completion, config.additions, config.own_handles)
+    )
+    return Functionalized(
+        asset,
+        chosen,
+        as_built(completion, asset, (*body.additions, *fittings.additions), config.parsing),
+        body.plan,
+        fitted_object(realized.object, fittings),
+        realized.report,
+        body,
+        fittings,
+        tuple(clock.laps),
+    )
 
 
 def choose_source(asset: Asset, source: MotionSource) -> MotionSource:

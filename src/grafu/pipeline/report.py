@@ -2,14 +2,15 @@
 
 from collections.abc import Mapping
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
+from grafu.articulation.articulated_object import Joint
 from grafu.asset.part import Part
-from grafu.pipeline.deficiencies import find_deficiencies, handled_parts
+from grafu.pipeline.deficiencies import Findings, find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
 from grafu.pipeline.report_schema import (
     AddedRecord,
     ClearanceRecord,
+    Grasp,
     JointRecord,
     MotionRecord,
     PartRecord,
@@ -27,7 +28,10 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     `name` is the name of the results (empty: the asset's); `other_timings` are seconds of stages outside the pipeline
     (reading, exporting).
     """
-    lacks = find_deficiencies(result.asset, result.completion.completed)
+    findings = Findings(
+        result.body.top, result.body.carcass.lacks, result.body.drawers.verdicts, result.fittings.grasps
+    )
+    lacks = find_deficiencies(result.asset, result.completion.completed, findings)
     timings = {**dict(result.timings), **(other_timings or {})}
     return Report(
         version=__version__,
@@ -37,9 +41,10 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         parts=_part_records(result),
         deficiencies=tuple(deficiency_record(lack) for lack in lacks),
         joints=_joint_records(result),
-        added=_added_records(result.object),
+        added=_added_records(result),
         skipped=tuple(
-            SkippedRecord(request=s.request, reason=s.reason, detail=s.detail) for s in result.report.skipped
+            SkippedRecord(request=s.request, reason=s.reason, detail=s.detail)
+            for s in (*result.report.skipped, *result.body.skipped, *result.fittings.skipped)
         ),
         timings={stage: round(seconds, 4) for stage, seconds in timings.items()},
     )
@@ -63,11 +68,18 @@ def _part_record(part: Part, category: PartLabel, link: str) -> PartRecord:
 
 def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
     joints = {joint.id: joint for joint in result.object.joints}
-    held = handled_parts(result.asset, result.completion.completed)
-    return tuple(_joint_record(made, joints[made.joint], made.moving in held) for made in result.report.installed)
+    grasps = _grasps(result)
+    return tuple(_joint_record(made, joints[made.joint], grasps[made.moving]) for made in result.report.installed)
 
 
-def _joint_record(made: Installed, joint: Joint, held: bool) -> JointRecord:
+def _grasps(result: Functionalized) -> dict[str, Grasp]:
+    """Returns how each mover can be grasped in the end."""
+    found: dict[str, Grasp] = {mover: grasp.kind for mover, grasp in result.fittings.grasps.items()}
+    found |= {a.part.rides_on: "handle" for a in result.fittings.additions if a.part.rides_on}
+    return found | {c.part.id: "recess" for c in result.fittings.carved}
+
+
+def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
     return JointRecord(
         id=joint.id,
         part=made.moving,
@@ -89,7 +101,7 @@ def _joint_record(made: Installed, joint: Joint, held: bool) -> JointRecord:
         collision_share=made.collision_share,
         largest_gap=made.largest_gap,
         after=joint.after,
-        grasp="handle" if held else "none",
+        grasp=grasp,
         clearances=tuple(
             ClearanceRecord(part=c.part, kind=c.kind, amount=c.amount, share=c.share, why=c.why)
             for c in made.clearances
@@ -98,6 +110,20 @@ def _joint_record(made: Installed, joint: Joint, held: bool) -> JointRecord:
     )
 
 
-def _added_records(articulated: ArticulatedObject) -> tuple[AddedRecord, ...]:
-    added = [v for link in articulated.links for v in link.visuals if v.role is VisualRole.ADDED]
-    return tuple(AddedRecord(part=v.name, category=v.label, why="the input had none") for v in added)
+def _added_records(result: Functionalized) -> tuple[AddedRecord, ...]:
+    link_of = {visual.name: link.id for link in result.object.links for visual in link.visuals}
+    parts = [
+        AddedRecord(part=a.part.id, category=a.part.label, why=a.why, style=a.style, link=link_of[a.part.id])
+        for a in result.additions
+    ]
+    grips = [
+        AddedRecord(
+            part=c.part.id,
+            category=PartLabel.HANDLE,
+            why="it could not be grasped, and was carved",
+            style=f"{c.kind}, {c.profile}",
+            link=link_of[c.part.id],
+        )
+        for c in result.fittings.carved
+    ]
+    return (*parts, *grips)

@@ -126,17 +126,19 @@ class JointRecord(ReportRecord):
 
 
 class AddedRecord(ReportRecord):
-    """A part that was added."""
+    """A part that was added, or a recessed grip that was carved into one."""
 
-    part: str = Field(description="its id")
-    category: PartLabel = Field(description="its category")
-    why: str = Field(description="what it is for")
+    part: str = Field(description="its id; of a grip: the front that it was carved into")
+    category: PartLabel = Field(description="its category; a grip is a handle")
+    why: str = Field(description="what was missing")
+    style: str = Field(description="the template of a handle, the outline of a top, the kind of a grip")
+    link: str = Field(description="the link of model.urdf that holds it")
 
 
 class SkippedRecord(ReportRecord):
     """A request that was not built."""
 
-    request: str = Field(description="the part that was to move")
+    request: str = Field(description="the part that was to move, or what was to be added")
     reason: SkipReason = Field(description="why, from a closed list")
     detail: str = Field(description="why, in words")
 

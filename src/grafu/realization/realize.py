@@ -12,7 +12,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.intersection import MeshCollider
@@ -231,7 +231,8 @@ def _assembled(asset: Asset, scene: Scene, built: list[Built], orders: dict[str,
 
 
 def _part_visual(part: Part) -> Visual:
-    return Visual(part.id, part.surfaces, label=part.label)
+    role = VisualRole.ADDED if part.labelled_by == "added" else VisualRole.PART
+    return Visual(part.id, part.surfaces, role, part.label)
 
 
 def _free_name(name: str, taken: set[str]) -> str:

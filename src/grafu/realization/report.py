@@ -16,6 +16,7 @@ class SkipReason(StrEnum):
     BLOCKED = "blocked"  # the part cannot move freely about any candidate axis
     NO_MOTION = "no motion"  # nobody could say how the part moves
     UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (drawers that slide up or down)
+    NOT_ADDED = "not added"  # a part that is missing finds no place: a top, a handle, a shelf
 
 
 @final

@@ -1,0 +1,103 @@
+"""The options that say what may be added to furniture, and how it looks. It adds nothing itself."""
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from grafu.pipeline.addition_config import AdditionConfig
+
+TOP_SHAPES = ("rectangle", "rounded", "chamfered")
+GRIPS = ("grip", "groove", "edge", "hole")  # `grip`: whichever of the others fits
+
+
+def add_addition_options(parser: argparse.ArgumentParser) -> None:
+    """Adds --only, --no-top, --no-handles, --no-drawer-boxes, --top, --handle, --interior and --complete."""
+    group = parser.add_argument_group("what is added (by default: tops, handles, drawer boxes, predicted shelves)")
+    group.add_argument("--only", choices=("dynamic",), help="dynamic: joints and their hardware, nothing else is added")
+    group.add_argument("--no-top", action="store_true", help="add no top, also where there is none")
+    group.add_argument("--no-handles", action="store_true", help="add no handles and carve no grips")
+    group.add_argument("--no-drawer-boxes", action="store_true", help="leave drawers that are only a front as they are")
+    group.add_argument(
+        "--top", choices=TOP_SHAPES, metavar="SHAPE", help=f"shape of added tops: {', '.join(TOP_SHAPES)}"
+    )
+    group.add_argument(
+        "--handle",
+        metavar="STYLE",
+        help="style of added handles: a template of `grafu templates`, or a carved one: grip, groove, edge, hole "
+        "(default: like the model's other handles)",
+    )
+    group.add_argument(
+        "--interior",
+        metavar="WHAT",
+        help="shelves and dividers: none, predicted, auto, or numbers per compartment like shelves=2,dividers=1 "
+        "(default: predicted)",
+    )
+    group.add_argument("--complete", choices=("carcass",), help="carcass: add backs and bottoms that are missing")
+
+
+def addition_config(options: argparse.Namespace, handles: "Collection[str]") -> "AdditionConfig":
+    """Returns what the arguments allow to be added; `handles` are the ids of all handle templates.
+
+    Raises:
+        FunctionalizationError: if options contradict each other, or name a style or an interior that there is not.
+    """
+    from dataclasses import replace
+
+    from grafu.errors import OptionError
+    from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
+    from grafu.realization.carcass.config import CarcassConfig
+    from grafu.realization.interior.request import parse_interior
+    from grafu.realization.top.config import TopConfig
+
+    _require_consistent(options)
+    if options.only == "dynamic":
+        return NO_ADDITIONS
+    config = AdditionConfig()
+    if options.no_top:
+        config = replace(config, top=None)
+    if options.top:
+        config = replace(config, top=TopConfig(shape=options.top))
+    if options.no_drawer_boxes:
+        config = replace(config, drawer_boxes=None)
+    if options.complete == "carcass":
+        config = replace(config, carcass=CarcassConfig())
+    if options.interior:
+        try:
+            config = replace(config, interior=parse_interior(options.interior))
+        except ValueError as error:
+            raise OptionError(str(error).replace("`interior`", "`--interior`")) from None
+    if options.no_handles:
+        return replace(config, handles=None, grips=None)
+    return _with_handle(config, options.handle, handles) if options.handle else config
+
+
+def _with_handle(config: "AdditionConfig", style: str, handles: "Collection[str]") -> "AdditionConfig":
+    from dataclasses import replace
+
+    from grafu.errors import OptionError
+    from grafu.realization.grip.config import GripConfig, GripKind
+    from grafu.realization.handle.config import HandleConfig
+
+    if style in GRIPS:
+        return replace(config, handles=None, grips=GripConfig() if style == "grip" else GripConfig(GripKind(style)))
+    if style not in handles:
+        raise OptionError(f"`--handle` must be one of {', '.join((*handles, *GRIPS))}: got {style!r}")
+    return replace(config, handles=HandleConfig(style=style))
+
+
+def _require_consistent(options: argparse.Namespace) -> None:
+    from grafu.errors import OptionError
+
+    asked = {
+        "--top": options.top,
+        "--handle": options.handle,
+        "--interior": options.interior,
+        "--complete": options.complete,
+    }
+    pairs = [("--only", options.only, name) for name in asked]
+    pairs += [("--no-top", options.no_top, "--top"), ("--no-handles", options.no_handles, "--handle")]
+    for refusing, is_given, name in pairs:
+        if is_given and asked[name]:
+            raise OptionError(f"`{name}` and `{refusing}` exclude each other: leave one of them out")

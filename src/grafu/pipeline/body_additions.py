@@ -1,0 +1,64 @@
+"""What is added before joints are built, because they must respect it: a top, carcass boards, the boxes of drawers."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+from grafu.asset.part import Asset
+from grafu.geometry.box import Box
+from grafu.graph.completion import GraphCompletion
+from grafu.pipeline.addition_config import AdditionConfig
+from grafu.realization.addition import Addition
+from grafu.realization.carcass.complete import CarcassCompletion, complete_carcass
+from grafu.realization.carcass.lacks import carcass_lacks
+from grafu.realization.drawer_box.complete import DrawerBoxes, complete_drawers, with_riders
+from grafu.realization.plan import RealizationPlan
+from grafu.realization.report import Skipped, SkipReason
+from grafu.realization.top.complete import TopVerdict, missing_top
+from grafu.realization.top.config import DEFAULT_TOP
+from grafu.vocabulary import PartLabel
+
+
+@final
+@dataclass(frozen=True)
+class Body:
+    """The asset and the plan with what was added, and what was found on the way, wanted or not."""
+
+    asset: Asset
+    plan: RealizationPlan
+    top: TopVerdict
+    carcass: CarcassCompletion
+    drawers: DrawerBoxes
+    additions: tuple[Addition, ...]
+    skipped: tuple[Skipped, ...]
+
+
+def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPlan, config: AdditionConfig) -> Body:
+    """Returns the asset with the top, boards and drawer boxes that it lacks and may have."""
+    top = missing_top(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
+    if config.top is None:
+        top = replace(top, addition=None)
+    above = (top.addition,) if top.addition else ()
+    grown = _with(asset, above)
+    boxes = config.drawer_boxes
+    drawers = complete_drawers(grown.parts, plan, *(() if boxes is None else (boxes,)), build=boxes is not None)
+    grown, plan = _with(grown, drawers.additions), with_riders(plan, drawers)
+    if config.carcass is None:
+        carcass = CarcassCompletion(carcass_lacks(grown.parts, plan))
+    else:
+        carcass = complete_carcass(grown.parts, plan, config.carcass)
+    skipped = [Skipped(r.part, SkipReason.NOT_ADDED, r.why) for r in carcass.refused]
+    skipped += [Skipped(r.part, SkipReason.NOT_ADDED, f"no drawer box: {r.why}") for r in drawers.refused]
+    if config.top is not None and top.missing and top.addition is None:
+        skipped.append(Skipped(PartLabel.TOP_PANEL.value, SkipReason.NOT_ADDED, top.why))
+    additions = (*above, *drawers.additions, *carcass.additions)
+    return Body(_with(grown, carcass.additions), plan, top, carcass, drawers, additions, tuple(skipped))
+
+
+def _predicted_top(completion: GraphCompletion) -> Box | None:
+    nodes = (completion.completed.node(name) for name in completion.added)
+    return next((node.box for node in nodes if node.label is PartLabel.TOP_PANEL), None)
+
+
+def _with(asset: Asset, additions: Sequence[Addition]) -> Asset:
+    return replace(asset, parts=(*asset.parts, *(addition.part for addition in additions)))

@@ -1,0 +1,65 @@
+"""The completed graph as it was built: parts that were added instead of nodes that were merely expected.
+
+Where a part was built for a node that the network had added, what was decided about the node is said of the part. It
+builds nothing.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.edges import Attached, Contact, Edge, ends_of
+from grafu.graph.edit import with_edges, without_nodes
+from grafu.graph.functional_graph import PartNode
+from grafu.graph.parse import ParsingConfig, near_pairs
+from grafu.graph.touching import touching_pairs
+from grafu.realization.addition import Addition
+from grafu.vocabulary import PartLabel
+
+
+def as_built(
+    completion: GraphCompletion,
+    asset: Asset,
+    additions: Sequence[Addition],
+    parsing: ParsingConfig = ParsingConfig(),
+) -> GraphCompletion:
+    """Returns the completion with the parts that were added; expected nodes that were not built are gone."""
+    bare = without_nodes(completion.completed, completion.added)
+    new = [addition.part for addition in additions]
+    nodes = (*bare.nodes, *(PartNode(p.id, p.label, p.box) for p in new))
+    graph = with_edges(replace(bare, nodes=nodes), _edges(asset.parts, new, asset.unit, parsing))
+    names = _stands_for(completion, new)
+    decisions = tuple(
+        replace(d, part=names.get(d.part, d.part)) for d in completion.decisions if d.part in bare or d.part in names
+    )
+    refused = tuple(r for r in completion.refused if r.part in bare)
+    return replace(completion, completed=graph, added=tuple(p.id for p in new), decisions=decisions, refused=refused)
+
+
+def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, str]:
+    """Returns for expected nodes the added parts that stand for them: of their label, on their parent, the nearest."""
+    graph = completion.completed
+    parents = {edge.child: edge.parent for edge in graph.attachments}
+    found: dict[str, str] = {}
+    for name in completion.added:
+        node = graph.node(name)
+        alike = [p for p in new if p.label is node.label and p.rides_on == parents.get(name)]
+        free = [p for p in alike if p.id not in found.values()]
+        if free:
+            found[name] = min(free, key=lambda p: float(np.linalg.norm(p.box.center - node.box.center))).id
+    return found
+
+
+def _edges(old: Sequence[Part], new: Sequence[Part], unit: float, parsing: ParsingConfig) -> list[Edge]:
+    """Returns what new parts touch, and where handles are attached."""
+    parts = [*old, *new]
+    pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * unit) if b >= len(old)]
+    if parsing.contact == "mesh":
+        pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * unit)
+    contacts = [Contact(parts[a].id, parts[b].id) for a, b in pairs]
+    attached = [Attached(p.rides_on, p.id) for p in new if p.rides_on and p.label is PartLabel.HANDLE]
+    joined = {frozenset(ends_of(edge)) for edge in attached}
+    return [*(c for c in contacts if frozenset(ends_of(c)) not in joined), *attached]

@@ -1,0 +1,141 @@
+"""What is added when all joints stand: handles, grips and interiors. No joint changes, and nothing gets in its way."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import final
+
+from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
+from grafu.asset.part import Part
+from grafu.geometry.arrays import Vec3
+from grafu.graph.completion import GraphCompletion
+from grafu.pipeline.addition_config import AdditionConfig
+from grafu.realization.addition import Addition
+from grafu.realization.grip.carve import carve_grip
+from grafu.realization.grip.config import GripConfig
+from grafu.realization.grip.outcome import Carved
+from grafu.realization.handle.grasp import Grasp, find_grasps
+from grafu.realization.handle.place import Handles, add_handles, movers_without
+from grafu.realization.handle.relief import Reliefs
+from grafu.realization.interior.compartments import find_compartments
+from grafu.realization.interior.furnish import Furnished, Unfurnished, furnish
+from grafu.realization.interior.request import InteriorKind, PanelHint
+from grafu.realization.report import Skipped, SkipReason
+from grafu.realization.scene import Scene
+from grafu.templates.handle import HandleTemplate
+from grafu.vocabulary import PartLabel
+
+
+@final
+@dataclass(frozen=True)
+class Fittings:
+    """What was added, which parts were carved, and how each mover can be grasped now.
+
+    `grasps` holds for each mover what was found before anything was added to it.
+    """
+
+    scene: Scene
+    additions: tuple[Addition, ...] = ()
+    carved: tuple[Carved, ...] = ()
+    grasps: Mapping[str, Grasp] = field(default_factory=dict)
+    skipped: tuple[Skipped, ...] = ()
+
+
+def add_fittings(
+    scene: Scene, completion: GraphCompletion, config: AdditionConfig, own: Mapping[str, HandleTemplate]
+) -> Fittings:
+    """Returns a final scene with the handles, grips and panels that it lacks and may have.
+
+    Raises:
+        TemplateError: if the config names a handle that there is not.
+    """
+    reliefs = Reliefs(scene)
+    grasps = find_grasps(scene, config.grasp, reliefs)
+    handles, wanting = _handles(scene, grasps, completion, config, own, reliefs)
+    scene = handles.scene
+    carved, failed = _grips(scene, wanting, config.grips)
+    scene = scene.replaced([one.part for one in carved])
+    skipped = [Skipped(m, SkipReason.NOT_ADDED, f"nothing to grasp it by: {why}") for m, why in failed.items()]
+    inside = _interior(scene, completion, config)
+    skipped += [_unfurnished(one) for one in inside.refused]
+    parts = {addition.part.id: addition.part for addition in inside.additions}
+    scene = replace(scene, parts={**scene.parts, **parts})
+    return Fittings(scene, (*handles.additions, *inside.additions), carved, grasps, tuple(skipped))
+
+
+def fitted_object(articulated: ArticulatedObject, fittings: Fittings) -> ArticulatedObject:
+    """Returns the object with all fittings on their links."""
+    carved = {one.part.id: one.part for one in fittings.carved}
+    riding: dict[str, list[Visual]] = {}
+    for addition in fittings.additions:
+        part = addition.part
+        visual = Visual(part.id, part.surfaces, VisualRole.ADDED, part.label)
+        riding.setdefault(part.rides_on or articulated.root, []).append(visual)
+    links = tuple(_fitted_link(link, carved, riding.get(link.id, [])) for link in articulated.links)
+    return replace(articulated, links=links)
+
+
+def _fitted_link(link: Link, carved: Mapping[str, Part], more: list[Visual]) -> Link:
+    if not more and not any(v.name in carved for v in link.visuals):
+        return link
+    kept = (replace(v, surfaces=carved[v.name].surfaces) if v.name in carved else v for v in link.visuals)
+    return Link(link.id, (*kept, *more))
+
+
+def _handles(
+    scene: Scene,
+    grasps: Mapping[str, Grasp],
+    completion: GraphCompletion,
+    config: AdditionConfig,
+    own: Mapping[str, HandleTemplate],
+    reliefs: Reliefs,
+) -> tuple[Handles, dict[str, str]]:
+    """Returns the handles, and the movers that still need a grip, with the reason."""
+    if config.handles is None:
+        wanting = movers_without(scene, grasps) if config.grips is not None else ()
+        return Handles((), (), scene), dict.fromkeys(wanting, "")
+    found = add_handles(scene, grasps, config.handles, _handle_hints(completion), own, reliefs)
+    return found, {refused.mover: refused.why for refused in found.refused}
+
+
+def _grips(
+    scene: Scene, wanting: Mapping[str, str], config: GripConfig | None
+) -> tuple[tuple[Carved, ...], dict[str, str]]:
+    """Returns what was carved, and the movers that cannot be grasped yet, with all reasons."""
+    if config is None:
+        return (), dict(wanting)
+    carved: list[Carved] = []
+    failed: dict[str, str] = {}
+    for mover, why in wanting.items():
+        made = carve_grip(scene, mover, config)
+        if isinstance(made, Carved):
+            carved.append(made)
+        else:
+            failed[mover] = "; ".join(text for text in (why, f"no grip: {made.reason} ({made.detail})") if text)
+    return tuple(carved), failed
+
+
+def _interior(scene: Scene, completion: GraphCompletion, config: AdditionConfig) -> Furnished:
+    request = config.interior
+    hints = _panel_hints(completion) if request.kind is InteriorKind.PREDICTED else []
+    if request.kind is InteriorKind.NONE or (request.kind is InteriorKind.PREDICTED and not hints):
+        return Furnished()
+    compartments = find_compartments(scene, config.interior_sizes)
+    return furnish(compartments, request, scene, config.interior_sizes, hints)
+
+
+def _handle_hints(completion: GraphCompletion) -> dict[str, Vec3]:
+    """Returns where handles were predicted, by the part that they are for."""
+    graph, new = completion.completed, set(completion.added)
+    return {edge.parent: graph.node(edge.child).box.center for edge in graph.attachments if edge.child in new}
+
+
+def _panel_hints(completion: GraphCompletion) -> list[PanelHint]:
+    nodes = (completion.completed.node(name) for name in completion.added)
+    inner = (PartLabel.SHELF, PartLabel.DIVIDER)
+    return [PanelHint(node.id, node.label, node.box) for node in nodes if node.label in inner]
+
+
+def _unfurnished(one: Unfurnished) -> Skipped:
+    what = "interior" if one.label is None else one.label.value
+    where = "" if one.compartment is None else f" of compartment {one.compartment + 1}"
+    return Skipped(f"{what}{where}", SkipReason.NOT_ADDED, one.why)

@@ -1,0 +1,90 @@
+"""What may be added, as the command spells it: each refusal, each style, and contradictions in one line."""
+
+import argparse
+
+import pytest
+
+from grafu.cli.addition_options import GRIPS, TOP_SHAPES, add_addition_options, addition_config
+from grafu.errors import OptionError
+from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
+from grafu.realization.grip.config import GripKind
+from grafu.realization.interior.request import AUTO, InteriorKind, InteriorRequest
+from grafu.templates.handles import HANDLES
+
+BUILT_IN = tuple(template.id for template in HANDLES)
+
+
+def config(*arguments: str, handles: tuple[str, ...] = BUILT_IN) -> AdditionConfig:
+    parser = argparse.ArgumentParser()
+    add_addition_options(parser)
+    return addition_config(parser.parse_args(arguments), handles)
+
+
+def test_by_default_all_is_added_but_carcass_boards() -> None:
+    assert config() == AdditionConfig()
+    assert AdditionConfig().carcass is None
+
+
+def test_only_dynamic_adds_nothing() -> None:
+    assert config("--only", "dynamic") == NO_ADDITIONS
+
+
+def test_each_addition_can_be_refused() -> None:
+    assert config("--no-top").top is None
+    assert config("--no-drawer-boxes").drawer_boxes is None
+    refused = config("--no-handles")
+    assert refused.handles is None
+    assert refused.grips is None
+
+
+def test_styles_reach_what_they_are_for() -> None:
+    found = config("--top", "rounded", "--handle", "bar-slim", "--interior", "auto", "--complete", "carcass")
+    assert found.top is not None
+    assert found.top.shape == "rounded"
+    assert found.handles is not None
+    assert found.handles.style == "bar-slim"
+    assert found.interior == AUTO
+    assert found.carcass is not None
+
+
+def test_numbers_of_panels() -> None:
+    assert config("--interior", "shelves=2,dividers=1").interior == InteriorRequest(InteriorKind.COUNTED, 2, 1)
+
+
+@pytest.mark.parametrize("style", GRIPS)
+def test_grips_are_carved_instead_of_handles(style: str) -> None:
+    found = config("--handle", style)
+    assert found.handles is None
+    assert found.grips is not None
+    assert found.grips.kind == ("auto" if style == "grip" else GripKind(style))
+
+
+def test_a_template_of_the_users_own() -> None:
+    found = config("--handle", "wing", handles=("wing",))
+    assert found.handles is not None
+    assert found.handles.style == "wing"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--handle", "wing"), "`--handle` must be one of bar-round, "),
+        (("--interior", "shelves=many"), "`--interior` must be `none`, `auto`, "),
+        (("--only", "dynamic", "--top", "rounded"), "`--top` and `--only` exclude each other"),
+        (("--only", "dynamic", "--interior", "auto"), "`--interior` and `--only` exclude each other"),
+        (("--no-top", "--top", "rounded"), "`--top` and `--no-top` exclude each other"),
+        (("--no-handles", "--handle", "ring"), "`--handle` and `--no-handles` exclude each other"),
+    ],
+)
+def test_what_cannot_be_is_said_in_one_line(arguments: tuple[str, ...], said: str) -> None:
+    with pytest.raises(OptionError) as error:
+        config(*arguments)
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_shapes_are_those_that_there_are() -> None:
+    for shape in TOP_SHAPES:
+        found = config("--top", shape).top
+        assert found is not None
+        assert found.shape == shape
