@@ -27,5 +27,9 @@ def test_padding_changes_no_margins() -> None:
     assert torch.equal(margins(BOXES, MASK)[:, :2], margins(BOXES[:, :2], MASK[:, :2]))
 
 
+def test_of_no_boxes_there_are_no_margins() -> None:
+    assert margins(BOXES[:, :0], MASK[:, :0]).shape == (1, 0, 9)
+
+
 def test_corners_are_beside_the_middle() -> None:
     assert corners(BOXES)[0, 0].tolist() == pytest.approx([0.05, 0.0, 0.5, 0.0, -0.5, 0.0, 0.1, 0.5, 1.0])

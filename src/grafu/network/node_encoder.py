@@ -59,7 +59,8 @@ def margins(boxes: Float[Tensor, "b n 6"], mask: Bool[Tensor, "b n"]) -> Float[T
     centre, half = boxes[..., :3], boxes[..., 3:]
     low, high = centre - half, centre + half
     absent = ~mask[..., None]
-    bottom = low.masked_fill(absent, torch.inf).amin(dim=1, keepdim=True)
-    top = high.masked_fill(absent, -torch.inf).amax(dim=1, keepdim=True)
+    nothing = torch.full_like(low.sum(dim=1, keepdim=True), torch.inf)  # so that a graph without nodes has ends too
+    bottom = torch.cat([low.masked_fill(absent, torch.inf), nothing], dim=1).amin(dim=1, keepdim=True)
+    top = torch.cat([high.masked_fill(absent, -torch.inf), -nothing], dim=1).amax(dim=1, keepdim=True)
     found = face_scale(torch.cat([low - bottom, top - high, 2 * half], dim=-1))
     return found.masked_fill(absent, 0.0)
