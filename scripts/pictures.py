@@ -1,42 +1,61 @@
-"""Draws the pictures of README and docs from our own samples: docs/images/before_after.png.
+"""Draws the pictures of README and docs from our own samples and made furniture: docs/images.
 
-The sample and the size of each half can be given: python scripts/pictures.py [SAMPLE] [--size 720x540].
+python scripts/pictures.py                              all of them
+python scripts/pictures.py before_after --sample FILE   one, from a sample of one's own
 """
 
 import argparse
 import sys
 from pathlib import Path
 
+from pictures_additions import SHEETS
 from PIL import Image
 
 from grafu.asset.edit import as_static_object
 from grafu.asset.load import load_asset
-from grafu.export.picture import PictureStyle, before_after, encode_png, posed_visuals
+from grafu.export.exposure import PictureStyle
+from grafu.export.picture import Picture, before_after, encode_png, posed_visuals
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
 
 ROOT = Path(__file__).parent.parent
 COLOURS = 256  # a palette is a third of the bytes, and nobody sees it on plain wood
+BEFORE_AFTER = "before_after"
 
 
 def main() -> int:
-    """Writes the picture; returns the exit code."""
+    """Writes the pictures; returns the exit code."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("sample", nargs="?", type=Path, default=ROOT / "samples" / "sideboard.glb")
-    parser.add_argument("--size", default="720x540")
+    parser.add_argument("pictures", nargs="*", metavar="PICTURE", help=f"of {', '.join((BEFORE_AFTER, *SHEETS))}")
+    parser.add_argument("--sample", type=Path, default=ROOT / "samples" / "sideboard.glb")
+    parser.add_argument("--size", default="720x540", help="of each half of before_after")
     options = parser.parse_args()
     width, height = (int(side) for side in options.size.split("x"))
-    path = ROOT / "docs" / "images" / "before_after.png"
-    path.parent.mkdir(exist_ok=True)
-    asset = load_asset(options.sample)
+    for name in options.pictures or (BEFORE_AFTER, *SHEETS):
+        if name == BEFORE_AFTER:
+            write(name, opened(options.sample, (width, height)))
+        elif name in SHEETS:
+            write(name, SHEETS[name]())
+        else:
+            parser.error(f"there is no picture `{name}`: expected {', '.join((BEFORE_AFTER, *SHEETS))}")
+    return 0
+
+
+def opened(sample: Path, size: tuple[int, int]) -> Picture:
+    """Returns a sample as it came beside what became of it, opened; `size` is that of each half."""
+    asset = load_asset(sample)
     result = functionalize(asset, MotionSource.AUTO, builtin_gallery())
-    before = posed_visuals(as_static_object(asset))
-    picture = before_after(result.object, (width, height), PictureStyle(), before)
+    return before_after(result.object, size, PictureStyle(), posed_visuals(as_static_object(asset)))
+
+
+def write(name: str, picture: Picture) -> None:
+    """Writes docs/images/NAME.png with a palette."""
+    path = ROOT / "docs" / "images" / f"{name}.png"
+    path.parent.mkdir(exist_ok=True)
     path.write_bytes(encode_png(picture))
     Image.open(path).convert("RGB").quantize(COLOURS).save(path, optimize=True)
     print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1024} KiB")
-    return 0
 
 
 if __name__ == "__main__":
