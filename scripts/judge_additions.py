@@ -1,0 +1,325 @@
+"""Judges what `functionalize` adds to furniture: tops, grasps, handles, interiors, drawer boxes, and what it costs.
+
+    python scripts/judge_additions.py [FOLDER] [--made 60] [--seed 990003] [--jobs 1]
+
+FOLDER holds pieces of furniture, one folder each; --made judges made furniture with its true joints. All is measured on
+the objects that come out, by rays and sweeps that share nothing with what made them. Prints a table in Markdown, one
+line per piece (of made furniture only those with a fault), and sums it up.
+"""
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
+from grafu.asset.load import load_asset
+from grafu.asset.part import Asset
+from grafu.geometry.arrays import Points, Scalars
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.metrics.bodies import largest_side
+from grafu.metrics.panels import panel_faults
+from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
+from grafu.pipeline.fittings import add_fittings, fitted_object
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.realization.handle.config import size_factor
+from grafu.realization.interior.request import parse_interior
+from grafu.synth.generate import make_specimen
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import PartLabel
+
+SEED = 990_003
+INTERIORS = ("shelves=2", "dividers=1", "auto")
+CELLS = 64  # of the map from above, along the longer side
+POSES = 40  # of each joint in which handles are looked at
+WIDE = 0.9  # metres: from here on two handles are no waste
+COVERED = 0.97  # share of the plan that a top must cover
+OPEN = 0.5  # share of the plan that is covered where there is no top
+SKIN = 0.001  # of the largest side: deeper cuts are cuts
+LEAST_OPENING = 0.98  # of the opening that a joint has without additions
+
+
+MANAGER: Any = trimesh.collision.CollisionManager  # untyped
+DEFAULT = AdditionConfig()
+KINDS = ("top", "grasp", "handle", "interior", "joint")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The figures of one piece; no list of faults should hold any."""
+
+    name: str
+    tops: int  # added
+    covered: float | None  # share of the plan under the top that replaces its own; None: it has none to take away
+    top_faults: list[str]
+    movers: int
+    handles: int
+    grips: int
+    grasp_faults: list[str]  # not graspable, or several handles where one is enough
+    handle_faults: list[str]  # cut into something on the way
+    panels: tuple[int, ...]  # per request of `INTERIORS`
+    interior_faults: list[str]
+    boards: int  # of drawer boxes
+    joint_faults: list[str]  # lost, or opening less, for the sake of additions
+    seconds: float
+
+    @property
+    def faults(self) -> list[str]:
+        """All faults."""
+        return [fault for kind in KINDS for fault in getattr(self, f"{kind}_faults")]
+
+
+def main() -> int:
+    """Judges, and prints the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, nargs="?", help="pieces of furniture, one folder each")
+    parser.add_argument("--made", type=int, default=0, metavar="N", help="made pieces with their true joints")
+    parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--first", type=int, default=0, help="number of the first made piece")
+    parser.add_argument("--jobs", type=int, default=1)
+    options = parser.parse_args()
+    if options.folder is None and not options.made:
+        parser.error("nothing to judge: name a folder, or --made N")
+    paths = sorted(p for p in options.folder.iterdir() if p.is_dir()) if options.folder else []
+    tasks = [partial(judge_path, path) for path in paths]
+    tasks += [partial(judge_made, options.seed, options.first + number) for number in range(options.made)]
+    with ProcessPoolExecutor(options.jobs) as pool:
+        found: list[Verdict] = []
+        for future in [pool.submit(task) for task in tasks]:
+            found.append(future.result())
+            print(f"  {len(found)}/{len(tasks)}", file=sys.stderr, end="\r")
+    print(table(found, whole=bool(paths)))
+    return 0
+
+
+def judge_path(path: Path) -> Verdict:
+    """Returns the figures of a piece of furniture in a folder, its motions from the default source."""
+    return judge(load_asset(path), MotionSource.AUTO)
+
+
+def judge_made(seed: int, number: int) -> Verdict:
+    """Returns the figures of a made piece, with its true joints, and what somebody left out of it left out."""
+    specimen = make_specimen(seed, number)
+    whole = specimen.whole
+    missing = set(specimen.missing)
+    parts = tuple(p for p in whole.parts if p.id not in missing)
+    return judge(replace(whole, parts=parts, name=f"{number} {specimen.family}"), MotionSource.ANNOTATION)
+
+
+def judge(asset: Asset, source: MotionSource) -> Verdict:
+    """Returns the figures of one piece."""
+    result, plain = _run(asset, source), _run(asset, source, NO_ADDITIONS)
+    tops = sum(a.part.label is PartLabel.TOP_PANEL for a in result.additions)
+    covered, top_faults = _without_its_top(asset, source)
+    seen = _top_cover(plain.object)
+    if tops and seen > OPEN:
+        top_faults.append(f"a top added over {seen:.0%}")
+    if not tops and seen < OPEN:
+        top_faults.append(f"no top added, {seen:.0%} covered: {result.body.top.why}")
+    panels, interior_faults = _interiors(result)
+    timings = dict(result.timings)
+    return Verdict(
+        name=asset.name,
+        tops=tops,
+        covered=covered,
+        top_faults=top_faults,
+        movers=len(result.object.joints),
+        handles=sum(a.part.label is PartLabel.HANDLE for a in result.additions),
+        grips=len(result.fittings.carved),
+        grasp_faults=list(_grasp_faults(result)),
+        handle_faults=list(_handle_faults(result)),
+        panels=panels,
+        interior_faults=interior_faults,
+        boards=len(result.body.drawers.additions),
+        joint_faults=list(_joint_faults(plain, result)),
+        seconds=timings["body"] + timings["fittings"],
+    )
+
+
+def _run(asset: Asset, source: MotionSource, additions: AdditionConfig = DEFAULT) -> Functionalized:
+    return functionalize(asset, source, builtin_gallery(), PipelineConfig(additions=additions))
+
+
+# Tops: a map from above, by rays.
+
+
+def _grid_over(meshes: Sequence[TriangleMesh]) -> Points:
+    """Returns where rays start down from: a grid over the plan of some meshes."""
+    low, high = np.min([m.box.low for m in meshes], axis=0), np.max([m.box.high for m in meshes], axis=0)
+    cell = float(max(high[:2] - low[:2])) / CELLS
+    x, y = (np.arange(low[k] + cell / 2, high[k], cell) for k in (0, 1))
+    grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    return np.column_stack([grid, np.full(len(grid), 2 * high[2] - low[2])])
+
+
+def _heights(meshes: Sequence[TriangleMesh], grid: Points) -> Scalars:
+    """Returns the z of what is met first below each point of a grid; -inf where nothing is."""
+    return grid[:, 2] - RayCaster(merge_meshes(meshes)).along(grid, np.array([0.0, 0.0, -1.0]))
+
+
+def _body(articulated: ArticulatedObject) -> list[TriangleMesh]:
+    """Returns the meshes of the input's parts, closed, without handles."""
+    visuals = (v for link in articulated.links for v in link.visuals)
+    own = (v for v in visuals if v.role is VisualRole.PART and v.label is not PartLabel.HANDLE)
+    return [v.mesh for v in own if len(v.mesh.faces)]
+
+
+def _top_cover(articulated: ArticulatedObject) -> float:
+    """Returns the share of the plan that is covered within 6 % of the height below the highest rim."""
+    body = _body(articulated)
+    heights = _heights(body, _grid_over(body))
+    low = min(float(mesh.box.low[2]) for mesh in body)
+    seen = heights[np.isfinite(heights)] - low
+    return float((seen > 0.94 * np.quantile(seen, 0.98)).mean())
+
+
+def _without_its_top(asset: Asset, source: MotionSource) -> tuple[float | None, list[str]]:
+    """Returns the share of the plan that a top covers which replaces the piece's own, and what is wrong with it."""
+    tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL}
+    moving = {p.rides_on for p in asset.parts if p.rides_on} | {joint.part for joint in asset.joints}
+    left = tuple(p for p in asset.parts if p.id not in tops)
+    if not tops or tops & moving or not left:
+        return None, []
+    result = _run(replace(asset, parts=left), source)
+    if _top_cover(result.object) > OPEN:
+        return None, []  # what is called a top covers nothing that is open without it
+    added = [a.part.mesh for a in result.additions if a.part.label is PartLabel.TOP_PANEL]
+    if len(added) != 1:
+        return 0.0, [f"{len(added)} tops in place of its own"]
+    body = _body(result.object)
+    grid = _grid_over(body)
+    below = _heights(body, grid)
+    stands = np.isfinite(below)
+    share = float((_heights(added, grid) > below - SKIN * asset.unit)[stands].mean())
+    return share, [f"its new top covers {share:.1%}"] if share < COVERED else []
+
+
+# Grasps and handles: sweeps with fcl over the meshes of the object.
+
+
+def _grasp_faults(result: Functionalized) -> Iterator[str]:
+    """Yields movers that nothing can be grasped of, and those with more handles than they need."""
+    grasps = {joint.part: joint.grasp for joint in report_of(result).joints}
+    factor = size_factor(largest_side(result.object))
+    for joint in result.object.joints:
+        visuals = result.object.link(joint.child).visuals
+        added = [v for v in visuals if v.role is VisualRole.ADDED and v.label is PartLabel.HANDLE]
+        carved = [c for c in result.fittings.carved if c.part.id in {v.name for v in visuals}]
+        before = result.fittings.grasps[joint.child]
+        if grasps[joint.child] == "none":
+            yield f"`{joint.child}` cannot be grasped"
+        width = float(np.max(merge_meshes([v.mesh for v in visuals]).box.size[:2])) / factor
+        if len(added) + len(carved) > (2 if width >= WIDE else 1):
+            yield f"`{joint.child}` has {len(added)} handles and {len(carved)} grips"
+        if (added or carved) and before.kind in ("handle", "recess"):
+            yield f"`{joint.child}` had a {before.kind} and got another"
+
+
+def _handle_faults(result: Functionalized) -> Iterator[str]:
+    """Yields added handles that cut into anything on their way, doors before them open as far as they must be."""
+    skin = SKIN * largest_side(result.object)
+    for joint in result.object.joints:
+        handles = [
+            v for v in result.object.link(joint.child).visuals if v.role is VisualRole.ADDED and "handle" in v.name
+        ]
+        if not handles:
+            continue
+        around = _around(result.object, joint)
+        for handle in handles:
+            hit = _met(handle.mesh, joint, around, skin)
+            yield from (f"`{handle.name}` meets `{name}`" for name in hit)
+
+
+def _around(articulated: ArticulatedObject, joint: Joint) -> Any:
+    """Returns all other links at rest, those in front of a joint wide open."""
+    manager = MANAGER()
+    for visual in articulated.link(articulated.root).visuals:
+        if len(visual.mesh.faces):
+            manager.add_object(visual.name, visual.mesh.to_trimesh())
+    for other in articulated.joints:
+        if other.child != joint.child:
+            value = other.limits.upper if other.id in joint.after else 0.0
+            mesh = articulated.link(other.child).mesh
+            manager.add_object(other.child, mesh.to_trimesh(), transform=other.motion(value))
+    return manager
+
+
+def _met(handle: TriangleMesh, joint: Joint, around: Any, skin: float) -> list[str]:
+    found: set[str] = set()
+    body = handle.to_trimesh()
+    for value in np.linspace(joint.limits.lower, joint.limits.upper, POSES):
+        hit, names, contacts = around.in_collision_single(
+            body, transform=joint.motion(float(value)), return_names=True, return_data=True
+        )
+        if hit:
+            found |= {n for c in contacts if c.depth > skin for n in c.names if n in names}
+    return sorted(found)
+
+
+# Interiors, drawer boxes, joints.
+
+
+def _interiors(result: Functionalized) -> tuple[tuple[int, ...], list[str]]:
+    """Returns how many panels each request brings, and what is wrong with them."""
+    counts, faults = [], []
+    for request in INTERIORS:
+        config = AdditionConfig(handles=None, grips=None, interior=parse_interior(request))
+        fittings = add_fittings(result.fittings.scene, result.completion, config, {})
+        names = {a.part.id for a in fittings.additions if a.part.label in (PartLabel.SHELF, PartLabel.DIVIDER)}
+        whole = fitted_object(result.object, fittings)
+        counts.append(len(names))
+        skin = SKIN * largest_side(whole)
+        faults += [f"{request}: `{a}` {what} `{b}`" for a, what, b in panel_faults(whole, names, skin)]
+    return tuple(counts), faults
+
+
+def _joint_faults(plain: Functionalized, result: Functionalized) -> Iterator[str]:
+    """Yields joints that additions cost, or that open less for them."""
+    before = {joint.child: joint.limits.upper for joint in plain.object.joints}
+    after = {joint.child: joint.limits.upper for joint in result.object.joints}
+    for name, upper in before.items():
+        if name not in after:
+            yield f"`{name}` does not move any more"
+        elif after[name] < LEAST_OPENING * upper:
+            yield f"`{name}` opens {after[name]:.3f} instead of {upper:.3f}"
+
+
+def table(found: Sequence[Verdict], whole: bool) -> str:
+    """Returns the figures as a table, and summed up; `whole`: also those without a fault."""
+    head = "| piece | tops | cover | movers | handles | grips | panels | boards | s | faults |"
+    lines = [head, "|---" * 10 + "|"]
+    for one in found:
+        if whole or one.faults:
+            cover = "" if one.covered is None else f"{one.covered:.1%}"
+            inside = " / ".join(map(str, one.panels))
+            cells = [one.name, one.tops, cover, one.movers, one.handles, one.grips, inside, one.boards]
+            lines.append(f"| {' | '.join(map(str, cells))} | {one.seconds:.2f} | {'; '.join(one.faults)} |")
+    topped = [one.covered for one in found if one.covered is not None]
+    seconds = [one.seconds for one in found]
+    panels = [sum(one.panels[k] for one in found) for k in range(len(INTERIORS))]
+    movers, tops = sum(one.movers for one in found), sum(one.tops for one in found)
+    lines += [
+        "",
+        f"- {len(found)} pieces, {movers} movers, {tops} tops added.",
+        f"- Without their own tops: {sum(c >= COVERED for c in topped)} of {len(topped)} get one that covers "
+        f"{COVERED:.0%} (least {min(topped, default=1.0):.1%}).",
+        f"- Panels for {', '.join(INTERIORS)}: {', '.join(map(str, panels))}.",
+        *(f"- {kind} faults: {sum(len(getattr(o, f'{kind}_faults')) for o in found)}." for kind in KINDS),
+        f"- Seconds for additions: median {np.median(seconds):.2f}, 90 % {np.quantile(seconds, 0.9):.2f}, "
+        f"most {max(seconds):.2f}.",
+    ]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
