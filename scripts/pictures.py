@@ -28,7 +28,7 @@ def main() -> int:
     """Writes the pictures; returns the exit code."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("pictures", nargs="*", metavar="PICTURE", help=f"of {', '.join((BEFORE_AFTER, *SHEETS))}")
-    parser.add_argument("--sample", type=Path, default=ROOT / "samples" / "sideboard.glb")
+    parser.add_argument("--sample", type=Path, default=ROOT / "samples" / "kitchen_base.glb")
     parser.add_argument("--size", default="720x540", help="of each half of before_after")
     options = parser.parse_args()
     width, height = (int(side) for side in options.size.split("x"))

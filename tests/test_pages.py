@@ -18,6 +18,7 @@ def code_below(page: str, heading: str) -> list[str]:
     ("page", "heading", "prints"),
     [
         ("synthetic.md", "Synthetic furniture", ""),
+        ("additions.md", "From Python", "top_panel rectangle\nhandle_door knob-round\nshelf panel shelf\n"),
         ("dataset.md", "Pairs", ""),
         ("dataset.md", "FurFun folders", "()\n"),  # what is written is read without a word
     ],
