@@ -183,6 +183,34 @@ def test_a_front_on_a_solid_block_is_refused_with_the_reason():
     assert "space behind the front is only" in made.refused[0].why
 
 
+def with_walls_in_the_case(back: bool) -> Asset:
+    """A front on a bottom; the walls of its box were drawn with the case, as one part."""
+    case = [box("side", (-0.25, -0.18, 0.0), (-0.23, 0.25, 0.2)), box("end", (0.23, -0.18, 0.0), (0.25, 0.25, 0.2))]
+    walls = [
+        box("left", (-0.21, -0.18, 0.03), (-0.2, 0.2, 0.15)),
+        box("right", (0.2, -0.18, 0.03), (0.21, 0.2, 0.15)),
+        box("inner", (-0.2, -0.18, 0.03), (0.2, -0.17, 0.19)),
+        box("back", (-0.2, 0.19, 0.03), (0.2, 0.2, 0.15)),
+    ]
+    merged = replace(case[0], surfaces=tuple(s for p in (*case, *walls[: 3 + back]) for s in p.surfaces))
+    front = box("drawer", (-0.23, -0.2, 0.0), (0.23, -0.18, 0.2))
+    bottom = box("board", (-0.21, -0.18, 0.024), (0.21, 0.2, 0.03), rides_on="drawer")
+    return scene(merged, front, bottom, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
+
+
+def test_walls_that_were_drawn_with_the_case_are_not_missing():
+    made = found(with_walls_in_the_case(back=True))
+    assert (made.verdicts[0].kind, made.verdicts[0].missing) == ("whole", ())
+    assert "part of what stands still" in made.verdicts[0].why
+    assert made.additions == made.refused == ()
+
+
+def test_half_a_box_that_was_drawn_with_the_case_is_missing():
+    made = found(with_walls_in_the_case(back=False))
+    assert made.verdicts[0].kind == "incomplete"
+    assert [r.part for r in made.refused] == ["drawer"]
+
+
 def test_fronts_back_to_back_share_the_depth():
     sides = [box("side", (-0.3, -0.38, 0.0), (-0.28, 0.38, 0.3)), box("end", (0.28, -0.38, 0.0), (0.3, 0.38, 0.3))]
     near = box("drawer_near", (-0.29, -0.4, 0.0), (0.29, -0.38, 0.3))

@@ -15,7 +15,7 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.cells import pieces_in, spans_of
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import translation
 from grafu.realization.addition import Addition, added_part, free_ids
@@ -33,6 +33,8 @@ from grafu.realization.scene import Scene
 from grafu.vocabulary import JointType, PartLabel
 
 DEFAULT = DrawerBoxConfig()
+_WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
+_OVER = 1e-3  # metres by which such boards may stick out of the drawer's outline
 
 
 @final
@@ -80,7 +82,10 @@ def complete_drawers(
             continue
         made = drawer_box(verdict, request, around, config, known)
         if isinstance(made, Refusal):
-            refused.append(made)
+            if drawn_with_the_case(verdict, request, around, config):
+                verdicts[-1] = replace(verdict, kind="whole", missing=(), why=_WITH_THE_CASE)
+            else:
+                refused.append(made)
             continue
         additions += made
         known |= {addition.part.id for addition in made}
@@ -114,6 +119,25 @@ def missing_box(request: JointRequest, around: Surroundings, config: DrawerBoxCo
         if behind > config.deeper * frame.depth:
             return as_front_only(verdict, frame, behind)
     return verdict
+
+
+def drawn_with_the_case(
+    verdict: BoxVerdict, request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT
+) -> bool:
+    """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
+
+    Nobody can tell those from the case; boards beside them would stand there twice.
+    """
+    frame, mesh = _framed(request, around.scene)
+    if verdict.kind != "incomplete" or frame is None or mesh is None:
+        return False
+    still, _ = around.triangles(request, frame)
+    half = np.array([frame.width / 2, np.inf, frame.height / 2]) + _OVER
+    inside = (np.abs(still) <= half).all(axis=(1, 2)) & (still[..., 1] <= frame.depth + _OVER).all(axis=1)
+    inside &= (still[..., 1] >= 0.0).all(axis=1)
+    corners = still[inside].reshape(-1, 3)
+    boards = TriangleMesh(corners, np.arange(len(corners)).reshape(-1, 3))
+    return not box_verdict(request.moving, merge_meshes([mesh, boards]), frame, config).missing
 
 
 def drawer_box(
