@@ -132,6 +132,20 @@ def test_racks_of_shelves_need_no_top_on_their_posts() -> None:
     assert missing_top([*posts, *shelves]).covered
 
 
+@settings(max_examples=20, deadline=None)
+@given(beyond=st.floats(0.0, 0.1), long=st.floats(1.0, 3.2), wide=st.floats(0.6, 1.1))
+def test_legs_that_stand_beyond_a_tables_top_are_no_rim(beyond: float, long: float, wide: float) -> None:
+    x, y = long / 2, wide / 2
+    legs = [
+        board(f"leg_{i}_{k}", (min(a, b), min(c, d), 0.0), (max(a, b), max(c, d), 0.87), PartLabel.LEG)
+        for i, (a, b) in enumerate(((-x - beyond, -x + 0.05), (x - 0.05, x + beyond)))
+        for k, (c, d) in enumerate(((-y - beyond, -y + 0.05), (y - 0.05, y + beyond)))
+    ]
+    stretchers = [board(f"bar_{s}", (-x, s * y - 0.02, 0.18), (x, s * y + 0.02, 0.22)) for s in (-1.0, 1.0)]
+    plate = board("top", (-x, -y, 0.87), (x, y, 0.9), PartLabel.TOP_PANEL)
+    assert missing_top([*legs, *stretchers, plate]).covered
+
+
 def test_a_bookcase_open_in_front_lacks_a_top() -> None:
     shelves = [board(f"shelf_{z}", (-W / 2, -D / 2, z), (W / 2, D / 2, z + T)) for z in (0.4, 0.8, 1.2)]
     assert missing_top([*carcass(height=1.6), *shelves]).missing

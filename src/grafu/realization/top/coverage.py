@@ -23,6 +23,7 @@ _CRACK = 0.02  # metres: what one looks through between boards and behind handle
 _STEP = 0.03  # metres between the rims of two openings that one top closes
 _ABOVE = 0.06  # metres above a rim at which things still stand at it
 _NICHE = 0.45  # of the height: lower down, what is open in front is a niche or an open drawer, no place for a top
+_NARROW = (0.12, 0.25)  # metres, share of the plan's smaller side: splayed legs stand so far beyond a table's top
 _LEAST = 0.15  # of the footprint: smaller holes are sinks, cable outlets and gaps
 
 
@@ -91,7 +92,8 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     `spared` are cells that count in neither map: a basin is neither a top nor the lack of one.
     """
     depth = metre * np.array([config.recess, config.gallery])
-    rim, opened = _openings(views, min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views)))
+    narrow = min(_NARROW[0] * metre, _NARROW[1] * views.grid.cell * min(views.grid.shape))
+    rim, opened = _openings(views, min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views)), narrow)
     free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
     opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(_CRACK * metre) // 2))
     groups = _by_level(opened, rim, _STEP * metre)
@@ -115,12 +117,16 @@ def _between(stands: CellMask) -> CellMask:
     return (sides[0] & backs[0]) | (sides[1] & backs[1])
 
 
-def _openings(views: Views, recess: float, gallery: float) -> tuple[Heights, CellMask]:
-    """Returns for each cell the height of its rim, and whether what covers it lies too far below that."""
+def _openings(views: Views, recess: float, gallery: float, narrow: float) -> tuple[Heights, CellMask]:
+    """Returns for each cell the height of its rim, and whether what covers it lies too far below that.
+
+    What is open in front, too, must be wider than `narrow` metres.
+    """
     around, fixed = _around(views.wall, views.floor), _around(views.cover, views.floor)
     covered = np.where(np.isfinite(views.cover), views.cover, views.floor)
     enclosed, niche = around[0] - covered > recess, around[1] - covered > gallery
     niche &= around[1] - views.floor >= _NICHE * _height(views)
+    niche &= ndimage.binary_opening(niche | enclosed, iterations=max(1, views.grid.cells(narrow) // 2))
     rim = np.where(niche, around[1], around[0])
     held = fixed[2] >= rim - recess  # by two sides at least: the four walls of an open drawer are no rim
     return rim, views.region & (enclosed | niche) & held
