@@ -133,17 +133,35 @@ def test_racks_of_shelves_need_no_top_on_their_posts() -> None:
 
 
 @settings(max_examples=20, deadline=None)
-@given(beyond=st.floats(0.0, 0.1), long=st.floats(1.0, 3.2), wide=st.floats(0.6, 1.1))
-def test_legs_that_stand_beyond_a_tables_top_are_no_rim(beyond: float, long: float, wide: float) -> None:
+@given(beyond=st.floats(0.06, 0.1), long=st.floats(1.0, 3.2), wide=st.floats(0.6, 1.1), low=st.floats(0.6, 0.8))
+def test_legs_that_stand_beyond_a_tables_top_are_no_rim(beyond: float, long: float, wide: float, low: float) -> None:
     x, y = long / 2, wide / 2
     legs = [
-        board(f"leg_{i}_{k}", (min(a, b), min(c, d), 0.0), (max(a, b), max(c, d), 0.87), PartLabel.LEG)
+        board(f"leg_{i}_{k}", (min(a, b), min(c, d), 0.0), (max(a, b), max(c, d), low), PartLabel.LEG)
         for i, (a, b) in enumerate(((-x - beyond, -x + 0.05), (x - 0.05, x + beyond)))
         for k, (c, d) in enumerate(((-y - beyond, -y + 0.05), (y - 0.05, y + beyond)))
     ]
-    stretchers = [board(f"bar_{s}", (-x, s * y - 0.02, 0.18), (x, s * y + 0.02, 0.22)) for s in (-1.0, 1.0)]
-    plate = board("top", (-x, -y, 0.87), (x, y, 0.9), PartLabel.TOP_PANEL)
-    assert missing_top([*legs, *stretchers, plate]).covered
+    aprons = [board(f"apron_{s}", (-x, s * (y - 0.03) - 0.01, 0.55), (x, s * (y - 0.03) + 0.01, 0.9)) for s in (-1, 1)]
+    plate = board("top", (-x, -y, 0.9), (x, y, 0.93), PartLabel.TOP_PANEL)
+    assert missing_top([*legs, *aprons, plate]).covered
+
+
+@pytest.mark.parametrize(("label", "covered"), [(PartLabel.TOP_PANEL, True), (PartLabel.SHELF, False)])
+def test_bars_beside_what_is_called_a_top_are_its_frame(label: PartLabel, covered: bool) -> None:
+    x, y = 0.4, 0.2
+    posts = [
+        board(f"post_{i}_{k}", (a, b, 0.0), (a + 0.03, b + 0.03, 1.2))
+        for i, a in enumerate((-x, x - 0.03))
+        for k, b in enumerate((-y, y - 0.03))
+    ]
+    bars = [
+        board("bar_left", (-x, -y, 1.17), (-x + 0.03, y, 1.2), PartLabel.BAR),
+        board("bar_right", (x - 0.03, -y, 1.17), (x, y, 1.2), PartLabel.BAR),
+        board("bar_front", (-x, -y, 1.17), (x, -y + 0.03, 1.2), PartLabel.BAR),
+        board("bar_back", (-x, y - 0.03, 1.17), (x, y, 1.2), PartLabel.BAR),
+    ]
+    plate = board("plate", (-x, -y + 0.14, 1.18), (x, y, 1.2), label)
+    assert missing_top([*posts, *bars, plate]).covered is covered
 
 
 def test_a_bookcase_open_in_front_lacks_a_top() -> None:

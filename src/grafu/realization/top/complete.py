@@ -19,17 +19,19 @@ from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.likeness import surface_like
 from grafu.realization.plan import JointRequest
 from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
-from grafu.realization.top.coverage import Coverage, Views, coverage_of, views_of
+from grafu.realization.top.coverage import Coverage, coverage_of
 from grafu.realization.top.evidence import basins_of, cells_of, named_cells, plate_in, speaks_for_bars
 from grafu.realization.top.freedom import freedom_of, thick_enough
 from grafu.realization.top.outline import one_piece, over_the_base, overhanging, rim_of, what_pierces, with_fronts
 from grafu.realization.top.roles import Roles, roles_of
 from grafu.realization.top.section import EMPTY, closed_up, offset, section, without_slivers
 from grafu.realization.top.slab import slab_mesh, with_corners, without_block
+from grafu.realization.top.views import Views, views_of
 from grafu.vocabulary import PartLabel
 
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
 _CLEAN = 0.001  # metres beyond a slab's edges, so that grooves run out of it
+_CALLED = 0.5  # of what covers at the rim: bars around so much that is called a top are its frame
 _NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is not the body's
 
 
@@ -97,7 +99,8 @@ def _judged(
     if level is None:
         return TopVerdict(True, coverage.ratio, "nothing is open at the top", coverage)
     named = named_cells(roles, views, coverage, metre)
-    coverage = replace(coverage, near_top=coverage.near_top | (named & coverage.everything))
+    near_top = coverage.near_top | (named & coverage.everything)
+    coverage = replace(coverage, near_top=near_top)
     ratio = coverage.ratio
     seen = f"{ratio:.0%} of what stands at {level:.2f} m is covered"
     if abs(ratio - config.coverage) > config.doubt:
@@ -107,7 +110,7 @@ def _judged(
         covered, told = True, f", `{plate.id}` is a top with a cut-out"
     elif hint is not None and abs(float(hint.high[2]) - level) <= 0.1 * metre:
         covered, told = False, ", and a top was predicted there"
-    elif speaks_for_bars(roles, coverage, config, metre):
+    elif named.sum() < _CALLED * near_top.sum() and speaks_for_bars(roles, coverage, config, metre):
         covered, told = False, " by bars"
     return TopVerdict(covered, ratio, seen + told, coverage, close_call=True)
 
