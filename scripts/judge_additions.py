@@ -121,7 +121,7 @@ def judge(asset: Asset, source: MotionSource) -> Verdict:
     result, plain = _run(asset, source), _run(asset, source, NO_ADDITIONS)
     tops = sum(a.part.label is PartLabel.TOP_PANEL for a in result.additions)
     covered, top_faults = _without_its_top(asset, source)
-    seen = _top_cover(plain.object)
+    seen = _top_cover(_body(plain.object))
     if tops and seen > OPEN:
         top_faults.append(f"a top added over {seen:.0%}")
     if not tops and seen < OPEN:
@@ -174,9 +174,8 @@ def _body(articulated: ArticulatedObject) -> list[TriangleMesh]:
     return [v.mesh for v in own if len(v.mesh.faces)]
 
 
-def _top_cover(articulated: ArticulatedObject) -> float:
+def _top_cover(body: Sequence[TriangleMesh]) -> float:
     """Returns the share of the plan that is covered within 6 % of the height below the highest rim."""
-    body = _body(articulated)
     heights = _heights(body, _grid_over(body))
     low = min(float(mesh.box.low[2]) for mesh in body)
     seen = heights[np.isfinite(heights)] - low
@@ -188,11 +187,10 @@ def _without_its_top(asset: Asset, source: MotionSource) -> tuple[float | None, 
     tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL}
     moving = {p.rides_on for p in asset.parts if p.rides_on} | {joint.part for joint in asset.joints}
     left = tuple(p for p in asset.parts if p.id not in tops)
-    if not tops or tops & moving or not left:
-        return None, []
+    body = [p.mesh for p in left if len(p.mesh.faces) and p.label is not PartLabel.HANDLE]
+    if not tops or tops & moving or not body or _top_cover(body) > OPEN:
+        return None, []  # it has none, a lid that moves, or what is called a top covers nothing that is open without it
     result = _run(replace(asset, parts=left), source)
-    if _top_cover(result.object) > OPEN:
-        return None, []  # what is called a top covers nothing that is open without it
     added = [a.part.mesh for a in result.additions if a.part.label is PartLabel.TOP_PANEL]
     if len(added) != 1:
         return 0.0, [f"{len(added)} tops in place of its own"]
