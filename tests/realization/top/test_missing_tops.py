@@ -28,6 +28,7 @@ from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.top.complete import missing_top
 from grafu.realization.top.config import TopConfig
 from grafu.vocabulary import PartLabel
@@ -162,6 +163,24 @@ def test_bars_beside_what_is_called_a_top_are_its_frame(label: PartLabel, covere
     ]
     plate = board("plate", (-x, -y + 0.14, 1.18), (x, y, 1.2), label)
     assert missing_top([*posts, *bars, plate]).covered is covered
+
+
+def slanted(part: Part, drop: float) -> Part:
+    """A board whose front is lowered by `drop` at the top, and evenly less towards its back."""
+    low, high = part.box.low[1], part.box.high[1]
+    moved = part.mesh.vertices.copy()
+    up = moved[:, 2] > 0.5 * part.box.high[2]
+    moved[up, 2] -= drop * (high - moved[up, 1]) / (high - low)
+    return replace(part, surfaces=(Surface(TriangleMesh(moved, part.mesh.faces)),))
+
+
+@pytest.mark.parametrize("drop", [0.5, 0.6])
+def test_the_slanted_sides_of_a_bureau_are_no_rim_before_its_flap(drop: float) -> None:
+    sides = [slanted(board(f"side_{x}", (x, -0.22, 0.0), (x + T, 0.22, 1.1)), drop) for x in (-0.35, 0.35 - T)]
+    flap = slanted(board("flap", (-0.33, -0.22, 1.08), (0.33, 0.12, 1.1)), drop)
+    back = board("back", (-0.33, 0.2, 0.0), (0.33, 0.22, 1.1))
+    plate = board("top", (-0.35, 0.12, 1.1), (0.35, 0.22, 1.12), PartLabel.TOP_PANEL)
+    assert missing_top([*sides, flap, back, plate]).covered
 
 
 def test_a_bookcase_open_in_front_lacks_a_top() -> None:

@@ -18,7 +18,7 @@ Rises = Float[np.ndarray, "t 3"]
 Numbers = Int[np.ndarray, " s"]
 CellMask = Bool[np.ndarray, "x y"]
 
-_STEEP = 0.02  # of a normal's upright part: what is steeper counts as upright, and stands as high as it reaches
+_STEEP = 0.02  # of a normal's upright part: what is steeper counts as upright
 _SHRINK = 1e-6  # of a cell: what ends on a cell's border does not reach into the next
 
 
@@ -150,6 +150,28 @@ def _height_at(flat: Corners, z: Rises, which: Indices, x: Scalars, y: Scalars) 
     along_x = np.where(upright, 0.0, (p * v[:, 1] - q * u[:, 1]) / area)
     along_y = np.where(upright, 0.0, (q * u[:, 0] - p * v[:, 0]) / area)
     lowest, highest = _least(z), -_least(-z)
-    base = np.where(upright, highest, z[:, 0])
-    found = base[which] + along_x[which] * (x - flat[which, 0, 0]) + along_y[which] * (y - flat[which, 0, 1])
+    found = z[which, 0] + along_x[which] * (x - flat[which, 0, 0]) + along_y[which] * (y - flat[which, 0, 1])
+    stands = upright[which]
+    found[stands] = _rise_of_uprights(flat[which[stands]], z[which[stands]], np.column_stack([x, y])[stands])
     return np.minimum(np.maximum(found, lowest[which]), highest[which])
+
+
+def _rise_of_uprights(flat: Corners, z: Rises, at: Float[np.ndarray, "t 2"]) -> Scalars:
+    """Returns the greatest height of upright triangles within half a cell of points: the sides of a bureau slant."""
+    reach = np.linalg.norm(flat - np.roll(flat, 1, axis=1), axis=2)
+    longest = reach.argmax(axis=1)[:, None, None]
+    ends = [np.take_along_axis(np.roll(flat, shift, axis=1), longest, axis=1)[:, 0] for shift in (0, 1)]
+    way = (ends[1] - ends[0]) / np.maximum(reach.max(axis=1), 1e-12)[:, None]
+    along = np.einsum("tkd,td->tk", flat, way)
+    middle = (at * way).sum(axis=1)
+    found = np.full(len(flat), -np.inf)
+    for step in (-0.5, 0.0, 0.5):
+        t = np.clip(middle + step, _least(along), -_least(-along))
+        for k in range(3):
+            a, b, low, high = along[:, k], along[:, (k + 1) % 3], z[:, k], z[:, (k + 1) % 3]
+            level = np.abs(b - a) < 1e-9
+            share = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
+            rise = np.where(level, np.maximum(low, high), low + share * (high - low))
+            met = (t >= np.minimum(a, b) - 1e-9) & (t <= np.maximum(a, b) + 1e-9)
+            found = np.where(met, np.maximum(found, rise), found)
+    return np.where(np.isfinite(found), found, -_least(-z))
