@@ -19,17 +19,19 @@ from typing import Any
 import numpy as np
 import trimesh
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual, VisualRole
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
 from grafu.metrics.panels import panel_faults
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
+from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.fittings import add_fittings, fitted_object
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig, choose_source, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.realization.handle.config import size_factor
@@ -120,8 +122,8 @@ def judge(asset: Asset, source: MotionSource) -> Verdict:
     """Returns the figures of one piece."""
     result, plain = _run(asset, source), _run(asset, source, NO_ADDITIONS)
     tops = sum(a.part.label is PartLabel.TOP_PANEL for a in result.additions)
-    covered, top_faults = _without_its_top(asset, source)
-    seen = _top_cover(_body(plain.object))
+    covered, top_faults = _without_its_top(asset, source, plain.object)
+    seen = _top_cover([v.mesh for v in _own(plain.object)])
     if tops and seen > OPEN:
         top_faults.append(f"a top added over {seen:.0%}")
     if not tops and seen < OPEN:
@@ -167,11 +169,19 @@ def _heights(meshes: Sequence[TriangleMesh], grid: Points) -> Scalars:
     return grid[:, 2] - RayCaster(merge_meshes(meshes)).along(grid, np.array([0.0, 0.0, -1.0]))
 
 
-def _body(articulated: ArticulatedObject) -> list[TriangleMesh]:
-    """Returns the meshes of the input's parts, closed, without handles."""
+def _own(articulated: ArticulatedObject) -> list[Visual]:
+    """Returns the input's parts, closed, without handles."""
     visuals = (v for link in articulated.links for v in link.visuals)
     own = (v for v in visuals if v.role is VisualRole.PART and v.label is not PartLabel.HANDLE)
-    return [v.mesh for v in own if len(v.mesh.faces)]
+    return [v for v in own if len(v.mesh.faces)]
+
+
+def _body_of(asset: Asset, source: MotionSource) -> Body:
+    """Returns a piece with what it gets before joints are built: its top does not depend on them."""
+    motion = MOTIONS[choose_source(asset, source)]
+    asset = asset if motion.reads_annotation else asset.without_annotation()
+    completion = motion.complete(asset, parse_graph(asset))
+    return complete_body(asset, completion, motion.plan(asset, completion), DEFAULT)
 
 
 def _top_cover(body: Sequence[TriangleMesh]) -> float:
@@ -182,19 +192,18 @@ def _top_cover(body: Sequence[TriangleMesh]) -> float:
     return float((seen > 0.94 * np.quantile(seen, 0.98)).mean())
 
 
-def _without_its_top(asset: Asset, source: MotionSource) -> tuple[float | None, list[str]]:
+def _without_its_top(asset: Asset, source: MotionSource, closed: ArticulatedObject) -> tuple[float | None, list[str]]:
     """Returns the share of the plan that a top covers which replaces the piece's own, and what is wrong with it."""
     tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL}
     moving = {p.rides_on for p in asset.parts if p.rides_on} | {joint.part for joint in asset.joints}
     left = tuple(p for p in asset.parts if p.id not in tops)
-    body = [p.mesh for p in left if len(p.mesh.faces) and p.label is not PartLabel.HANDLE]
+    body = [v.mesh for v in _own(closed) if v.name not in tops]
     if not tops or tops & moving or not body or _top_cover(body) > OPEN:
         return None, []  # it has none, a lid that moves, or what is called a top covers nothing that is open without it
-    result = _run(replace(asset, parts=left), source)
-    added = [a.part.mesh for a in result.additions if a.part.label is PartLabel.TOP_PANEL]
+    additions = _body_of(replace(asset, parts=left), source).additions
+    added = [a.part.mesh for a in additions if a.part.label is PartLabel.TOP_PANEL]
     if len(added) != 1:
         return 0.0, [f"{len(added)} tops in place of its own"]
-    body = _body(result.object)
     grid = _grid_over(body)
     below = _heights(body, grid)
     stands = np.isfinite(below)
