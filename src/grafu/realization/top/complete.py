@@ -19,13 +19,14 @@ from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.likeness import surface_like
 from grafu.realization.plan import JointRequest
 from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
-from grafu.realization.top.coverage import Coverage, Views, coverage_of, views_of
+from grafu.realization.top.coverage import Coverage, coverage_of
 from grafu.realization.top.evidence import basins_of, cells_of, named_cells, plate_in, speaks_for_bars
 from grafu.realization.top.freedom import freedom_of, thick_enough
 from grafu.realization.top.outline import one_piece, over_the_base, overhanging, rim_of, what_pierces, with_fronts
 from grafu.realization.top.roles import Roles, roles_of
 from grafu.realization.top.section import EMPTY, closed_up, offset, section, without_slivers
 from grafu.realization.top.slab import slab_mesh, with_corners, without_block
+from grafu.realization.top.views import Views, views_of
 from grafu.vocabulary import PartLabel
 
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out

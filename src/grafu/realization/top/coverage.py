@@ -2,7 +2,8 @@
 
 "Near the top" is no fixed band under the greatest height, since backs and mirrors stand higher than tops and sides a
 little higher than let-in ones. A cell is open if one looks past its rim into the depth: the rim is as high as the walls
-that enclose the cell, on all four sides, or on three where the front is open. Nothing here knows of labels.
+that enclose the cell, on all four sides, or on three where the front is open. What lies between supports of one height
+that nothing else joins is open too. Nothing here knows of labels.
 """
 
 from dataclasses import dataclass
@@ -14,11 +15,10 @@ from scipy import ndimage
 
 from grafu.geometry.arrays import ArrayValue, frozen_array
 from grafu.realization.top.config import TopConfig
-from grafu.realization.top.height_map import CellMask, Grid, Heights, heights_of
-from grafu.realization.top.roles import Roles, triangles_of
+from grafu.realization.top.height_map import CellMask, Grid, Heights
+from grafu.realization.top.supports import levels_of, spanned_at
+from grafu.realization.top.views import Views
 
-RESOLUTION = 160  # cells along the longer side: a panel of 18 mm is two cells of a sideboard wide
-_FRONTS = 0.06  # metres before the still parts up to which a closed front belongs to the footprint
 _CRACK = 0.02  # metres: what one looks through between boards and behind handles is no opening
 _STEP = 0.03  # metres between the rims of two openings that one top closes
 _ABOVE = 0.06  # metres above a rim at which things still stand at it
@@ -60,32 +60,6 @@ class Coverage(ArrayValue):
         return float((self.everything & self.near_top).sum()) / area if area else 1.0
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Views:
-    """Heights from above: of what stands, of what covers (still or turning) and of all, drawers included."""
-
-    grid: Grid
-    still: Heights
-    cover: Heights
-    wall: Heights
-    region: CellMask
-    floor: float
-
-
-def views_of(roles: Roles, metre: float, resolution: int = RESOLUTION) -> Views:
-    """Returns the heights of furniture from above, and the region that it stands on, kneeholes counted in."""
-    grid = Grid.over(roles.box.grown(_FRONTS * metre), resolution)
-    still = heights_of(triangles_of(p.mesh for p in roles.still), grid)
-    turning = heights_of(triangles_of(m.mesh for m in roles.turning), grid)
-    sliding = heights_of(triangles_of(m.mesh for m in roles.sliding), grid)
-    cover = np.maximum(still, turning)
-    wall = np.maximum(cover, sliding)
-    stands = np.isfinite(still if roles.still else wall)
-    near = ndimage.binary_dilation(_between(stands), iterations=grid.cells(_FRONTS * metre))
-    return Views(grid, still, cover, wall, _between(stands) | (near & np.isfinite(wall)), float(roles.box.low[2]))
-
-
 def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask | None = None) -> Coverage:
     """Returns both maps at the rim with the largest opening, or of the whole footprint where nothing is open.
 
@@ -97,8 +71,10 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
     opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(_CRACK * metre) // 2))
     groups = _by_level(opened, rim, _STEP * metre)
-    best = max(groups, key=lambda group: int(group[1].sum()), default=None)
-    if best is None or best[1].sum() < _LEAST * views.region.sum():
+    least = _LEAST * float(views.region.sum())
+    spans = [(level, spanned_at(views, level, hole, config, metre) & free) for level, hole in groups]
+    best = _largest(spans, least) or _bare(views, config, metre, least)
+    if best is None:
         return Coverage(views.grid, views.region & free, views.region & free)
     level, hole = best
     near = (views.wall >= level - depth[0]) & (views.wall <= level + _ABOVE * metre) & views.region
@@ -108,13 +84,6 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
 
 def _height(views: Views) -> float:
     return float(views.wall[np.isfinite(views.wall)].max(initial=views.floor)) - views.floor
-
-
-def _between(stands: CellMask) -> CellMask:
-    """Returns the cells with something on both sides along X or along Y, or on themselves."""
-    sides = [np.logical_or.accumulate(m, axis=a) for a in (0, 1) for m in (stands,)]
-    backs = [np.flip(np.logical_or.accumulate(np.flip(stands, a), axis=a), a) for a in (0, 1)]
-    return (sides[0] & backs[0]) | (sides[1] & backs[1])
 
 
 def _openings(views: Views, recess: float, gallery: float, narrow: float) -> tuple[Heights, CellMask]:
@@ -151,6 +120,22 @@ def _by_level(opened: CellMask, rim: Heights, step: float) -> list[tuple[float, 
         else:
             groups.append((levels[k], mask))
     return groups
+
+
+def _largest(groups: list[tuple[float, CellMask]], least: float) -> tuple[float, CellMask] | None:
+    """Returns the largest opening of at least so many cells, with the height of its rim."""
+    best = max(groups, key=lambda group: int(group[1].sum()), default=None)
+    return best if best is not None and best[1].sum() >= least else None
+
+
+def _bare(views: Views, config: TopConfig, metre: float, least: float) -> tuple[float, CellMask] | None:
+    """Returns what the highest supports that enclose nothing span, legs without an apron for one, and their height."""
+    nothing = np.zeros(views.grid.shape, dtype=bool)
+    for level in levels_of(views, metre):
+        spanned = spanned_at(views, level, nothing, config, metre)
+        if spanned.sum() >= max(least, 1.0):
+            return level, spanned
+    return None
 
 
 def _touching(cells: CellMask, seed: CellMask) -> CellMask:

@@ -10,9 +10,10 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.realization.top.config import TopConfig
-from grafu.realization.top.coverage import Coverage, Views
+from grafu.realization.top.coverage import Coverage
 from grafu.realization.top.height_map import CellMask, heights_of
 from grafu.realization.top.roles import Roles
+from grafu.realization.top.views import Views
 from grafu.vocabulary import PartLabel
 
 _NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)

@@ -15,7 +15,7 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
 from grafu.realization.top.config import TopConfig
-from grafu.realization.top.coverage import Coverage, Views
+from grafu.realization.top.coverage import Coverage
 from grafu.realization.top.height_map import CellMask
 from grafu.realization.top.roles import Closed, Roles, triangles_of
 from grafu.realization.top.section import (
@@ -29,6 +29,7 @@ from grafu.realization.top.section import (
     thinned,
     without_slivers,
 )
+from grafu.realization.top.views import Views
 
 _NEAR_RIM = (0.03, 0.06)  # metres below and above a rim's height in which what carries the top is looked for
 _EVEN = 0.001  # metres: what differs by less carries together
