@@ -197,7 +197,8 @@ def _without_its_top(asset: Asset, source: MotionSource, closed: ArticulatedObje
     tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL}
     moving = {p.rides_on for p in asset.parts if p.rides_on} | {joint.part for joint in asset.joints}
     left = tuple(p for p in asset.parts if p.id not in tops)
-    body = [v.mesh for v in _own(closed) if v.name not in tops]
+    standing = {v.name for v in closed.link(closed.root).visuals} - tops  # drawers may have been drawn open
+    body = [v.mesh for v in _own(closed) if v.name in standing]
     if not tops or tops & moving or not body or _top_cover(body) > OPEN:
         return None, []  # it has none, a lid that moves, or what is called a top covers nothing that is open without it
     additions = _body_of(replace(asset, parts=left), source).additions
