@@ -1,12 +1,15 @@
 """What only a top had joined: legs without aprons, pedestals, end panels; and what stands alike but has none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from topless import D, H, T, W, board, carcass
+from topless import D, H, T, W, board, carcass, drawer, slide
 
 from grafu.asset.part import Part
+from grafu.geometry.appearance import Material, Surface
 from grafu.realization.top.complete import missing_top
 from grafu.realization.top.config import TopConfig
 from grafu.vocabulary import PartLabel
@@ -117,3 +120,21 @@ def test_four_legs_of_two_heights_are_a_chairs() -> None:
     seat = board("seat", (-0.2, -0.2, 0.43), (0.2, 0.2, 0.45))
     chair = [post(x, 0.18, 0.9) for x in (-0.18, 0.18)] + [post(x, -0.18, 0.65) for x in (-0.18, 0.18)]
     assert missing_top([*chair, seat]).covered
+
+
+def painted(part: Part, material: Material) -> Part:
+    return replace(part, surfaces=tuple(Surface(s.mesh, material) for s in part.surfaces))
+
+
+@pytest.mark.parametrize("runners", [False, True])
+def test_a_painted_table_gets_a_painted_top_though_its_drawers_are_plain_inside(runners: bool) -> None:
+    blue, birch = Material("blue", (0.2, 0.3, 0.7, 1.0)), Material("birch", (0.9, 0.8, 0.6, 1.0))
+    inside = painted(drawer(H - 0.03), birch)
+    face = painted(board("face", (-W / 2, -D / 2 - 2 * T, H - 0.18), (W / 2, -D / 2 - T, H - 0.03)), blue)
+    box_ = replace(inside, surfaces=(*inside.surfaces, *face.surfaces))
+    sides = [board(f"side_{x}", (x, -D / 2, H - 0.2), (x + T, D / 2, H), PartLabel.LEG) for x in (-W / 2, W / 2 - T)]
+    still = [painted(p, blue) for p in [*legs(W, D), *sides]]
+    rails = [painted(board(f"rail_{x}", (x, -0.2, 0.65), (x + 0.01, 0.2, 0.66)), birch) for x in (-0.37, 0.36)]
+    verdict = missing_top([*still, box_, *(rails if runners else [])], [slide()])
+    assert verdict.addition is not None
+    assert verdict.addition.part.surfaces[0].material == blue

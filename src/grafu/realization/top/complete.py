@@ -22,7 +22,16 @@ from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
 from grafu.realization.top.coverage import Coverage, coverage_of
 from grafu.realization.top.evidence import basins_of, cells_of, named_cells, plate_in, speaks_for_bars
 from grafu.realization.top.freedom import freedom_of, thick_enough
-from grafu.realization.top.outline import one_piece, over_the_base, overhanging, rim_of, what_pierces, with_fronts
+from grafu.realization.top.outline import (
+    let_in,
+    one_piece,
+    over_the_base,
+    overhanging,
+    rim_of,
+    what_pierces,
+    with_fronts,
+)
+from grafu.realization.top.outside import outer_body
 from grafu.realization.top.roles import Roles, roles_of
 from grafu.realization.top.section import EMPTY, closed_up, offset, section, without_slivers
 from grafu.realization.top.slab import slab_mesh, with_corners, without_block
@@ -32,7 +41,6 @@ from grafu.vocabulary import PartLabel
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
 _CLEAN = 0.001  # metres beyond a slab's edges, so that grooves run out of it
 _CALLED = 0.5  # of what covers at the rim: bars around so much that is called a top are its frame
-_NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is not the body's
 
 
 @final
@@ -84,9 +92,8 @@ def missing_top(
     if made is None:
         return replace(verdict, why=f"{verdict.why}; nothing carries a slab there")
     mesh, outline = made
-    body = [p for p in roles.still if p.label not in _NO_BODY] or [p for p in parts if p.label not in _NO_BODY]
     (part_id,) = free_ids("top_panel", 1, {p.id for p in parts})
-    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, body)])
+    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles))])
     style = config.shape if _is_rectangle(outline) else f"outline, {config.shape}"
     return replace(verdict, addition=Addition(part, verdict.why, style))
 
@@ -142,6 +149,8 @@ def _slab(
         below = region.intersection(offset(outline, _CLEAN * metre)).difference(rim.walls)
         groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
         mesh = without_block(mesh, groove, rim.seat - thickness, height)
+    for region, height in let_in(roles, rim, config.seat * unit, metre):
+        mesh = without_block(mesh, region, rim.seat - thickness, height)
     return mesh, outline
 
 

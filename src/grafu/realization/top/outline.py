@@ -14,6 +14,7 @@ from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
+from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.top.config import TopConfig
 from grafu.realization.top.coverage import Coverage
 from grafu.realization.top.height_map import CellMask
@@ -46,6 +47,7 @@ _SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to wh
 _FRONT = 0.08  # metres before the body in which a front belongs under the top
 _REACH = 0.06  # metres that a front may end below the rim
 _BELOW = 0.08  # metres that base mouldings and pedestals may jut out, and the top with them
+_LET_IN = 0.01  # metres above the rest to which an end panel still carries the top
 _TONGUE = 0.012  # metres: narrower pieces of a top are no top
 
 
@@ -118,12 +120,24 @@ def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -
 
 def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: float) -> BaseGeometry:
     """Returns what stands up through a slab on the rim, hollow things filled: no top goes there."""
-    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + seat]
-    if not tall:
+    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + max(seat, _LET_IN * metre)]
+    return _standing(tall, (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness), metre)
+
+
+def let_in(roles: Roles, rim: Rim, seat: float, metre: float) -> list[tuple[BaseGeometry, float]]:
+    """Returns what stands a little above the rest of the rim and how high: there a slab's underside gives way."""
+    found = []
+    for part in roles.still:
+        top = float(part.box.high[2])
+        if rim.seat + seat < top <= rim.seat + max(seat, _LET_IN * metre):
+            found.append((_standing([part.mesh], (rim.seat + 0.5 * seat, 0.5 * (rim.seat + top)), metre), top))
+    return found
+
+
+def _standing(meshes: list[TriangleMesh], heights: tuple[float, ...], metre: float) -> BaseGeometry:
+    if not meshes:
         return EMPTY
-    heights = (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness)
-    lines = section(triangles_of(tall), heights, metre)
-    return filled(closed_up(lines, 0.03 * metre))
+    return filled(closed_up(section(triangles_of(meshes), heights, metre), 0.03 * metre))
 
 
 def one_piece(shape: BaseGeometry, coverage: Coverage, metre: float) -> Polygon | None:
