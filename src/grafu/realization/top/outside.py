@@ -21,7 +21,9 @@ _CELLS = 96  # along the longer side of each view
 _DEEP = 0.012  # of the largest side: what lies less far behind the foremost face is seen
 _FACING = 0.3  # of a unit normal: what looks further away from the eye is an edge
 _BODY = 0.25  # of all that is seen: a still body that shows less is a runner, a rail, a cable tray
+_LEGS = 0.15  # of all that is seen: legs that show less are fittings
 _EYES = ((0, 1.0), (0, -1.0), (1, -1.0))  # along X to the right and to the left, and along Y in front
+_METAL = 0.5  # metallic share of a material, from which on it is metal
 _NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is the body's only where there is no other
 
 Triangles = Float[np.ndarray, "n 3 3"]
@@ -31,8 +33,8 @@ FaceMask = Bool[np.ndarray, " n"]
 def outer_body(parts: Sequence[Part], roles: Roles) -> tuple[Part, ...]:
     """Returns the parts whose look a top takes on.
 
-    They are what stands still but legs, as it is. Where this shows little, they are all parts but handles, and of them
-    those faces alone that one sees.
+    They are what stands still but legs, as it is. Where this shows little, legs are what tops are painted with, unless
+    they are metal or thin; else they are all parts but handles, and of them those faces alone that one sees.
     """
     body = tuple(p for p in roles.still if p.label not in _NO_BODY)
     others = tuple(p for p in parts if p.label is not PartLabel.HANDLE and len(p.mesh.faces))
@@ -40,6 +42,9 @@ def outer_body(parts: Sequence[Part], roles: Roles) -> tuple[Part, ...]:
     shown = {part.id: sum(s.mesh.area for s in part.surfaces) for part in seen}
     if sum(shown[p.id] for p in body) > _BODY * sum(shown.values()):
         return body
+    legs = tuple(p for p in seen if p.label is PartLabel.LEG and not _is_metal(p))
+    if sum(shown[p.id] for p in legs) > _LEGS * sum(shown.values()):
+        return (*legs, *(p for p in seen if p in body))
     return seen if sum(shown.values()) > 0 else others
 
 
@@ -83,6 +88,12 @@ class _View:
 
 def _any_sees(views: list[_View], triangles: Triangles, deep: float) -> FaceMask:
     return np.logical_or.reduce([view.sees(triangles, deep) for view in views])
+
+
+def _is_metal(part: Part) -> bool:
+    """Whether most of a part is metal."""
+    area = sum(s.mesh.area for s in part.surfaces)
+    return sum(s.mesh.area for s in part.surfaces if s.material.metallic >= _METAL) > 0.5 * area
 
 
 def _with_faces(surface: Surface, seen: FaceMask) -> Surface:
