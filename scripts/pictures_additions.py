@@ -47,7 +47,7 @@ View = Callable[[Box, float], Camera]
 BARE = Top("none")
 PLINTH = Base("toe kick", 0.1)
 STEEL = Material("steel", (0.55, 0.56, 0.57, 1.0), metallic=0.6, roughness=0.35)
-JUDGED = (  # family and seed; the last desk shows what is not solved
+JUDGED = (  # family and seed; of the last desk, only the top joins what carries it
     ("table with drawers", 1),
     ("table with drawers", 2),
     ("vanity", 1),
