@@ -91,7 +91,8 @@ class TrainingConfig:
     optimiser: OptimiserConfig = OptimiserConfig()
     features: FeatureConfig = field(default_factory=FeatureConfig)
     validation: ValidationConfig = ValidationConfig()
-    steps: int = 20_000
+    steps: int = 5_000
+    """What two hours of one core do, and the shipped weights had; more are better."""
     seed: int = 1
     mirror: float = 0.5
     """Chance of each model's visit to be its mirror image (paper)."""
