@@ -246,6 +246,28 @@ def test_unlabelled_parts_get_their_labels_and_others_keep_theirs() -> None:
     assert completion.decision("left", "label") is None
 
 
+def test_labels_are_settled_before_edges_and_added_parts_are_asked_about() -> None:
+    graph = relabelled(cupboard(), dict.fromkeys(BOXES, PartLabel.UNKNOWN))
+    said = told()
+    said.labels = dict(LABEL_OF)
+    said.added = [[], [(PartLabel.HANDLE, KNOB, "drawer")]]  # what is added at the look for labels does not count
+    network = said.about(graph)
+    seen: list[list[PartLabel]] = []
+
+    def changing(features: GraphFeatures) -> Scores:
+        seen.append([LABELS[code] for code in features.labels])
+        said.labels = dict(LABEL_OF) if len(seen) == 1 else dict.fromkeys(BOXES, PartLabel.LEG)
+        return network(features)
+
+    completion = complete_by_network(graph, changing, FEW)
+
+    assert [completion.completed.node(name).label for name in BOXES] == list(LABEL_OF.values())
+    assert seen[1] == list(LABEL_OF.values())
+    assert PartLabel.UNKNOWN not in {label for labels in seen[1:] for label in labels}
+    assert completion.added == ("handle_added_1",)
+    assert len(seen) == 3
+
+
 def test_no_part_stays_unknown() -> None:
     graph = relabelled(cupboard(), dict.fromkeys(BOXES, PartLabel.UNKNOWN))
     said = Answers(labels={name: {PartLabel.UNKNOWN: 9.0, PartLabel.LEG: 2.0} for name in BOXES})

@@ -1,7 +1,7 @@
 """What the network believes about a graph becomes a completed graph: exclusive, consistent, and answered for all.
 
-The order is that of a carpenter: what each part is, whose handle is whose, then how doors and drawers move. Edges that
-the input states are kept as they are.
+The order is that of a carpenter: whose handle is whose, then how doors and drawers move. What each part is, is settled
+before. Edges that the input states are kept as they are.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,14 +11,13 @@ from typing import final
 from grafu.completion.answers import move_parts
 from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
-from grafu.completion.labelling import choose_labels
 from grafu.completion.scene import Scene
 from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
 from grafu.completion.view import View
 from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
 from grafu.graph.edges import Attached
-from grafu.graph.edit import relabelled, with_edges
+from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
 
@@ -26,7 +25,7 @@ from grafu.vocabulary import PartLabel
 @final
 @dataclass(frozen=True)
 class Reading:
-    """A graph whose parts have labels and whose handles have parents, beside what is believed about it."""
+    """A graph whose handles have parents, beside what is believed about it."""
 
     view: View
     decisions: tuple[Decision, ...]
@@ -45,12 +44,12 @@ def read_graph(
     parents: Mapping[str, str],
     config: DecodeConfig = DecodeConfig(),
 ) -> Reading:
-    """Returns the graph with its labels and handles settled.
+    """Returns a graph of labelled parts with its handles settled.
 
     `given` are the ids of the input's own parts; `parents` says for which door or drawer a handle was added.
     """
-    labels, decisions = choose_labels(graph, beliefs, config)
-    view = View(relabelled(graph, labels), beliefs, given, config)
+    view = View(graph, beliefs, given, config)
+    decisions: tuple[Decision, ...] = ()
     known = {edge.child for edge in view.graph.attachments}
     found: list[Attached] = []
     refused: list[RefusedMotion] = []
@@ -70,8 +69,13 @@ def read_graph(
     return Reading(held, decisions, tuple(refused))
 
 
-def complete_reading(graph: FunctionalGraph, reading: Reading, added: Sequence[NewPart]) -> GraphCompletion:
-    """Returns the completion of `graph`: every door and drawer moves, or there is a reason why not."""
+def complete_reading(
+    graph: FunctionalGraph, reading: Reading, labelling: tuple[Decision, ...], added: Sequence[NewPart]
+) -> GraphCompletion:
+    """Returns the completion of `graph`: every door and drawer moves, or there is a reason why not.
+
+    `labelling` are the decisions of what its unlabelled parts are.
+    """
     view = reading.view
     scene = Scene(view.graph)
     motions = move_parts(
@@ -82,6 +86,6 @@ def complete_reading(graph: FunctionalGraph, reading: Reading, added: Sequence[N
         with_edges(view.graph, motions.edges),
         "network",
         tuple(part.node.id for part in added),
-        (*(d for part in added for d in part.decisions), *reading.decisions, *motions.decisions),
+        (*(d for part in added for d in part.decisions), *labelling, *reading.decisions, *motions.decisions),
         (*reading.refused, *motions.refused),
     )

@@ -1,6 +1,7 @@
-"""Completes a graph by the trained network: look, add what is missing, look again, then decide.
+"""Completes a graph by the trained network: say what each part is, look again, add what is missing, then decide.
 
-Free slots are asked again, with what they added now seen as parts, until none fires: there is no most of handles.
+Labels come first, because the network sees better what goes where when it is told what the parts are. Free slots are
+asked again, with what they added now seen as parts, until none fires: there is no most of handles.
 """
 
 import numpy as np
@@ -9,10 +10,13 @@ from grafu.completion.beliefs import Beliefs, averaged, beliefs_of, mirrored_bac
 from grafu.completion.decode import complete_reading, read_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, graph_features, mirrored
+from grafu.completion.labelling import choose_labels
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
-from grafu.graph.completion import GraphCompletion
+from grafu.graph.completion import Decision, GraphCompletion
+from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import PartLabel
 
 _ACROSS = 0  # furniture is alike on its left and right, not in front and behind
 _MOVERS_PER_ROUND = 4  # handles that one look can add: the paper's free slots
@@ -28,7 +32,8 @@ def complete_by_network(
     """
     if not graph.nodes:
         return GraphCompletion(graph, graph, "network")
-    seen, added = graph, list[NewPart]()
+    seen, labelling = label_parts(graph, network, features, config)
+    added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)
     rounds = 0
     while True:
@@ -38,9 +43,19 @@ def complete_by_network(
         most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND
         found = new_parts(reading.view, reading.held) if rounds < most else ()
         if not found:
-            return complete_reading(graph, reading, added)
+            return complete_reading(graph, reading, labelling, added)
         seen, rounds = with_parts(seen, found), rounds + 1
         added += found
+
+
+def label_parts(
+    graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, config: DecodeConfig
+) -> tuple[FunctionalGraph, tuple[Decision, ...]]:
+    """Returns the graph with a label for each unlabelled part, and how sure each is; one look where there is any."""
+    if all(node.label is not PartLabel.UNKNOWN for node in graph.nodes):
+        return graph, ()
+    labels, decisions = choose_labels(graph, look(graph, network, features, config.mirror), config)
+    return relabelled(graph, labels), decisions
 
 
 def look(graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, mirror: bool = False) -> Beliefs:
