@@ -1,0 +1,1 @@
+"""Runs over datasets: one table for each of the paper's, for any method, on any data."""
