@@ -1,1 +1,1 @@
-"""What people look at in a browser: a page for each model, one for a whole run. Pages need nothing outside themselves."""
+"""What people look at in a browser: a page for each model, and one for a whole run. No page needs a network."""
