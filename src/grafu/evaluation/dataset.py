@@ -1,0 +1,174 @@
+"""Which models there are to measure on, and each as an asset whose joints are the truth. It measures nothing.
+
+A dataset is a folder (PartNet-Mobility, HSSD with S2O annotations, URDF, GLB, meshes, the authors' releases, any
+mixture of them), one model, or `synth:SEED:COUNT`: furniture that is made on the spot.
+"""
+
+import json
+from collections import Counter
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Final, Literal, final, get_args
+
+from grafu.asset.load import detect, load_asset
+from grafu.asset.part import Asset, Part
+from grafu.errors import AssetError, OptionError, UnreadableAsset
+from grafu.synth.generate import make_specimen
+from grafu.synth.specimen import Specimen
+
+ModelKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh", "furfun", "pnm_clean", "hssd_test", "made"]
+KINDS: Final[tuple[ModelKind, ...]] = get_args(ModelKind)
+TEST_SEED = 990_002  # of the made furniture that nothing is trained on or chosen by
+_MADE = "synth"
+_TEST_COUNT = 100
+_READERS: Final[dict[str, ModelKind]] = {
+    "partnet-mobility": "partnet-mobility",
+    "hssd": "hssd",
+    "urdf": "urdf",
+    "gltf": "glb",
+    "mesh folder": "mesh",
+    "mesh file": "mesh",
+}
+EXPECTED = (
+    "PartNet-Mobility folders (mobility.urdf, or mobility_v2.json with result.json), HSSD models (<id>.glb with "
+    "<id>.artpre.json), URDF or GLB files, folders of meshes, a release (graphs_unfunctional or graph_unfunc), "
+    f"or {_MADE}:SEED:COUNT"
+)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class ModelRef:
+    """One model of a dataset, not read yet. `id` is unique in its dataset and safe as a file name.
+
+    `path` is what is read: a folder or a file; of a release, the model's input graph. A `made` model has none: it is
+    number `number` of the furniture of `seed`.
+
+    Raises:
+        OptionError: if the id is no file name, the kind unknown, or the fields do not fit the kind.
+    """
+
+    id: str
+    kind: ModelKind
+    path: Path | None = None
+    seed: int | None = None
+    number: int | None = None
+
+    def __post_init__(self) -> None:
+        if not self.id or self.id in (".", "..") or set(self.id) & set("/\\\0"):
+            raise OptionError(f"`id` must be a file name: got {self.id!r}")
+        if self.kind not in KINDS:
+            raise OptionError(f"`kind` must be one of {', '.join(KINDS)}: got {self.kind!r}")
+        made = (self.seed, self.number)
+        if self.kind == "made":
+            if self.path is not None or any(value is None or value < 0 for value in made):
+                raise OptionError(f"a made model has a seed and a number from 0, and no path: got {made}, {self.path}")
+        elif self.path is None or made != (None, None):
+            raise OptionError(f"a {self.kind} model has a path, and no seed or number: got {self.path}, {made}")
+
+
+def find_models(data: str | Path) -> tuple[ModelRef, ...]:
+    """Returns the models of a dataset, in the order of their ids; made ones in the order of their numbers.
+
+    Args:
+        data: a folder of models or one model; `synth:SEED:COUNT`, or `synth` for the test furniture.
+
+    Raises:
+        OptionError: if `synth:...` is not two numbers.
+        UnreadableAsset: if there is nothing that is read.
+    """
+    if str(data) == _MADE or str(data).startswith(f"{_MADE}:"):
+        return _made_models(str(data))
+    path = Path(data)
+    try:
+        found = _with_unique_ids(_models_at(path))
+    except OSError as error:
+        raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {EXPECTED}") from None
+    if not found:
+        state = "holds no model" if path.exists() else "does not exist"
+        raise UnreadableAsset(f"{path} {state}: expected {EXPECTED}")
+    return found
+
+
+def load_model(ref: ModelRef) -> Asset:
+    """Returns a model as an asset in the object frame; its `joints` are the truth, empty where none is known.
+
+    Raises:
+        AssetError: if it is missing, damaged, or has no mesh that could move.
+    """
+    if ref.kind == "made":
+        return _made_asset(_specimen(ref))
+    return load_asset(_path(ref))
+
+
+def category_of(ref: ModelRef) -> str:
+    """Returns the category of a model: what its data set says (`Table`), a made one's family, or its kind."""
+    if ref.kind == "made":
+        return _specimen(ref).family
+    stated = _stated_category(_path(ref)) if ref.kind == "partnet-mobility" else ""
+    return stated or ref.kind
+
+
+def _models_at(path: Path) -> list[ModelRef]:
+    if not path.is_dir():
+        return _one(path)
+    below = [ref for child in sorted(path.iterdir()) if not child.name.startswith(".") for ref in _one(child)]
+    whole = _one(path)
+    return whole if whole and (len(below) <= 1 or whole[0].kind == "partnet-mobility") else below
+
+
+def _one(path: Path) -> list[ModelRef]:
+    """Returns the one model that a file or folder is, or nothing."""
+    try:
+        kind, place = detect(path)
+    except AssetError:
+        return []
+    if kind == "mesh folder" and path.name in ("textured_objs", "meshes"):
+        return []
+    is_folder = place.is_dir() or kind == "partnet-mobility"
+    return [ModelRef(place.name if is_folder else place.stem, _READERS[kind], place)]
+
+
+def _with_unique_ids(refs: list[ModelRef]) -> tuple[ModelRef, ...]:
+    """Returns the models by id; where two have the same, each is named after its folder, too."""
+    counts = Counter(ref.id for ref in refs)
+    named = [replace(r, id=f"{_path(r).parent.name}_{r.id}") if counts[r.id] > 1 else r for r in refs]
+    return tuple(sorted(named, key=lambda ref: ref.id))
+
+
+def _made_models(data: str) -> tuple[ModelRef, ...]:
+    numbers = data.split(":")[1:] if data != _MADE else [str(TEST_SEED), str(_TEST_COUNT)]
+    if len(numbers) != 2 or not all(n.isascii() and n.isdigit() for n in numbers) or int(numbers[1]) < 1:
+        raise OptionError(f"made furniture must be asked for as {_MADE}:SEED:COUNT: got {data!r}")
+    seed, count = (int(n) for n in numbers)
+    return tuple(ModelRef(f"synth_{seed}_{k:07d}", "made", seed=seed, number=k) for k in range(count))
+
+
+@lru_cache(maxsize=2)  # asked for its category right after it was read
+def _specimen(ref: ModelRef) -> Specimen:
+    assert ref.seed is not None  # a made model has both
+    assert ref.number is not None
+    return make_specimen(ref.seed, ref.number)
+
+
+def _made_asset(specimen: Specimen) -> Asset:
+    """Returns the furniture as it was modelled, with the joints and riders of its repaired version."""
+    present = {part.id for part in specimen.asset.parts}
+    carried = {p.id: p.rides_on for p in specimen.whole.parts if p.rides_on in present}
+    parts: tuple[Part, ...] = tuple(replace(p, rides_on=carried.get(p.id)) for p in specimen.asset.parts)
+    joints = tuple(joint for joint in specimen.whole.joints if joint.part in present)
+    return replace(specimen.asset, parts=parts, joints=joints)
+
+
+def _stated_category(folder: Path) -> str:
+    try:
+        meta = json.loads((folder / "meta.json").read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return ""
+    return str(meta.get("model_cat") or "") if isinstance(meta, dict) else ""
+
+
+def _path(ref: ModelRef) -> Path:
+    assert ref.path is not None  # every kind but `made` has one
+    return ref.path
