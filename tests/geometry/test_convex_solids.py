@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid, subtract
+from grafu.geometry.solids import ConvexSolid, removed_area, subtract
 
 OAK = Material("oak")
 UNIT = Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0))
@@ -141,3 +141,36 @@ def test_faces_without_area_vanish_with_the_cut():
     left = subtract(Surface(flat, OAK), [solid((-1.0, -1.0, -1.0), (0.5, 2.0, 1.0))])
     assert left.mesh.area == pytest.approx(0.5)
     assert np.all(left.mesh.face_areas > 0)
+
+
+def _boxes_over_the_sheet(seed: int, count: int) -> tuple[list[ConvexSolid], np.ndarray]:
+    """Boxes that pass through the unit square, and where they meet it: (low, high) corners in tenths."""
+    random = np.random.default_rng(seed)
+    low = random.integers(-2, 9, (count, 2))
+    cells = np.stack([low, low + random.integers(1, 5, (count, 2))], axis=1)
+    found = [solid((*map(float, a / 10), -1.0), (*map(float, b / 10), 1.0)) for a, b in cells]
+    return found, cells
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(2, 30))
+@settings(max_examples=30)
+def test_what_overlapping_solids_take_of_a_sheet_goes_once(seed, count):
+    solids, cells = _boxes_over_the_sheet(seed, count)
+    x, y = np.meshgrid(np.arange(10) + 0.5, np.arange(10) + 0.5)
+    taken = np.any([(a[0] < x) & (x < b[0]) & (a[1] < y) & (y < b[1]) for a, b in cells], axis=0)
+    left = subtract(sheet(), solids)
+    assert left.mesh.area == pytest.approx((~taken).sum() / 100, abs=1e-7)
+    assert removed_area(sheet(), solids) == pytest.approx(taken.sum() / 100, abs=1e-7)
+    middles = left.mesh.triangles.mean(axis=1)
+    for one in solids:
+        assert np.all((middles @ one.planes[:, :3].T > one.planes[:, 3] - 1e-7).any(axis=1))
+    assert np.all(left.mesh.face_normals[:, 2] > 0.99)  # turned as they were
+    np.testing.assert_allclose(left.uv, left.mesh.vertices[:, :2] * [2.0, 3.0], atol=1e-6)
+
+
+def test_a_sheet_is_not_shredded_by_many_overlapping_solids():
+    """Taken one after another, 400 boxes leave a hundred thousand triangles, and take minutes."""
+    random = np.random.default_rng(0)
+    points = random.uniform(0.1, 0.9, (400, 1, 3)) * [1.0, 1.0, 0.0] + random.normal(0.0, 0.08, (400, 12, 3))
+    solids = [found for cloud in points if (found := ConvexSolid.around(cloud)) is not None]
+    assert len(subtract(sheet(), solids).mesh.faces) < 1000

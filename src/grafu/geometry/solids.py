@@ -1,7 +1,8 @@
 """Convex solids, and cutting them out of surfaces, attributes kept. It knows no parts and no reasons to cut.
 
 Closed surfaces are cut by manifold3d and stay closed. Open ones, which real furniture is full of, are clipped triangle
-by triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before.
+by triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before. What
+several solids take of one triangle goes at once: one after another they would shred it.
 """
 
 from collections.abc import Sequence
@@ -11,13 +12,14 @@ from typing import final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull, QhullError
 
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import ArrayValue, Faces, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.remainder import remainder
 
 # Shorter than this is nothing: clipped slivers below it are dropped, hulls flatter than it are thickened.
 _SLIVER = 1e-7
@@ -146,46 +148,84 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     # Faces without area go too: they would stay behind as needles in the cut.
     owner = np.flatnonzero(near)
     owner = owner[~_is_sliver(mesh.triangles[owner])]
-    pieces = rows[mesh.faces[owner]]
+    pieces, gone = _left_over(rows, mesh.faces[owner], solids)
     cut = np.zeros(len(mesh.faces), dtype=bool)
-    for solid in solids:
-        pieces, owner = _without_solid(pieces, owner, cut, solid)
+    cut[owner[gone]] = True
     if not cut.any():
         return surface
     flat = near & _is_sliver(mesh.triangles)
-    pieces = pieces[cut[owner]]
     pieces = pieces[~_is_sliver(pieces)]
     new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
     faces = np.vstack([mesh.faces[~cut & ~flat], new_faces])
     return _from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
 
 
-def _without_solid(
-    pieces: np.ndarray, owner: np.ndarray, cut: np.ndarray, solid: ConvexSolid
-) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the pieces less what lies in one solid; marks the faces that lost something in `cut`."""
-    candidate = _meet(pieces[:, :, :3], solid.box)
-    if not candidate.any():
-        return pieces, owner
-    number = np.flatnonzero(candidate)
-    number = number[~_beyond_a_plane(pieces[number, :, :3], solid.planes)]
-    if not len(number):
-        return pieces, owner
-    inside, kept, kept_number = pieces[number], [], []
-    for plane in solid.planes:
-        inside, number, outside, outside_number = _split(inside, number, plane)
+def _left_over(rows: np.ndarray, faces: Faces, solids: Sequence[ConvexSolid]) -> tuple[np.ndarray, Mask]:
+    """Returns what is left of the faces that lose something (rows of corner attributes), and which those are."""
+    triangles = rows[faces]
+    cut = _cut_by(triangles, solids)
+    times = np.bincount(cut.face, minlength=len(faces))
+    is_whole = np.ones(len(cut.face), dtype=bool)
+    is_whole[cut.outside_owner] = False
+    gone = np.zeros(len(faces), dtype=bool)  # faces of which one solid leaves nothing
+    gone[cut.face[is_whole]] = True
+    kept = [cut.outside[times[cut.face[cut.outside_owner]] == 1]]
+    owner = cut.face[cut.inside_owner]
+    for face in np.flatnonzero((times > 1) & ~gone):
+        mine = np.flatnonzero(owner == face)
+        takers = cut.inside_owner[mine]
+        holes = [cut.inside[mine[takers == taker], :, :3].reshape(-1, 3) for taker in np.unique(takers)]
+        kept.append(remainder(triangles[face, :, :3], holes) @ triangles[face])
+    return np.concatenate(kept), times > 0
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class _Cut:
+    """What solids take of faces and what each leaves of them, by pairs of a face and a solid that takes some of it.
+
+    `face` is each pair's face; `inside` and `outside` are triangles, each with the number of its pair.
+    """
+
+    face: Int[np.ndarray, " pairs"]
+    inside: Float[np.ndarray, "m 3 k"]
+    inside_owner: Int[np.ndarray, " m"]
+    outside: Float[np.ndarray, "n 3 k"]
+    outside_owner: Int[np.ndarray, " n"]
+
+
+def _cut_by(triangles: np.ndarray, solids: Sequence[ConvexSolid]) -> _Cut:
+    """Returns what each of some solids takes of triangles (rows of corner attributes), and what it leaves."""
+    near = [_touched(triangles[:, :, :3], solid) for solid in solids]
+    face, solid = np.concatenate(near), np.repeat(np.arange(len(solids)), [len(n) for n in near])
+    planes = _padded_planes(solids)
+    inside, owner = triangles[face], np.arange(len(face))
+    kept, kept_owner = [inside[:0]], [owner[:0]]
+    for k in range(planes.shape[1]):
+        inside, owner, outside, outside_owner = _split(inside, owner, planes[solid[owner], k])
         kept.append(outside)
-        kept_number.append(outside_number)
-        if not len(inside):
-            return pieces, owner
-    hit = np.zeros(len(pieces), dtype=bool)
-    hit[number[_areas(inside) > _SLIVER**2]] = True
-    if not hit.any():
-        return pieces, owner
-    cut[owner[hit]] = True
-    numbers = np.concatenate(kept_number)
-    parts = np.concatenate(kept)[hit[numbers]]
-    return np.concatenate([pieces[~hit], parts]), np.concatenate([owner[~hit], owner[numbers[hit[numbers]]]])
+        kept_owner.append(outside_owner)
+    hit = np.unique(owner[_areas(inside) > _SLIVER**2])
+    number = np.full(len(face), -1)
+    number[hit] = np.arange(len(hit))
+    owner, outside_owner = number[owner], number[np.concatenate(kept_owner)]
+    outside = np.concatenate(kept)[outside_owner >= 0]
+    return _Cut(face[hit], inside[owner >= 0], owner[owner >= 0], outside, outside_owner[outside_owner >= 0])
+
+
+def _touched(triangles: np.ndarray, solid: ConvexSolid) -> Indices:
+    """Returns the numbers of the triangles that a solid may take something of."""
+    number = np.flatnonzero(_meet(triangles, solid.box))
+    return number[~_beyond_a_plane(triangles[number], solid.planes)]
+
+
+def _padded_planes(solids: Sequence[ConvexSolid]) -> Float[np.ndarray, "s k 4"]:
+    """Returns the solids' planes, as many of each: what some lack are planes that everything lies within."""
+    planes = np.zeros((len(solids), max(len(solid.planes) for solid in solids), 4))
+    planes[:, :, 3] = np.inf
+    for solid, rows in zip(solids, planes, strict=True):
+        rows[: len(solid.planes)] = solid.planes
+    return planes
 
 
 def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
@@ -213,10 +253,10 @@ def _areas(triangles: np.ndarray) -> np.ndarray:
 
 
 def _split(
-    triangles: np.ndarray, owner: np.ndarray, plane: np.ndarray
+    triangles: np.ndarray, owner: np.ndarray, planes: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Splits triangles (rows of corner attributes) by a plane: inside, its owners, outside, its owners."""
-    side = triangles[:, :, :3] @ plane[:3] - plane[3]
+    """Splits triangles (rows of corner attributes) by a plane each: inside, its owners, outside, its owners."""
+    side = np.einsum("ncd,nd->nc", triangles[:, :, :3], planes[:, :3]) - planes[:, 3:]
     side = np.where(np.abs(side) < _SLIVER, 0.0, side)
     all_in, all_out = np.all(side <= 0, axis=1), np.all(side >= 0, axis=1)
     mixed = ~(all_in | all_out)

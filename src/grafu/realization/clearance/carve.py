@@ -36,24 +36,24 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
     for name in ids:
         part = scene.parts[name]
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
-        share = _lost_share(part, near, config.max_carve)
+        area = sum(removed_area(surface, near) for surface in part.surfaces)
+        share = _lost_share(part, near, area, config.max_carve)
         if not 0 < share < config.max_carve:
             continue
         surfaces = (subtract(surface, near) for surface in part.surfaces)
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
-        width = float(np.sqrt(sum(removed_area(surface, near) for surface in part.surfaces)))
-        done.append(Clearance(name, "carved", width, share, f"stood in the way of {path.mover}"))
+        done.append(Clearance(name, "carved", float(np.sqrt(area)), share, f"stood in the way of {path.mover}"))
     return scene.replaced(carved), done
 
 
-def _lost_share(part: Part, solids: Sequence[ConvexSolid], limit: float) -> float:
-    """Returns the share of the part's surface that goes, or of its volume where that is less.
+def _lost_share(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:
+    """Returns the share of the part's surface that goes, or of its volume where that is less; `area` is what goes.
 
     Volumes are those of the convex hulls of its connected pieces: real parts are rarely closed.
     """
     if part.mesh.area == 0 or not solids:
         return 0.0
-    by_area = sum(removed_area(surface, solids) for surface in part.surfaces) / part.mesh.area
+    by_area = area / part.mesh.area
     return by_area if by_area < limit else min(by_area, _lost_volume(part, solids))
 
 

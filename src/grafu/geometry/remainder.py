@@ -1,0 +1,40 @@
+"""What is left of a triangle from which several convex pieces go at once. It knows no solids.
+
+Taken away one after another, pieces that overlap would shred what is left: each cuts the shreds that all before it
+left. Taken away together, in the triangle's plane, they leave no more triangles than the outline of what is left needs.
+"""
+
+from collections.abc import Sequence
+
+import manifold3d
+import numpy as np
+from jaxtyping import Float
+
+
+def remainder(corners: Float[np.ndarray, "3 3"], pieces: Sequence[np.ndarray]) -> Float[np.ndarray, "m 3 3"]:
+    """Returns what is left as triangles turned like the given one: each corner as weights of the three `corners`.
+
+    `pieces` hold the points, (n, 3), around convex pieces that lie in the triangle. Where lines cross is found to 1e-8
+    of the triangle's longest side.
+    """
+    plane = _plane(corners)
+    whole = (corners - corners[0]) @ plane
+    holes = [manifold3d.CrossSection.hull_points((piece - corners[0]) @ plane) for piece in pieces]
+    left = manifold3d.CrossSection.batch_boolean([manifold3d.CrossSection([whole]), *holes], manifold3d.OpType.Subtract)
+    outlines = left.to_polygons()
+    if not outlines:
+        return np.zeros((0, 3, 3))
+    points = np.vstack(outlines)
+    second, third = np.linalg.solve(whole[1:].T, points.T)
+    weights = np.column_stack([1.0 - second - third, second, third])
+    return weights[np.asarray(manifold3d.triangulate(outlines), np.int64)]
+
+
+def _plane(corners: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 2"]:
+    """Returns the axes of the triangle's plane as columns, as long as makes its longest side 1."""
+    first, second = corners[1] - corners[0], corners[2] - corners[0]
+    normal = np.cross(first, second)
+    across = np.cross(normal, first)
+    axes = np.column_stack([first / np.linalg.norm(first), across / np.linalg.norm(across)])
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max()
+    return np.asarray(axes / longest)
