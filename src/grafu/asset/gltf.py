@@ -62,10 +62,20 @@ def read_surfaces(path: Path, limits: Limits) -> tuple[Surface, ...]:
     Raises:
         UnreadableAsset: if the file is missing, damaged, or compressed.
     """
+    return tuple(surface for mesh in read_scene_meshes(path, limits)[0] for surface in mesh)
+
+
+def read_scene_meshes(path: Path, limits: Limits) -> tuple[tuple[tuple[Surface, ...], ...], tuple[str, ...]]:
+    """Returns the surfaces of each node with a mesh, in the scene's order and coordinates, and notes on what was lost.
+
+    Raises:
+        UnreadableAsset: if the file is missing, damaged, or compressed.
+    """
     file = read_gltf_file(path, limits)
     meshes = GltfMeshes(file, limits)
     with file.guarded():
-        return tuple(s.transformed(n.T_scene_node) for n in _scene_nodes(file) for s in meshes.get(n.mesh))
+        found = tuple(tuple(s.transformed(n.T_scene_node) for s in meshes.get(n.mesh)) for n in _scene_nodes(file))
+    return found, tuple(dict.fromkeys(meshes.notes))
 
 
 def _draft(node: _Node, meshes: GltfMeshes, wholes: set[int]) -> PartDraft:

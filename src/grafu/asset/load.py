@@ -1,6 +1,7 @@
 """`load_asset`: from a path to an asset in the object frame. It knows which reader reads what, and no format.
 
-What the input is, is told by its content: PartNet-Mobility's files, a `<robot>` element, glTF's JSON or magic bytes.
+What the input is, is told by its content: PartNet-Mobility's files, a GLB with annotated parts beside it, a `<robot>`
+element, glTF's JSON or magic bytes.
 """
 
 from collections.abc import Callable
@@ -14,6 +15,7 @@ from grafu.asset.clean import cleaned
 from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
+from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
 from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import AnnotatedJoint, Asset, Frame, Part
@@ -29,12 +31,15 @@ Reader = Callable[[Path, LoadOptions], Reading]
 
 READERS: Final[dict[str, Reader]] = {
     "partnet-mobility": read_partnet_mobility,
+    "hssd": read_hssd,
     "urdf": read_urdf,
     "gltf": read_gltf,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
-_EXPECTED = "a PartNet-Mobility folder, a URDF, a GLB or glTF scene, an OBJ with groups, or a folder of meshes"
+_EXPECTED = (
+    "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB or glTF scene, an OBJ with groups, or a folder of meshes"
+)
 
 
 def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
@@ -85,6 +90,9 @@ def _detect_file(path: Path) -> tuple[str, Path]:
     suffix = path.suffix.lower()
     if path.name in ("mobility.urdf", "mobility_v2.json") and is_partnet_mobility(path.parent):
         return "partnet-mobility", path.parent
+    model = path if is_hssd(path) else model_of_annotation(path)
+    if model is not None:
+        return "hssd", model
     with path.open("rb") as stream:
         head = stream.read(4096)
     if suffix == ".urdf" or b"<robot" in head:
@@ -102,7 +110,7 @@ def _detect_folder(folder: Path) -> tuple[str, Path]:
     for kind, suffixes in (("urdf", (".urdf",)), ("gltf", (".glb", ".gltf"))):
         found = _files(folder, suffixes)
         if len(found) == 1:
-            return kind, found[0]
+            return ("hssd" if is_hssd(found[0]) else kind), found[0]
         if len(found) > 1:
             names = ", ".join(p.name for p in found[:3])
             raise UnreadableAsset(f"{folder} holds {len(found)} {suffixes[0]} files ({names}): name one of them")

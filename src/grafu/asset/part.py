@@ -15,7 +15,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.vocabulary import JointType, PartLabel
 
-AssetKind = Literal["partnet-mobility", "urdf", "glb", "mesh folder", "mesh file", "made"]
+AssetKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh folder", "mesh file", "release", "made"]
 
 
 @final

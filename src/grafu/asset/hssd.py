@@ -1,0 +1,250 @@
+"""HSSD models with S2O annotations: `<id>.glb` beside `<id>.artpre.json` and `<id>.articulations.json`.
+
+The parts are cut from the GLB's few large meshes along the annotated triangles. It settles no frame.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import final
+
+import numpy as np
+
+from grafu.asset.bodies import Body, Motion, Visual, parts_of_bodies
+from grafu.asset.gltf import read_scene_meshes
+from grafu.asset.hssd_annotation import (
+    MOTIONS,
+    PARTS,
+    AnnotatedPart,
+    Articulation,
+    HssdAnnotation,
+    TriangleRun,
+    find_motions,
+    read_annotation,
+)
+from grafu.asset.labels import label_of
+from grafu.asset.options import LoadOptions, check_parts
+from grafu.asset.reading import Convention, Reading
+from grafu.errors import UnreadableAsset
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.selection import selected
+from grafu.vocabulary import PartLabel
+
+REST = "rest"  # the part of the triangles that no part claims
+# How far a part's box may lie from the annotated one, as a share of the object's diagonal: rounding, not another frame.
+_AGREES = 0.01
+# What moves in HSSD and is no furniture's door or drawer: taps, wheels, knobs.
+_STAYS = (PartLabel.HANDLE, PartLabel.MISC, PartLabel.LEG)
+
+
+@final
+@dataclass(frozen=True)
+class _Mesh:
+    """What the annotation counts as one mesh: the triangles of its surfaces, one after the other."""
+
+    surfaces: tuple[Surface, ...]
+
+    @property
+    def count(self) -> int:
+        return sum(len(s.mesh.faces) for s in self.surfaces)
+
+
+def is_hssd(path: Path) -> bool:
+    """Whether the file is a GLB with annotated parts beside it."""
+    return path.suffix.lower() == ".glb" and path.with_name(path.stem + PARTS).is_file()
+
+
+def model_of_annotation(path: Path) -> Path | None:
+    """Returns the GLB that an annotation file belongs to, or None where the file is none or has no GLB beside it."""
+    ending = next((e for e in (PARTS, MOTIONS) if path.name.endswith(e)), None)
+    if ending is None:
+        return None
+    stem = path.name.removesuffix(ending)
+    stems = (stem, stem.rpartition(".")[2])  # articulations may be named after their data set, too
+    return next((m for s in stems if is_hssd(m := path.with_name(f"{s}.glb"))), None)
+
+
+def read_hssd(path: Path, options: LoadOptions) -> Reading:
+    """Returns the annotated parts of a model in the coordinates of its GLB, with the joints that are stated.
+
+    Raises:
+        UnreadableAsset: if a file is damaged, or the annotation does not fit the GLB.
+        AssetTooLarge: if it has more bytes, parts or faces than the limits allow.
+    """
+    annotation = read_annotation(path, options.limits)
+    check_parts(len(annotation.parts), path, options.limits)
+    nodes, notes = read_scene_meshes(path, options.limits)
+    meshes = _fitting(nodes, annotation, path)
+    cut, said = _cut(meshes, annotation)
+    bodies, kept = _bodies(annotation, cut, path.name)
+    made = parts_of_bodies(bodies, up=_up_axis(annotation))
+    silent = [] if find_motions(path) else [f"there is no {path.stem}{MOTIONS}: no joint is stated"]
+    convention = Convention(
+        "the annotation (upAxis, frontAxis; metres)", annotation.up or "+Y", annotation.front or "+Z", unit=1.0
+    )
+    words = dict.fromkeys([*notes, *said, *silent, *kept, *made.notes, *_misplaced(annotation, cut)])
+    return Reading("hssd", made.parts, convention, made.joints, None, tuple(words), grouped=True)
+
+
+def _up_axis(annotation: HssdAnnotation) -> int:
+    return "XYZ".index((annotation.up or "+Y")[1])
+
+
+def _fitting(nodes: tuple[tuple[Surface, ...], ...], annotation: HssdAnnotation, path: Path) -> list[_Mesh]:
+    """Returns the meshes as the annotation counts them: each primitive one, or else each node's.
+
+    Raises:
+        UnreadableAsset: if it names a mesh or triangle that is there in neither way of counting.
+    """
+    primitives = [_Mesh((surface,)) for surfaces in nodes for surface in surfaces]
+    whole = [_Mesh(surfaces) for surfaces in nodes]
+    misfit = _misfit(primitives, annotation)
+    if misfit and _misfit(whole, annotation):
+        raise UnreadableAsset(f"{path}: {misfit}; the annotation is of another model: fetch both again")
+    return whole if misfit else primitives
+
+
+def _misfit(meshes: list[_Mesh], annotation: HssdAnnotation) -> str:
+    """Returns in words which triangles are not there, or nothing."""
+    for part in annotation.parts:
+        for run in part.runs:
+            if run.mesh >= len(meshes):
+                return f"part {part.pid} names mesh {run.mesh} of {len(meshes)}"
+            count = meshes[run.mesh].count
+            if (run.last or 0) > count:
+                return f"part {part.pid} names triangle {(run.last or 0) - 1} of mesh {run.mesh}, which has {count}"
+    return ""
+
+
+def _cut(meshes: list[_Mesh], annotation: HssdAnnotation) -> tuple[dict[str, tuple[Surface, ...]], list[str]]:
+    """Returns each part's surfaces by pid, those of no part as `REST`, and notes; the first that names one has it."""
+    free = [np.ones(mesh.count, dtype=bool) for mesh in meshes]
+    cut: dict[str, tuple[Surface, ...]] = {}
+    twice = 0
+    for part in annotation.parts:
+        taken = [np.zeros(mesh.count, dtype=bool) for mesh in meshes]
+        for run in part.runs:
+            taken[run.mesh][_slice(run)] = True
+        twice += sum(int((t & ~f).sum()) for t, f in zip(taken, free, strict=True))
+        cut[part.pid] = _surfaces(meshes, [t & f for t, f in zip(taken, free, strict=True)])
+        free = [f & ~t for t, f in zip(taken, free, strict=True)]
+    notes = [f"{twice:,} triangles are annotated as two parts: the first has them"] if twice else []
+    left = sum(int(f.sum()) for f in free)
+    if left:
+        cut[REST] = _surfaces(meshes, free)
+        notes.append(f"{left:,} triangles belong to no annotated part: kept in place as `{REST}`")
+    return cut, notes
+
+
+def _slice(run: TriangleRun) -> slice:
+    return slice(run.first, run.last)
+
+
+def _surfaces(meshes: list[_Mesh], masks: list[np.ndarray]) -> tuple[Surface, ...]:
+    """Returns the marked triangles, each mesh's mask running over its surfaces in turn; empty ones are left out."""
+    found = []
+    for mesh, mask in zip(meshes, masks, strict=True):
+        first = 0
+        for surface in mesh.surfaces:
+            last = first + len(surface.mesh.faces)
+            marked = np.flatnonzero(mask[first:last])
+            if len(marked):
+                found.append(selected(surface, marked))
+            first = last
+    return tuple(found)
+
+
+def _bodies(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]], file: str) -> tuple[list[Body], list[str]]:
+    """Returns a body per part, what moves with its motion, what hangs on a mover alone with that as its parent."""
+    words = {part.pid: part.word for part in annotation.parts}
+    motions: dict[str, Articulation] = {}
+    notes: list[str] = []
+    for stated in annotation.articulations:
+        name = f"{words[stated.pid]}-{stated.pid}"
+        if stated.pid in motions:
+            notes.append(f"{name} has several motions: the first counts")
+        elif label_of(words[stated.pid]) in _STAYS:
+            notes.append(f"{name} is annotated to move, but is no door or drawer: kept in place")
+        else:
+            motions[stated.pid] = stated
+    carriers = _carriers(annotation, motions, cut)
+    bodies = [_body(part, motions.get(part.pid), carriers.get(part.pid), cut, file) for part in annotation.parts]
+    if REST in cut:
+        bodies.append(Body(REST, _link(REST), (Visual(REST, cut[REST], _link(REST), file),)))
+    return bodies, notes
+
+
+def _body(
+    part: AnnotatedPart,
+    stated: Articulation | None,
+    carrier: str | None,
+    cut: dict[str, tuple[Surface, ...]],
+    file: str,
+) -> Body:
+    name, link = f"{part.word}-{part.pid}", _link(part.pid)
+    motion = stated and Motion(stated.type, stated.axis, stated.lower, stated.upper, stated.limited)
+    visuals = (Visual(name, cut[part.pid], link, file),) if cut[part.pid] else ()
+    return Body(name, link, visuals, motion, None if carrier is None else _link(carrier))
+
+
+def _link(pid: str) -> str:
+    return f"pid_{pid}" if pid != REST else REST
+
+
+def _carriers(
+    annotation: HssdAnnotation, motions: dict[str, Articulation], cut: dict[str, tuple[Surface, ...]]
+) -> dict[str, str]:
+    """Returns what carries each part that does not stand by itself, by pid.
+
+    A mover's base carries it where that moves, too. Still parts that hang together and touch one mover and nothing else
+    ride on it; the largest such group is the body, which rides on nothing.
+    """
+    found = {}
+    for pid, stated in motions.items():
+        moving = [base for base in stated.base if base in motions and base != pid]
+        if moving:
+            found[pid] = moving[0]
+    groups = _groups(annotation, motions)
+    bases = {base for stated in motions.values() for base in stated.base}
+    body = max(groups, key=lambda group: sum(_extent(cut[pid]) for pid in group), default=frozenset())
+    for group in groups:
+        movers = {other for pid in group for other in annotation.neighbours[pid]} & motions.keys()
+        if len(movers) == 1 and group is not body and not group & bases:
+            found.update(dict.fromkeys(group, movers.pop()))
+    return found
+
+
+def _groups(annotation: HssdAnnotation, motions: dict[str, Articulation]) -> list[frozenset[str]]:
+    """Returns the still parts in groups that touch each other, directly or by way of others."""
+    left = [part.pid for part in annotation.parts if part.pid not in motions]
+    groups = []
+    while left:
+        group, edge = {left[0]}, [left[0]]
+        while edge:
+            new = annotation.neighbours[edge.pop()] - motions.keys() - group
+            group |= new
+            edge += new
+        groups.append(frozenset(group))
+        left = [pid for pid in left if pid not in group]
+    return groups
+
+
+def _extent(surfaces: tuple[Surface, ...]) -> float:
+    return _box(surfaces).diagonal if surfaces else 0.0
+
+
+def _box(surfaces: tuple[Surface, ...]) -> Box:
+    return Box.around(np.vstack([s.mesh.vertices for s in surfaces]))
+
+
+def _misplaced(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]]) -> list[str]:
+    """Returns a note where parts lie elsewhere than the boxes that the annotation states for them."""
+    boxes = {pid: _box(surfaces) for pid, surfaces in cut.items() if surfaces}
+    if not boxes:
+        return []
+    reach = _AGREES * Box.around(np.vstack([b.corners() for b in boxes.values()])).diagonal
+    pairs = [(p, boxes[p.pid]) for p in annotation.parts if p.box is not None and p.pid in boxes]
+    off = [p.pid for p, box in pairs if p.box is not None and np.abs(p.box.center - box.center).max() > reach]
+    if not off:
+        return []
+    return [f"{len(off)} of {len(pairs)} parts lie elsewhere than annotated (part {off[0]}): joints may be misplaced"]
