@@ -62,7 +62,8 @@ class AnnotatedJoint:
     """A joint that the input itself states: the moving part, the axis in the object frame, limits as stated.
 
     Limits are radians or metres along `axis`; unlike a `Joint`'s they may be negative, reversed or not start at 0,
-    and `limited=False` says that the input states none.
+    and `limited=False` says that the input states none. `stated_by` names who predicted it, where the input did not
+    state it.
     """
 
     part: str
@@ -71,6 +72,7 @@ class AnnotatedJoint:
     lower: float
     upper: float
     limited: bool = True
+    stated_by: str = "annotation"
 
 
 @final
