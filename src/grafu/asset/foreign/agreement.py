@@ -1,0 +1,158 @@
+"""How well predicted parts agree with an asset's in a frame: which covers which, how far their boxes lie apart.
+
+Bodies are compared, not parts: what a prediction moves as one, and all that it leaves still. It chooses no frame.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from grafu.asset.foreign.box_overlap import intersection_over_union
+from grafu.asset.foreign.motions import ForeignMotions, ForeignPart
+from grafu.asset.part import Asset
+from grafu.geometry.arrays import Mat4, Points
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.sampling import sample_surface
+from grafu.geometry.transform import invert, scale_of, transform_points
+
+_ASKED = 64  # points of each of the asset's parts
+_DRAWN = 30_000  # points of the whole prediction, spread evenly: a part is as finely drawn as any other
+_LEAST_DRAWN, _MOST_CORNERS = 100, 5_000
+_FAR = 0.05  # share of the object's size beyond which a point is simply elsewhere
+_LOOSE_BOX, _LOOSE_MESH = 0.02, 1e-4  # what a part's likeness to the whole predicted part weighs, in shares of the size
+_SLACK = 0.005  # share of the size by which boxes are grown before they are compared: sheets have volume then
+_REGRESSED = 0.1  # up to which boxes that lie apart are still taken in order: regressed ones err by 0.06 to 0.08
+_UNMATCHED = 0.25  # what a predicted body that covers no part adds, in shares of the size
+
+LEAST_OVERLAP = 0.3
+"""The mean overlap of bodies below which a prediction is held to be that of another object."""
+
+
+@final
+@dataclass(frozen=True)
+class Agreement:
+    """What comes of a frame.
+
+    `part_of` says for each of the asset's parts which predicted part covers it (None: not to be said); `residual` is
+    how far the faces of the bodies' boxes lie apart, the mean as a share of the object's largest side; `overlap` is
+    the bodies' mean intersection over union.
+    """
+
+    part_of: tuple[str | None, ...]
+    residual: float
+    overlap: float
+
+
+class Comparison:
+    """An asset and a prediction, sampled once, to be compared in many frames."""
+
+    def __init__(self, asset: Asset, foreign: ForeignMotions) -> None:
+        self.asset, self.foreign = asset, foreign
+        self.points = np.vstack([_used(part.mesh) for part in foreign.parts])
+        self._asked = [_points_of(part.mesh, _ASKED) for part in asset.parts]
+        self._boxes = [part.box for part in asset.parts]
+        area = sum(part.mesh.area for part in foreign.parts if not part.is_box)
+        self._shapes = [_Shape(part, area) for part in foreign.parts]
+
+    def agreement(self, T_object_foreign: Mat4) -> Agreement:
+        """Returns how well the parts agree where the prediction is drawn in this frame."""
+        if self._apart(T_object_foreign):
+            return Agreement((None,) * len(self.asset.parts), 1.0, 0.0)
+        return self._in_order(T_object_foreign) or self._compared(self._covering(T_object_foreign), T_object_foreign)
+
+    def _compared(self, part_of: tuple[str | None, ...], T_object_foreign: Mat4) -> Agreement:
+        """Returns how well the bodies agree where each part is covered so."""
+        residuals, overlaps = [], []
+        for body in dict.fromkeys(self.foreign.body_of.values()):
+            mine, theirs = self._box_of(body, part_of), self._foreign_box(body, T_object_foreign)
+            residuals.append(_faces_apart(mine, theirs) / self.asset.unit if mine else _UNMATCHED)
+            overlaps.append(intersection_over_union(mine, theirs, _SLACK * self.asset.unit) if mine else 0.0)
+        return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
+
+    def _apart(self, T: Mat4) -> bool:
+        """Whether the two as a whole are of different sizes or in different places."""
+        whole = Box.around(transform_points(T, self.points))
+        return intersection_over_union(whole, self.asset.box, _SLACK * self.asset.unit) < 0.2
+
+    def _in_order(self, T: Mat4) -> Agreement | None:
+        """Returns what comes of taking predicted parts for the asset's in order, or None where that fits nothing."""
+        slots = {part.slot: part for part in self.foreign.parts}
+        if None in slots:
+            return None
+        mine = [(box, slots[k]) for k, box in enumerate(self._boxes) if k in slots]
+        theirs = [Box.around(transform_points(T, part.mesh.box.corners())) for _, part in mine]
+        pairs = [(a, b) for (a, _), b in zip(mine, theirs, strict=True)]
+        residual = float(np.mean([_faces_apart(a, b) for a, b in pairs])) / self.asset.unit if pairs else 1.0
+        if residual > _REGRESSED:
+            return None
+        slack = _SLACK * self.asset.unit
+        overlap = float(np.mean([intersection_over_union(a, b, slack) for a, b in pairs]))
+        part_of = tuple(slots[k].name if k in slots else None for k in range(len(self._boxes)))
+        return Agreement(part_of, residual, max(overlap, LEAST_OVERLAP))
+
+    def _covering(self, T: Mat4) -> tuple[str, ...]:
+        T_foreign_object, scale = invert(T), scale_of(T)
+        found = []
+        for box, points in zip(self._boxes, self._asked, strict=True):
+            there = transform_points(T_foreign_object, points)
+            mine = Box.around(transform_points(T_foreign_object, box.corners()))
+            costs = [shape.cost(there, mine, self.asset.unit / scale) for shape in self._shapes]
+            found.append(self.foreign.parts[int(np.argmin(costs))].name)
+        return tuple(found)
+
+    def _box_of(self, body: str | None, part_of: tuple[str | None, ...]) -> Box | None:
+        covered = [
+            box
+            for box, name in zip(self._boxes, part_of, strict=True)
+            if name is not None and self.foreign.body_of[name] == body
+        ]
+        return _around(covered) if covered else None
+
+    def _foreign_box(self, body: str | None, T: Mat4) -> Box:
+        body_of = self.foreign.body_of
+        parts = [part for part in self.foreign.parts if body_of[part.name] == body]
+        return Box.around(transform_points(T, np.vstack([_used(part.mesh) for part in parts])))
+
+
+class _Shape:
+    """A predicted part as something that points lie on, or in."""
+
+    def __init__(self, part: ForeignPart, area: float) -> None:
+        self._box, self._is_box = part.mesh.box, part.is_box
+        count = max(_LEAST_DRAWN, int(_DRAWN * part.mesh.area / area)) if area > 0 else _LEAST_DRAWN
+        self._tree = None if part.is_box else cKDTree(_points_of(part.mesh, count, _MOST_CORNERS))
+
+    def cost(self, points: Points, box: Box, unit: float) -> float:
+        """Returns how far points lie from the part, and a little for a part that is much smaller than this one."""
+        far = _FAR * unit
+        if self._tree is None:
+            gaps = np.linalg.norm(np.maximum(np.abs(points - self._box.center) - self._box.half, 0.0), axis=1)
+        else:
+            gaps, _ = self._tree.query(points, distance_upper_bound=far)
+        looseness = (_LOOSE_BOX if self._is_box else _LOOSE_MESH) * unit
+        unlike = 1.0 - intersection_over_union(self._box, box, _SLACK * unit)
+        return float(np.minimum(gaps, far).mean() + looseness * unlike)
+
+
+def _used(mesh: TriangleMesh) -> Points:
+    """Returns the vertices that faces name."""
+    return mesh.vertices[np.unique(mesh.faces)] if len(mesh.faces) else mesh.vertices
+
+
+def _points_of(mesh: TriangleMesh, count: int, corners: int | None = None) -> Points:
+    """Returns points on a surface: some drawn evenly, and its own corners and the middles of its faces."""
+    own = np.vstack([_used(mesh), mesh.triangles.mean(axis=1)])
+    most = count if corners is None else corners
+    own = own if len(own) <= most else own[np.random.default_rng(0).permutation(len(own))[:most]]
+    return np.vstack([sample_surface(mesh, count).points, own])
+
+
+def _around(boxes: list[Box]) -> Box:
+    return Box(np.min([b.low for b in boxes], axis=0), np.max([b.high for b in boxes], axis=0))
+
+
+def _faces_apart(a: Box, b: Box) -> float:
+    return float(np.mean(np.abs(np.concatenate([a.low - b.low, a.high - b.high]))))

@@ -1,0 +1,151 @@
+"""A prediction laid over an asset: in which frame it is drawn, and which predicted part covers which of the asset's.
+
+Frames that are known come first, then all quarter turns fitted to the whole box. Furniture is often its own mirror
+image: between frames that fit alike, labels and the way in which joints open decide, and then what is likelier.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.asset.foreign.agreement import LEAST_OVERLAP, Agreement, Comparison
+from grafu.asset.foreign.frames import FrameGuess, fitted_frames, known_frames, tilted_frames
+from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, JointFrame
+from grafu.asset.foreign.plausibility import strangeness
+from grafu.asset.part import Asset, Part
+from grafu.errors import AssetError
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.box import Box
+from grafu.geometry.transform import scale_of
+from grafu.vocabulary import JointType, PartLabel
+
+_EXACT = 0.002  # a residual below which nothing needs to be turned straight, as a share of the size
+_ALIKE = (1.2, 0.005)  # frames fit alike whose residuals are within this factor and this addition of the best
+_SURER = 0.15  # by how much a less likely frame's joints must look better than a likelier one's
+_DOUBT = 0.05  # doubts that differ by less are none
+
+
+@final
+@dataclass(frozen=True)
+class Match:
+    """Where a prediction lies.
+
+    `part_of` says for each of the asset's parts, in order, which predicted part covers it (None: none).
+    """
+
+    frame: FrameGuess
+    joint_frame: JointFrame
+    part_of: tuple[str | None, ...]
+    residual: float
+    overlap: float
+
+    @property
+    def T_object_joints(self) -> Mat4:
+        """The way from the joints' coordinates to the object frame."""
+        return np.asarray(self.frame.T_object_foreign) @ np.asarray(self.joint_frame.T_parts_joints)
+
+    def placed(self, joint: ForeignJoint, box: Box) -> ForeignJoint:
+        """Returns a joint in the object frame; `box` is that of the part it moves, where a code asks for it."""
+        T = self.T_object_joints
+        axis = joint.axis
+        if joint.code is not None:
+            back = np.linalg.inv(T)
+            axis = joint.code.axis_on(Box.around(box.corners() @ back[:3, :3].T + back[:3, 3]))
+        turns = joint.type is JointType.REVOLUTE
+        length = 1.0 if turns else scale_of(T)
+        return ForeignJoint(
+            joint.part,
+            joint.type,
+            axis.transformed(T, rotational=turns),
+            joint.lower * length,
+            joint.upper * length,
+            joint.limited,
+        )
+
+
+def match_parts(asset: Asset, foreign: ForeignMotions) -> Match:
+    """Returns the frame that a prediction is drawn in, and which part is which.
+
+    Raises:
+        AssetError: if no frame brings the parts to agree: the prediction is of another object.
+    """
+    comparison = Comparison(asset, foreign)
+    guesses = [*known_frames(asset.frame), *fitted_frames(foreign, asset.frame, comparison.points, asset.box)]
+    found = [(guess, comparison.agreement(guess.T_object_foreign)) for guess in guesses]
+    if min(agreed.residual for _, agreed in found) > _EXACT:
+        tilted = tilted_frames(comparison.points, asset.box)
+        found += [(guess, comparison.agreement(guess.T_object_foreign)) for guess in tilted]
+    matches = [_with_joint_frame(asset, foreign, guess, agreed) for guess, agreed in _best_of_turns(found)]
+    best = max(agreed.overlap for _, agreed in found)
+    if best < LEAST_OVERLAP:
+        raise AssetError(
+            f"{foreign.path} does not fit {asset.name}: in the best of {len(found)} frames its parts overlap the "
+            f"asset's by {best:.2f}, at least {LEAST_OVERLAP} is expected; is it a prediction of this object?"
+        )
+    fitting = [match for match in matches if match.overlap >= min(LEAST_OVERLAP, best)]
+    if fitting[0].frame.known and fitting[0].frame.name == known_frames(asset.frame)[0].name:
+        return fitting[0]  # what was made from the same file needs no second look
+    return min(fitting, key=lambda match: _doubts(asset, foreign, match))
+
+
+def _best_of_turns(found: list[tuple[FrameGuess, Agreement]]) -> list[tuple[FrameGuess, Agreement]]:
+    """Returns of frames that fit alike the best of each rotation, likelier ones first."""
+    factor, addition = _ALIKE
+    most = factor * min(agreed.residual for _, agreed in found) + addition
+    kept: list[tuple[FrameGuess, Agreement]] = []
+    for guess, agreed in found:
+        if agreed.residual > most:
+            continue
+        same = next((k for k, (g, _) in enumerate(kept) if np.allclose(g.rotation, guess.rotation, atol=1e-6)), None)
+        if same is None:
+            kept.append((guess, agreed))
+        elif agreed.residual < kept[same][1].residual - 1e-6:
+            kept[same] = (guess, agreed)
+    return kept
+
+
+def _with_joint_frame(asset: Asset, foreign: ForeignMotions, guess: FrameGuess, agreed: Agreement) -> Match:
+    """Returns the match with the frame in which the joints look most like furniture's; likelier ones are preferred."""
+    up = asset.frame.up.removeprefix("+")
+    ordered = sorted(foreign.joint_frames, key=lambda frame: frame.name != f"up_dir {up}")
+    matches = [Match(guess, frame, agreed.part_of, agreed.residual, agreed.overlap) for frame in ordered]
+    if len(matches) == 1 or not foreign.joints:
+        return matches[0]
+    odd = [_mean_strangeness(asset, foreign, match) for match in matches]
+    return next(match for match, value in zip(matches, odd, strict=True) if value <= min(odd) + _SURER)
+
+
+def _mean_strangeness(asset: Asset, foreign: ForeignMotions, match: Match) -> float:
+    values = []
+    for joint in foreign.joints:
+        covered = covered_parts(asset, foreign, match, joint.part)
+        if covered:
+            box = Box.around(np.vstack([part.box.corners() for part in covered]))
+            placed = match.placed(joint, box)
+            values.append(strangeness(placed.type, placed.axis, placed.lower, placed.upper, box))
+    return float(np.mean(values)) if values else 0.0
+
+
+def _doubts(asset: Asset, foreign: ForeignMotions, match: Match) -> float:
+    """Returns what speaks against a frame: labels that do not go together, joints that open backwards."""
+    wrong = [
+        label_disagrees(part.label, foreign.labels[name], foreign.body_of[name] is not None)
+        for part, name in zip(asset.parts, match.part_of, strict=True)
+        if name is not None and part.label is not PartLabel.UNKNOWN
+    ]
+    labels = float(np.mean(wrong)) if wrong else 0.0
+    return round((labels + _mean_strangeness(asset, foreign, match)) / _DOUBT)
+
+
+def label_disagrees(label: PartLabel, foreign: PartLabel, moves: bool) -> bool:
+    """Whether a part's label contradicts that of the predicted part, or what does not move is predicted to."""
+    if foreign is not PartLabel.UNKNOWN:
+        return label is not foreign
+    return moves != (label.is_movable or label is PartLabel.HANDLE)
+
+
+def covered_parts(asset: Asset, foreign: ForeignMotions, match: Match, body: str) -> tuple[Part, ...]:
+    """Returns the asset's parts that move with a predicted jointed part."""
+    pairs = zip(asset.parts, match.part_of, strict=True)
+    return tuple(part for part, name in pairs if name is not None and foreign.body_of[name] == body)

@@ -1,0 +1,114 @@
+"""An articulated object as Particulate's evaluation writes a prediction: `eval/pred.npz` and `eval/pred.obj`.
+
+The mesh stays as it is given, all links' faces in a row; the motions are in the normalised frame that `--up_dir`
+makes of it (peers.md 1). Looks, names and what must open first it cannot say.
+"""
+
+import io
+from dataclasses import dataclass, field
+from typing import Final, Literal, final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.asset.foreign.particulate import UP_ROTATIONS, normalisation
+from grafu.errors import ExportError
+from grafu.export.files import ExportFiles
+from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.transform import is_mirror, scale_of
+from grafu.vocabulary import JointType
+
+Direction = Literal["X", "-X", "Y", "-Y", "Z", "-Z"]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ParticulateConfig(ArrayValue):
+    """`T_file_object` is the way from the object frame to the coordinates of `pred.obj`; `up_dir` counts in these.
+
+    Raises:
+        ExportError: if the way is a mirror image, or the direction none.
+    """
+
+    up_dir: Direction = "Z"
+    T_file_object: Mat4 = field(default_factory=lambda: np.eye(4))
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "T_file_object", frozen_array(self.T_file_object))
+        if self.up_dir not in UP_ROTATIONS or is_mirror(np.asarray(self.T_file_object)):
+            raise ExportError(f"`up_dir` must be one of {', '.join(UP_ROTATIONS)}, the way no mirror image: got {self}")
+
+
+DEFAULT_PARTICULATE_CONFIG: Final = ParticulateConfig()
+
+
+def export_particulate(
+    articulated: ArticulatedObject, config: ParticulateConfig = DEFAULT_PARTICULATE_CONFIG
+) -> ExportFiles:
+    """Returns `eval/pred.npz` and `eval/pred.obj`; links without faces are left out.
+
+    Raises:
+        ExportError: if no link has faces.
+    """
+    T = np.asarray(config.T_file_object)
+    links = [link for link in articulated.links_from_root if len(link.mesh.faces)]
+    if not links:
+        raise ExportError("Particulate's files need faces: got an object without any")
+    meshes = [link.mesh.transformed(T) for link in links]
+    whole = merge_meshes(meshes)
+    arrays = _arrays(articulated, [link.id for link in links], normalisation(whole.box, config.up_dir) @ T)
+    arrays["face_part_ids"] = np.repeat(np.arange(len(links)), [len(mesh.faces) for mesh in meshes])
+    stored = io.BytesIO()
+    np.savez(stored, **arrays)  # type: ignore[arg-type]
+    return ExportFiles({"eval/pred.npz": stored.getvalue(), "eval/pred.obj": _obj(whole)})
+
+
+def _arrays(articulated: ArticulatedObject, links: list[str], T: Mat4) -> dict[str, np.ndarray]:
+    """Returns the motions of the links by key, mapped by T, as single precision: networks give no more."""
+    count = len(links)
+    arrays = {
+        "is_part_revolute": np.zeros(count, dtype=bool),
+        "is_part_prismatic": np.zeros(count, dtype=bool),
+        "revolute_plucker": np.zeros((count, 6), np.float32),
+        "revolute_range": np.zeros((count, 2), np.float32),
+        "prismatic_axis": np.zeros((count, 3), np.float32),
+        "prismatic_range": np.zeros((count, 2), np.float32),
+    }
+    pairs = []
+    for k, link in enumerate(links):
+        joint = articulated.joint_of.get(link)
+        if joint is None:
+            continue
+        pairs += [(links.index(parent), k) for parent in [_parent(articulated, link, links)] if parent]
+        if joint.type is not JointType.FIXED:
+            _say(joint, k, arrays, T)
+    arrays["motion_hierarchy"] = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    return arrays
+
+
+def _parent(articulated: ArticulatedObject, link: str, links: list[str]) -> str | None:
+    """Returns the nearest link above that is written."""
+    joint = articulated.joint_of.get(link)
+    while joint is not None and joint.parent not in links:
+        joint = articulated.joint_of.get(joint.parent)
+    return None if joint is None else joint.parent
+
+
+def _say(joint: Joint, part: int, arrays: dict[str, np.ndarray], T: Mat4) -> None:
+    limits = np.array([joint.limits.lower, joint.limits.upper])
+    axis = joint.axis.transformed(T)
+    if joint.type is JointType.REVOLUTE:
+        arrays["is_part_revolute"][part] = True
+        arrays["revolute_plucker"][part] = [*axis.direction, *np.cross(axis.direction, axis.point)]  # m = l x p
+        arrays["revolute_range"][part] = limits
+    else:
+        arrays["is_part_prismatic"][part] = True
+        arrays["prismatic_axis"][part] = axis.direction
+        arrays["prismatic_range"][part] = limits * scale_of(T)
+
+
+def _obj(mesh: TriangleMesh) -> bytes:
+    points = ("v %.10g %.10g %.10g\n" * len(mesh.vertices)) % tuple(mesh.vertices.ravel().tolist())
+    faces = ("f %d %d %d\n" * len(mesh.faces)) % tuple((mesh.faces + 1).ravel().tolist())
+    return (points + faces).encode()

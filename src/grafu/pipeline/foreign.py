@@ -1,0 +1,114 @@
+"""`read_foreign`: another system's prediction from its file, whatever the format. It matches nothing with an asset.
+
+What a file is, is told by its content; `grafu.asset.foreign.attach.attach_motions` lays it over an asset.
+"""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from grafu.asset.foreign.motions import ForeignMotions, ForeignSource
+from grafu.asset.foreign.particulate import read_particulate
+from grafu.asset.foreign.robot import read_robot
+from grafu.asset.foreign.singapo import TREES, read_singapo
+from grafu.asset.mesh_files import read_bytes
+from grafu.asset.options import Limits
+from grafu.asset.partnet_mobility import is_partnet_mobility
+from grafu.errors import UnreadableAsset
+from grafu.graph.official_prediction import SUFFIX, is_prediction, read_prediction
+
+Reader = Callable[[Path], ForeignMotions]
+
+_READERS: Final[dict[str, Reader]] = {
+    "particulate": read_particulate,
+    "singapo": read_singapo,
+    "grafu-pred": read_prediction,
+    "urdf": read_robot,
+}
+_EXPECTED: Final[dict[str, str]] = {
+    "particulate": "pred.npz beside pred.obj, the folder of its --eval, or its URDF",
+    "singapo": "SINGAPO's or CAGE's object.json",
+    "grafu-pred": "the authors' <model>_pred.json",
+    "urdf": "a URDF file or a PartNet-Mobility folder",
+}
+_ANY = "; ".join(_EXPECTED.values())
+
+
+def read_foreign(path: Path, source: ForeignSource | None = None) -> ForeignMotions:
+    """Returns the prediction at `path`, a file or the folder that holds it.
+
+    Args:
+        path: what the other system wrote.
+        source: whose it is said to be; None: whatever its content says.
+
+    Raises:
+        UnreadableAsset: if there is nothing that can be read, it is damaged, or it is not of that source.
+        AssetTooLarge: if it exceeds the limits on files.
+    """
+    path = Path(path)
+    try:
+        found = _found(path)
+    except OSError as error:
+        raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {_expected(source)}") from None
+    if found is None:
+        state = "is no prediction that is read" if path.exists() else "does not exist"
+        raise UnreadableAsset(f"{path} {state}: expected {_expected(source)}")
+    kind, place = found
+    # Whose a robot description is, its content does not always say.
+    if source is not None and kind != source and kind != "urdf":
+        raise UnreadableAsset(f"{path} is of the kind {kind}, not {source}: expected {_expected(source)}")
+    motions = _READERS[kind](place)
+    if source is None or motions.source == source:
+        return motions
+    if {source, motions.source} == {"urdf", "particulate"}:
+        return replace(motions, source=source)
+    raise UnreadableAsset(f"{path} is of the kind {motions.source}, not {source}: expected {_expected(source)}")
+
+
+def _expected(source: ForeignSource | None) -> str:
+    return _ANY if source is None else _EXPECTED[source]
+
+
+def _found(path: Path) -> tuple[str, Path] | None:
+    """Returns which reader reads what is at a path, and the file or folder to give it, or None."""
+    return _in_folder(path) if path.is_dir() else _of_file(path) if path.is_file() else None
+
+
+def _in_folder(folder: Path) -> tuple[str, Path] | None:
+    for file in (folder / "pred.npz", folder / "eval" / "pred.npz"):
+        if file.is_file():
+            return "particulate", file
+    if (folder / "object.json").is_file():
+        return "singapo", folder / "object.json"
+    predicted = sorted(folder.glob(f"*{SUFFIX}"))
+    if len(predicted) == 1:
+        return "grafu-pred", predicted[0]
+    if is_partnet_mobility(folder):
+        return "urdf", folder
+    robots = sorted(folder.glob("*.urdf")) or sorted(folder.glob("*/*.urdf"))
+    return ("urdf", robots[0]) if len(robots) == 1 else None
+
+
+def _of_file(path: Path) -> tuple[str, Path] | None:
+    if path.suffix.lower() == ".npz":
+        return "particulate", path
+    if path.suffix.lower() == ".urdf":
+        return "urdf", path
+    data = read_bytes(path, Limits())
+    if path.suffix.lower() == ".json":
+        return _of_json(data, path)
+    return ("urdf", path) if b"<robot" in data[:4096] else None
+
+
+def _of_json(data: bytes, path: Path) -> tuple[str, Path] | None:
+    try:
+        decoded = json.loads(data)
+    except (ValueError, RecursionError):
+        raise UnreadableAsset(
+            f"{path} is not JSON: expected {_EXPECTED['singapo']}; {_EXPECTED['grafu-pred']}"
+        ) from None
+    if isinstance(decoded, dict) and any(key in decoded for key in TREES):
+        return "singapo", path
+    return ("grafu-pred", path) if is_prediction(decoded) else None
