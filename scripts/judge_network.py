@@ -3,8 +3,8 @@
     python scripts/judge_network.py [--rule] [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
 
 Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints one in
-Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models. With --rule the
-carpenters' rules are judged instead.
+Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models; then, of the doors as
+they were found, what their handles say of the hinge's side. With --rule the carpenters' rules are judged instead.
 """
 
 import argparse
@@ -23,8 +23,9 @@ from grafu.completion.network import complete_by_network
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, NetworkSession, open_network
 from grafu.data.asked import VARIANTS, asked_pairs
-from grafu.data.pair import specimen_pair
+from grafu.data.pair import GraphPair, specimen_pair
 from grafu.graph.completion import GraphCompletion
+from grafu.graph.edges import Hinge
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import GraphAccuracy, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
@@ -44,7 +45,10 @@ PAPER = {
     "joint": 0.899,
     "slide": 0.997,
 }
+OFF_MIDDLE = 0.1  # of a door's width: a handle nearer its middle says nothing of the hinge's side
+DOOR_KINDS = ("a handle off the middle", "a handle in the middle", "its handle missing", "no handle")
 Accuracies = Mapping[str, GraphAccuracy]
+Doors = Mapping[str, tuple[int, int]]
 
 
 def main() -> int:
@@ -59,21 +63,58 @@ def main() -> int:
     began = time.perf_counter()
     with ProcessPoolExecutor(options.jobs) as pool:
         found: list[Accuracies] = []
+        doors: list[Doors] = []
         weights = None if options.rule else options.weights
         for one in pool.map(partial(judge, weights, options.seed), range(options.count), chunksize=4):
-            found.append(one)
+            found.append(one[0])
+            doors.append(one[1])
             print(f"  {len(found)}/{options.count}, {time.perf_counter() - began:.0f} s", file=sys.stderr, end="\r")
     print(file=sys.stderr)
-    print(table(found))
+    print(table(found), door_table(doors), sep="\n\n")
     return 0
 
 
-def judge(weights: Path | None, seed: int, number: int) -> Accuracies:
-    """Returns the figures of one model by variant; without weights, those of the rules."""
+def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors]:
+    """Returns the figures of one model by variant, and those of its doors; without weights, those of the rules."""
     complete = complete_by_rule if weights is None else partial(complete_by_weights, open_network(weights))
     natural = specimen_pair(make_specimen(seed, number, FeatureConfig().points))
     pairs = asked_pairs(natural, number)
-    return {name: graph_accuracy(complete(pair.input), pair.target) for name, pair in pairs.items()}
+    completed = {name: complete(pair.input) for name, pair in pairs.items()}
+    accuracies = {name: graph_accuracy(completed[name], pair.target) for name, pair in pairs.items()}
+    return accuracies, judge_doors(completed["natural"].completed, natural)
+
+
+def judge_doors(found: FunctionalGraph, pair: GraphPair) -> Doors:
+    """Returns for each kind of door how many turn as they should, and how many there are."""
+    motions = {hinge.child: (hinge.border, hinge.sign) for hinge in found.hinges}
+    counts = dict.fromkeys(DOOR_KINDS, (0, 0))
+    for hinge in pair.target.hinges:
+        if hinge.child in pair.input:
+            kind = door_kind(hinge, pair)
+            right, all_of_kind = counts[kind]
+            counts[kind] = (right + (motions.get(hinge.child) == (hinge.border, hinge.sign)), all_of_kind + 1)
+    return counts
+
+
+def door_kind(hinge: Hinge, pair: GraphPair) -> str:
+    """Returns what the input shows of the side on which a door hangs."""
+    handles = [edge.child for edge in pair.target.attachments if edge.parent == hinge.child]
+    shown = [pair.input.node(name).box for name in handles if name in pair.input]
+    if not shown:
+        return DOOR_KINDS[2] if handles else DOOR_KINDS[3]
+    box = pair.input.node(hinge.child).box
+    across = [axis for axis in range(3) if axis != box.thin_axis][hinge.border // 2]
+    off = max(abs(float(handle.center[across] - box.center[across])) for handle in shown)
+    return DOOR_KINDS[0] if off > OFF_MIDDLE * float(box.size[across]) else DOOR_KINDS[1]
+
+
+def door_table(doors: Sequence[Doors]) -> str:
+    """Returns how many doors of each kind turn as they should."""
+    lines = ["| the input shows of a door | doors | turn as they should |", "|---|---|---|"]
+    for kind in DOOR_KINDS:
+        right, count = (sum(one[kind][k] for one in doors) for k in (0, 1))
+        lines.append(f"| {kind} | {count} | {right / count:.3f} |" if count else f"| {kind} | 0 | - |")
+    return "\n".join(lines)
 
 
 def complete_by_weights(network: NetworkSession, graph: FunctionalGraph) -> GraphCompletion:
