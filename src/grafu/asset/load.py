@@ -57,14 +57,26 @@ def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
     """
     path = Path(path)
     kind, place = detect(path)
-    reading = cleaned(READERS[kind](place, options))
+    name = _name(place if kind == "partnet-mobility" else path)  # its folder names the model, never `mobility.urdf`
+    return settled(READERS[kind](place, options), name, path, options)
+
+
+def settled(reading: Reading, name: str, path: Path, options: LoadOptions = LoadOptions()) -> Asset:
+    """Returns what was read as an asset in the object frame, cleaned, its loose pieces joined, its handles carried.
+
+    Raises:
+        UnreadableAsset: if it holds no part with faces.
+        UnsegmentedAsset: if it is one piece where parts were expected.
+        AssetTooLarge: if it exceeds a limit.
+        AssetError: if an option contradicts it.
+    """
+    reading = cleaned(reading)
     _check_parts(reading, path, options)
     reading = reading if reading.grouped else _joined(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
     parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))
     joints = tuple(_placed_joint(j, frame) for j in reading.joints)
-    name = _name(place if kind == "partnet-mobility" else path)  # its folder names the model, never `mobility.urdf`
     return Asset(name, str(path), reading.kind, parts, frame, joints, reading.notes)
 
 

@@ -11,9 +11,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Final, Literal, final, get_args
 
+from grafu.asset.hssd import is_hssd
 from grafu.asset.load import detect, load_asset
 from grafu.asset.part import Asset, Part
+from grafu.asset.partnet_mobility import is_partnet_mobility
+from grafu.data.furfun.layout import LayoutKind
 from grafu.errors import AssetError, OptionError, UnreadableAsset
+from grafu.evaluation.dataset_release import is_release, read_release_model, release_models
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
@@ -30,6 +34,10 @@ _READERS: Final[dict[str, ModelKind]] = {
     "mesh folder": "mesh",
     "mesh file": "mesh",
 }
+_RELEASES: Final = get_args(LayoutKind)
+_NAMELESS = frozenset({"model", "mobility", "robot", "scene", "object"})  # files that are named by their folder
+_MESHES_OF = frozenset({"meshes", "mesh", "visual", "collision", "textured_objs", "objs", "textures", "images"})
+_DEEPEST = 3  # folders below the one that is asked for
 EXPECTED = (
     "PartNet-Mobility folders (mobility.urdf, or mobility_v2.json with result.json), HSSD models (<id>.glb with "
     "<id>.artpre.json), URDF or GLB files, folders of meshes, a release (graphs_unfunctional or graph_unfunc), "
@@ -68,27 +76,29 @@ class ModelRef:
             raise OptionError(f"a {self.kind} model has a path, and no seed or number: got {self.path}, {made}")
 
 
-def find_models(data: str | Path) -> tuple[ModelRef, ...]:
+def find_models(data: str | Path, split: str = "") -> tuple[ModelRef, ...]:
     """Returns the models of a dataset, in the order of their ids; made ones in the order of their numbers.
 
     Args:
-        data: a folder of models or one model; `synth:SEED:COUNT`, or `synth` for the test furniture.
+        data: a folder of models, also in folders of their own, or one model; `synth:SEED:COUNT`, or `synth` for the
+            test furniture.
+        split: the name of a split of a release (`full_split`): only its test models. Other datasets have none.
 
     Raises:
         OptionError: if `synth:...` is not two numbers.
-        UnreadableAsset: if there is nothing that is read.
+        AssetError: if there is nothing that is read, or no such split.
     """
     if str(data) == _MADE or str(data).startswith(f"{_MADE}:"):
         return _made_models(str(data))
     path = Path(data)
     try:
-        found = _with_unique_ids(_models_at(path))
+        found = _models_in(path, split, _DEEPEST) if path.is_dir() else _one(path)
     except OSError as error:
         raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {EXPECTED}") from None
     if not found:
         state = "holds no model" if path.exists() else "does not exist"
         raise UnreadableAsset(f"{path} {state}: expected {EXPECTED}")
-    return found
+    return _with_unique_ids(found)
 
 
 def load_model(ref: ModelRef) -> Asset:
@@ -99,6 +109,8 @@ def load_model(ref: ModelRef) -> Asset:
     """
     if ref.kind == "made":
         return _made_asset(_specimen(ref))
+    if ref.kind in _RELEASES:
+        return read_release_model(_path(ref))
     return load_asset(_path(ref))
 
 
@@ -110,12 +122,28 @@ def category_of(ref: ModelRef) -> str:
     return stated or ref.kind
 
 
-def _models_at(path: Path) -> list[ModelRef]:
-    if not path.is_dir():
-        return _one(path)
-    below = [ref for child in sorted(path.iterdir()) if not child.name.startswith(".") for ref in _one(child)]
-    whole = _one(path)
-    return whole if whole and (len(below) <= 1 or whole[0].kind == "partnet-mobility") else below
+def _models_in(folder: Path, split: str, depth: int) -> list[ModelRef]:
+    """Returns the models in a folder: a release, a model of its own, scene files, or what lies in its folders."""
+    if is_release(folder):
+        return [ModelRef(model_id, kind, path) for model_id, kind, path in release_models(folder, split)]
+    if is_partnet_mobility(folder):
+        return [ModelRef(folder.resolve().name, "partnet-mobility", folder)]
+    entries = sorted(p for p in folder.iterdir() if not p.name.startswith((".", "__")))
+    scenes = _scene_files(entries)
+    found = [ref for file in scenes for ref in _one(file)]
+    if depth and not any(ref.kind == "urdf" for ref in found):  # what lies below a URDF are its meshes
+        inner = [p for p in entries if p.is_dir() and p.name.lower() not in _MESHES_OF]
+        below = [ref for p in inner for ref in _models_in(p, split, depth - 1)]
+        found += [ref for ref in below if ref.kind != "mesh" or not scenes]
+    return found or _one(folder)
+
+
+def _scene_files(entries: list[Path]) -> list[Path]:
+    """Returns the annotated GLBs of a folder, or else its URDFs, or else its other scenes: these may be copies."""
+    files = [p for p in entries if p.is_file()]
+    annotated = [p for p in files if is_hssd(p)]
+    robots = [p for p in files if p.suffix.lower() == ".urdf"]
+    return annotated or robots or [p for p in files if p.suffix.lower() in (".glb", ".gltf")]
 
 
 def _one(path: Path) -> list[ModelRef]:
@@ -124,17 +152,20 @@ def _one(path: Path) -> list[ModelRef]:
         kind, place = detect(path)
     except AssetError:
         return []
-    if kind == "mesh folder" and path.name in ("textured_objs", "meshes"):
-        return []
-    is_folder = place.is_dir() or kind == "partnet-mobility"
-    return [ModelRef(place.name if is_folder else place.stem, _READERS[kind], place)]
+    named = place if place.is_dir() else place.parent if place.stem.lower() in _NAMELESS else place.with_suffix("")
+    return [ModelRef(named.resolve().name, _READERS[kind], place)]
 
 
 def _with_unique_ids(refs: list[ModelRef]) -> tuple[ModelRef, ...]:
-    """Returns the models by id; where two have the same, each is named after its folder, too."""
+    """Returns the models by id; of several with the same, each has its kind before it, and a number if need be."""
     counts = Counter(ref.id for ref in refs)
-    named = [replace(r, id=f"{_path(r).parent.name}_{r.id}") if counts[r.id] > 1 else r for r in refs]
-    return tuple(sorted(named, key=lambda ref: ref.id))
+    wanted = [f"{ref.kind}_{ref.id}" if counts[ref.id] > 1 else ref.id for ref in refs]
+    seen: Counter[str] = Counter()
+    ids = []
+    for name in wanted:
+        seen[name] += 1
+        ids.append(name if seen[name] == 1 else f"{name}_{seen[name]}")
+    return tuple(sorted((replace(r, id=i) for r, i in zip(refs, ids, strict=True)), key=lambda ref: ref.id))
 
 
 def _made_models(data: str) -> tuple[ModelRef, ...]:
