@@ -10,8 +10,9 @@ from grafu.cli.addition_options import add_addition_options, addition_config
 from grafu.cli.gallery import open_gallery, open_handles
 from grafu.cli.input_options import add_input_options, load_options, output_name, positive_count
 from grafu.cli.messages import complain
+from grafu.cli.motion_option import motion_choice
 from grafu.errors import AssetError
-from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.motion_source import MotionChoice
 
 if TYPE_CHECKING:
     from grafu.cli.job import Job, JobOptions, JobResult
@@ -25,6 +26,7 @@ examples:
   grafu functionalize cabinet.glb --out results
   grafu functionalize models/* --motion annotation --jobs 4 --out results
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
+  grafu functionalize cabinet.obj --motion particulate:eval/pred.npz --out results
   grafu functionalize cabinet.glb --handle knob-round --interior shelves=2 --out results
 """
 
@@ -38,12 +40,13 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument("--out", required=True, type=Path, metavar="DIR", help="where the results go: DIR/<name>/")
     parser.add_argument(
         "--motion",
-        type=MotionSource,
-        choices=tuple(MotionSource),
-        default=MotionSource.AUTO,
+        type=motion_choice,
+        default=MotionChoice(),
         metavar="SOURCE",
         help="where motions come from: network (trained), rule (labels, boxes and handles), auto (the network, or the "
-        "rule without weights), or annotation: the input's own joints, which the others do not read (default: auto)",
+        "rule without weights), annotation: the input's own joints, which the others do not read, or another system's "
+        "file: particulate:FILE, singapo:FILE, grafu:FILE, urdf:FILE; for several inputs a folder with an entry for "
+        "each name (default: auto)",
     )
     parser.add_argument(
         "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"
@@ -75,8 +78,8 @@ def run(options: argparse.Namespace) -> int:
 def _jobs(options: argparse.Namespace) -> "list[Job]":
     from grafu.cli.job import Job
 
-    shared = _job_options(options)
     inputs = list({path.resolve(): path for path in options.inputs}.values())
+    shared = _job_options(options, alone=len(inputs) == 1)
     named: dict[str, list[Path]] = defaultdict(list)
     for path in inputs:
         named[output_name(path).casefold()].append(path)
@@ -89,7 +92,7 @@ def _jobs(options: argparse.Namespace) -> "list[Job]":
     return [Job(path, output_name(path), shared) for path in inputs]
 
 
-def _job_options(options: argparse.Namespace) -> "JobOptions":
+def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     """Returns the shared options; what is wrong with them is said here, before any input is read."""
     from grafu.cli.job import JobOptions
     from grafu.export.formats import exporter_for
@@ -108,6 +111,7 @@ def _job_options(options: argparse.Namespace) -> "JobOptions":
         additions=addition_config(options, open_handles(options.templates)),
         overwrite=options.overwrite,
         debug=options.debug,
+        alone=alone,
     )
 
 

@@ -3,7 +3,7 @@
 What goes wrong comes back as a value, so that one bad input never stops the others.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, final
@@ -12,7 +12,7 @@ from grafu.asset.options import LoadOptions
 from grafu.cli.gallery import open_gallery
 from grafu.cli.messages import internal_fault, one_line
 from grafu.errors import ExportError, FunctionalizationError
-from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.motion_source import MotionChoice
 
 if TYPE_CHECKING:
     from grafu.export.files import ExportFiles
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class JobOptions:
-    """What all inputs of one call share.
+    """What all inputs of one call share; `alone` says that there is one only.
 
     `templates` is a folder of the user's own, or None; `additions` says what may be added (None: all by default).
     """
 
     out: Path
-    motion: MotionSource = MotionSource.AUTO
+    motion: MotionChoice = field(default_factory=MotionChoice)
     load: LoadOptions = LoadOptions()
     formats: tuple[str, ...] = ("glb", "urdf")
     templates: Path | None = None
@@ -38,6 +38,7 @@ class JobOptions:
     additions: "AdditionConfig | None" = None
     overwrite: bool = False
     debug: bool = False
+    alone: bool = True
 
 
 @final
@@ -97,6 +98,7 @@ def _functionalize(job: Job) -> "Report":
     from grafu.export.files import write_files
     from grafu.export.formats import export
     from grafu.pipeline.addition_config import AdditionConfig
+    from grafu.pipeline.foreign import prediction_for
     from grafu.pipeline.functionalize import PipelineConfig, functionalize
     from grafu.pipeline.report import report_of
     from grafu.realization.config import RealizationConfig
@@ -112,7 +114,9 @@ def _functionalize(job: Job) -> "Report":
         additions=options.additions or AdditionConfig(),
         own_handles=load_handles(options.templates) if options.templates else {},
     )
-    result = functionalize(asset, options.motion, open_gallery(options.templates), config)
+    motion = options.motion
+    source = prediction_for(motion, job.name, options.alone) if motion.source.is_foreign else motion.source
+    result = functionalize(asset, source, open_gallery(options.templates), config)
     clock.lap("functionalize")
     files = export(result.object, options.formats)
     clock.lap("export")

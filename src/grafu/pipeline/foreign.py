@@ -18,6 +18,7 @@ from grafu.asset.options import Limits
 from grafu.asset.partnet_mobility import is_partnet_mobility
 from grafu.errors import UnreadableAsset
 from grafu.graph.official_prediction import SUFFIX, is_prediction, read_prediction
+from grafu.pipeline.motion_source import MotionChoice
 
 Reader = Callable[[Path], ForeignMotions]
 
@@ -33,6 +34,7 @@ _EXPECTED: Final[dict[str, str]] = {
     "grafu-pred": "the authors' <model>_pred.json",
     "urdf": "a URDF file or a PartNet-Mobility folder",
 }
+_ENTRIES = ("", ".json", ".npz", ".urdf", SUFFIX)
 _ANY = "; ".join(_EXPECTED.values())
 
 
@@ -65,6 +67,23 @@ def read_foreign(path: Path, source: ForeignSource | None = None) -> ForeignMoti
     if {source, motions.source} == {"urdf", "particulate"}:
         return replace(motions, source=source)
     raise UnreadableAsset(f"{path} is of the kind {motions.source}, not {source}: expected {_expected(source)}")
+
+
+def prediction_for(choice: MotionChoice, name: str, alone: bool = True) -> ForeignMotions:
+    """Returns what a foreign choice holds for the input whose results are called `name`.
+
+    Where the choice's folder has an entry of that name (`name/`, `name.json`, `name.npz`, `name.urdf` or
+    `name_pred.json`), that is read. Else the whole is, if the input is `alone`.
+
+    Raises:
+        UnreadableAsset: if there is no entry for one of several inputs, or what is there is damaged.
+    """
+    folder = Path(choice.path or "")
+    source: ForeignSource = choice.source.value  # type: ignore[assignment]
+    entry = next((path for path in (folder / f"{name}{end}" for end in _ENTRIES) if path.exists()), None)
+    if entry is None and not alone:
+        raise UnreadableAsset(f"{folder} holds nothing for {name}: for several inputs {folder}/{name} is expected")
+    return read_foreign(entry or folder, source)
 
 
 def _expected(source: ForeignSource | None) -> str:

@@ -2,13 +2,17 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from time import perf_counter
 from typing import TypeVar, final
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.asset.foreign.attach import attach_motions
+from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
+from grafu.errors import OptionError
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
@@ -18,7 +22,7 @@ from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.built_graph import as_built
 from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
 from grafu.pipeline.learned import complete_by_weights
-from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
+from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.realization.addition import Addition
 from grafu.realization.config import RealizationConfig
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
@@ -96,24 +100,40 @@ MOTIONS: dict[MotionSource, Motion] = {
         complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
     ),
     MotionSource.RULE: Motion(lambda _, graph: complete_by_rule(graph), _plan_completion, reads_annotation=False),
+    **{
+        source: Motion(
+            partial(complete_by_annotation, source=source.value), lambda asset, _: plan_from_annotation(asset)
+        )
+        for source in FOREIGN
+    },
 }
+"""A foreign source's row is the annotation's: its joints were attached to the asset before."""
 
 
 def functionalize(
     asset: Asset,
-    source: MotionSource,
+    source: MotionSource | ForeignMotions,
     gallery: Gallery,
     config: PipelineConfig = PipelineConfig(),
 ) -> Functionalized:
     """Returns the asset as an object that works, and how it came about.
 
-    A door or drawer that cannot be made to move is no error: the report says which, and why.
+    `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
+    that cannot be made to move is no error: the report says which, and why.
 
     Raises:
         WeightsError: if the network is asked for and its weights are not there.
+        AssetError: if a prediction is of another object.
+        OptionError: if a foreign source is named, but no motions of its are attached to the asset.
     """
     clock = _Clock()
-    chosen = choose_source(asset, source)
+    if isinstance(source, ForeignMotions):
+        foreign = source
+        asset = clock.timed("match", lambda: attach_motions(asset, foreign))
+        chosen = MotionSource(source.source)
+    else:
+        chosen = choose_source(asset, source)
+        _require_attached(asset, chosen)
     motion = MOTIONS[chosen]
     if not motion.reads_annotation:
         asset = asset.without_annotation()
@@ -143,6 +163,13 @@ def choose_source(asset: Asset, source: MotionSource) -> MotionSource:
     if source is not MotionSource.AUTO:
         return source
     return next(candidate for candidate in AUTO_ORDER if MOTIONS[candidate].answers(asset))
+
+
+def _require_attached(asset: Asset, source: MotionSource) -> None:
+    if source.is_foreign and any(joint.stated_by != source for joint in asset.joints):
+        raise OptionError(
+            f"motions of {source} must be attached first: {asset.name} has none; give what `read_foreign` returns"
+        )
 
 
 class _Clock:

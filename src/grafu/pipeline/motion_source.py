@@ -1,6 +1,11 @@
-"""Where a motion comes from, as one choice of the user's. It imports nothing, so that the command starts fast."""
+"""Where a motion comes from, as one choice of the user's. It imports nothing heavy, so that the command starts fast."""
 
+from dataclasses import dataclass
 from enum import StrEnum
+from pathlib import Path
+from typing import final
+
+from grafu.errors import OptionError
 
 
 class MotionSource(StrEnum):
@@ -10,8 +15,39 @@ class MotionSource(StrEnum):
     ANNOTATION = "annotation"  # the joints that the input states
     NETWORK = "network"  # the trained network
     RULE = "rule"  # carpenters' rules on labels, boxes and handles
+    PARTICULATE = "particulate"  # a file that Particulate wrote
+    SINGAPO = "singapo"  # an object.json of SINGAPO or CAGE
+    GRAFU_PRED = "grafu-pred"  # a predicted graph of the authors' own code
+    URDF = "urdf"  # the joints of any other robot description of the object
 
+    @property
+    def is_foreign(self) -> bool:
+        """Whether another system states the motions, in a file of its own."""
+        return self in FOREIGN
+
+
+FOREIGN = (MotionSource.PARTICULATE, MotionSource.SINGAPO, MotionSource.GRAFU_PRED, MotionSource.URDF)
+"""The sources that are read from another system's file."""
 
 AUTO_ORDER = (MotionSource.NETWORK, MotionSource.RULE)
 """What `auto` tries: the network, where its weights came with the package. Neither reads an annotation: an input gives
 the same with its joints and without."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class MotionChoice:
+    """A source and, where it is another system's, its file, or a folder that holds what it wrote for each input.
+
+    Raises:
+        OptionError: if a foreign source has no file, or another one has.
+    """
+
+    source: MotionSource = MotionSource.AUTO
+    path: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.source.is_foreign and self.path is None:
+            raise OptionError(f"motions of {self.source} are read from a file, which must be named: {self.source}:FILE")
+        if self.path is not None and not self.source.is_foreign:
+            raise OptionError(f"the motion source {self.source} reads no file: got {self.path}")

@@ -146,7 +146,7 @@ class SkippedRecord(ReportRecord):
 class MotionRecord(ReportRecord):
     """Where the motions came from."""
 
-    source: MotionSource = Field(description="annotation, network or rule")
+    source: MotionSource = Field(description="annotation, network, rule, particulate, singapo, grafu-pred or urdf")
 
 
 class Report(ReportRecord):

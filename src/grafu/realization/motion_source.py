@@ -22,11 +22,16 @@ _PLAY = 0.25
 
 
 def plan_from_annotation(asset: Asset) -> RealizationPlan:
-    """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one."""
+    """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one.
+
+    Joints that another system predicted count as stated; each request's source says who stated it.
+    """
+    others = {joint.stated_by for joint in asset.joints} - {"annotation"}
+    who = " and ".join(sorted(others)) or "the input"
     requests = tuple(_from_joint(joint, asset) for joint in asset.joints)
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
     refused = tuple(
-        Refusal(part.id, "the input states no joint for it")
+        Refusal(part.id, f"{who} states no joint for it")
         for part in asset.parts
         if part.label.is_movable and part.id not in stated
     )
@@ -86,9 +91,11 @@ def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
     axis = joint.axis if opens_up else joint.axis.reversed()
     before, after = (lower, upper) if opens_up else (-upper, -lower)
     drawn_at = -before if min(-before, after) > _PLAY * max(-before, after) else 0.0
-    reference = after - before if drawn_at else max(abs(before), abs(after))
+    reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
+    if not joint.limited and joint.type is JointType.PRISMATIC:
+        reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out, nobody knows
     riders = _riders(asset, ()).get(joint.part, ())
-    return JointRequest(joint.part, joint.type, axis, "annotation", reference, (), riders, drawn_at)
+    return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), riders, drawn_at)
 
 
 def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float) -> float:

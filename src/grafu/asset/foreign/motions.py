@@ -5,7 +5,7 @@ It reads no files and matches nothing: an asset's own parts come in with `grafu.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, Protocol, final
+from typing import Literal, Protocol, final, runtime_checkable
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from grafu.vocabulary import JointType, PartLabel
 ForeignSource = Literal["particulate", "singapo", "grafu-pred", "urdf"]
 
 
+@runtime_checkable
 class MotionCode(Protocol):
     """A motion that is said by sides of a part's box, as in the authors' graphs: the true box gives the true axis."""
 

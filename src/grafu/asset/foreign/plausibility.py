@@ -1,7 +1,7 @@
 """How little a stated joint looks like one of furniture, where its frame must be guessed. It mends no joint.
 
-In the object frame the front is -Y: drawers slide out there, doors swing out there, lids lift; what sets off sideways is
-a little odd.
+In the object frame the front is -Y: drawers slide out there, doors swing out there, lids lift; what sets off
+sideways is a little odd.
 """
 
 import numpy as np
