@@ -8,6 +8,7 @@ import json
 from collections import Counter
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import count
 from pathlib import Path
 from typing import Final, Literal, final, get_args
 
@@ -159,21 +160,24 @@ def _one(path: Path) -> list[ModelRef]:
 def _with_unique_ids(refs: list[ModelRef]) -> tuple[ModelRef, ...]:
     """Returns the models by id; of several with the same, each has its kind before it, and a number if need be."""
     counts = Counter(ref.id for ref in refs)
-    wanted = [f"{ref.kind}_{ref.id}" if counts[ref.id] > 1 else ref.id for ref in refs]
-    seen: Counter[str] = Counter()
-    ids = []
-    for name in wanted:
-        seen[name] += 1
-        ids.append(name if seen[name] == 1 else f"{name}_{seen[name]}")
-    return tuple(sorted((replace(r, id=i) for r, i in zip(refs, ids, strict=True)), key=lambda ref: ref.id))
+    taken = {ref.id for ref in refs if counts[ref.id] == 1}
+    named = []
+    for ref in refs:
+        plain = name = ref.id if counts[ref.id] == 1 else f"{ref.kind}_{ref.id}"
+        numbers = count(2)
+        while counts[ref.id] > 1 and name in taken:
+            name = f"{plain}_{next(numbers)}"
+        taken.add(name)
+        named.append(replace(ref, id=name))
+    return tuple(sorted(named, key=lambda ref: ref.id))
 
 
 def _made_models(data: str) -> tuple[ModelRef, ...]:
     numbers = data.split(":")[1:] if data != _MADE else [str(TEST_SEED), str(_TEST_COUNT)]
     if len(numbers) != 2 or not all(n.isascii() and n.isdigit() for n in numbers) or int(numbers[1]) < 1:
         raise OptionError(f"made furniture must be asked for as {_MADE}:SEED:COUNT: got {data!r}")
-    seed, count = (int(n) for n in numbers)
-    return tuple(ModelRef(f"synth_{seed}_{k:07d}", "made", seed=seed, number=k) for k in range(count))
+    seed, size = (int(n) for n in numbers)
+    return tuple(ModelRef(f"synth_{seed}_{k:07d}", "made", seed=seed, number=k) for k in range(size))
 
 
 @lru_cache(maxsize=2)  # asked for its category right after it was read
@@ -189,7 +193,7 @@ def _made_asset(specimen: Specimen) -> Asset:
     carried = {p.id: p.rides_on for p in specimen.whole.parts if p.rides_on in present}
     parts: tuple[Part, ...] = tuple(replace(p, rides_on=carried.get(p.id)) for p in specimen.asset.parts)
     joints = tuple(joint for joint in specimen.whole.joints if joint.part in present)
-    return replace(specimen.asset, parts=parts, joints=joints)
+    return replace(specimen.asset, name=specimen.id, parts=parts, joints=joints)
 
 
 def _stated_category(folder: Path) -> str:
