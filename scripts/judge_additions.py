@@ -1,17 +1,23 @@
 """Judges what `functionalize` adds to furniture: tops, grasps, handles, interiors, drawer boxes, and what it costs.
 
-    python scripts/judge_additions.py [FOLDER] [--made 60] [--seed 990003] [--jobs 1]
+    python scripts/judge_additions.py [FOLDER] [--made 60] [--seed 990003] [--kinds] [--jobs 1] [--log FILE]
 
-FOLDER holds pieces of furniture, one folder each; --made judges made furniture with its true joints. All is measured on
-the objects that come out, by rays and sweeps that share nothing with what made them. Prints a table in Markdown, one
-line per piece (of made furniture only those with a fault), and sums it up.
+FOLDER holds pieces of furniture, one folder each; --made judges made furniture with its true joints and all hardware,
+--kinds the catalogue of hard kinds, its movers' own handles taken away.
+All is measured on the objects that come out, by rays and sweeps that share nothing with what made them. Prints a table
+in Markdown, one line per piece (of random furniture only those with a fault), and sums it up. --log keeps each piece's
+figures in a file as they come; started again with the same file, it goes on where it stopped. --only interior (or
+top, grasp, handle, joint) looks at that alone, which is faster.
 """
 
 import argparse
+import json
+import re
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,6 +26,7 @@ import numpy as np
 import trimesh
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual, VisualRole
+from grafu.articulation.sweep import values_before
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import Points, Scalars
@@ -28,15 +35,18 @@ from grafu.geometry.raycast import RayCaster
 from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
 from grafu.metrics.panels import panel_faults
+from grafu.metrics.rooms import empty_rooms
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.body_additions import Body, complete_body
-from grafu.pipeline.fittings import add_fittings, fitted_object
+from grafu.pipeline.fittings import Fittings, fitted_object
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig, choose_source, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.realization.handle.config import size_factor
 from grafu.realization.interior.request import parse_interior
+from grafu.realization.interior.turned import furnish_scene
 from grafu.synth.generate import make_specimen
+from grafu.synth.kinds import TIDY, UNTIDY
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
@@ -48,11 +58,12 @@ WIDE = 0.9  # metres: from here on two handles are no waste
 COVERED = 0.97  # share of the plan that a top must cover
 OPEN = 0.5  # share of the plan that is covered where there is no top
 SKIN = 0.001  # of the largest side: deeper cuts are cuts
-LEAST_OPENING = 0.98  # of the opening that a joint has without additions
+LEAST_OPENING = 0.999  # of the opening that a joint has without additions; the rest is a sweep's last step
 
 
 MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 DEFAULT = AdditionConfig()
+ALL_KINDS = {**TIDY, **UNTIDY}
 KINDS = ("top", "grasp", "handle", "interior", "joint")
 
 
@@ -61,6 +72,7 @@ class Verdict:
     """The figures of one piece; no list of faults should hold any."""
 
     name: str
+    kinds: list[str]  # what was looked at
     tops: int  # added
     covered: float | None  # share of the plan under the top that replaces its own; None: it has none to take away
     top_faults: list[str]
@@ -69,16 +81,21 @@ class Verdict:
     grips: int
     grasp_faults: list[str]  # not graspable, or several handles where one is enough
     handle_faults: list[str]  # cut into something on the way
-    panels: tuple[int, ...]  # per request of `INTERIORS`
+    panels: list[int]  # per request of `INTERIORS`
+    refusals: list[str]  # why something that was asked for inside was not built
+    rooms: list[str]  # empty rooms that rays find where no request brought any panel
     interior_faults: list[str]
     boards: int  # of drawer boxes
+    waiting: int  # joints that wait for another one, which got a handle
     joint_faults: list[str]  # lost, or opening less, for the sake of additions
     seconds: float
+    crash: str = ""  # why it could not be judged
 
     @property
     def faults(self) -> list[str]:
         """All faults."""
-        return [fault for kind in KINDS for fault in getattr(self, f"{kind}_faults")]
+        found = [fault for kind in KINDS for fault in getattr(self, f"{kind}_faults")]
+        return [self.crash, *found] if self.crash else found
 
 
 def main() -> int:
@@ -86,66 +103,111 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, nargs="?", help="pieces of furniture, one folder each")
     parser.add_argument("--made", type=int, default=0, metavar="N", help="made pieces with their true joints")
+    parser.add_argument("--kinds", action="store_true", help="the catalogue of hard kinds")
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--first", type=int, default=0, help="number of the first made piece")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--log", type=Path, help="JSON lines: what was judged before is read from here, the rest added")
+    parser.add_argument("--only", choices=KINDS, nargs="+", default=list(KINDS), help="what is looked at (all)")
     options = parser.parse_args()
-    if options.folder is None and not options.made:
-        parser.error("nothing to judge: name a folder, or --made N")
+    if options.folder is None and not options.made and not options.kinds:
+        parser.error("nothing to judge: name a folder, --made N or --kinds")
     paths = sorted(p for p in options.folder.iterdir() if p.is_dir()) if options.folder else []
-    tasks = [partial(judge_path, path) for path in paths]
-    tasks += [partial(judge_made, options.seed, options.first + number) for number in range(options.made)]
+    tasks = {str(path): partial(judge_path, path, options.only) for path in paths}
+    numbers = range(options.first, options.first + options.made)
+    tasks |= {f"{options.seed}/{number}": partial(judge_made, options.seed, number, options.only) for number in numbers}
+    tasks |= {f"kind {kind}": partial(judge_kind, kind, options.only) for kind in (ALL_KINDS if options.kinds else ())}
+    known = _logged(options.log)
     with ProcessPoolExecutor(options.jobs) as pool:
-        found: list[Verdict] = []
-        for future in [pool.submit(task) for task in tasks]:
-            found.append(future.result())
-            print(f"  {len(found)}/{len(tasks)}", file=sys.stderr, end="\r")
-    print(table(found, whole=bool(paths)))
+        waiting = {name: pool.submit(task) for name, task in tasks.items() if name not in known}
+        for name, future in waiting.items():
+            error = future.exception()
+            known[name] = _crashed(name, error) if error else future.result()
+            if options.log and not error:
+                with options.log.open("a") as file:
+                    file.write(json.dumps([name, asdict(known[name])]) + "\n")
+            print(f"  {len(known)}/{len(tasks)}", file=sys.stderr, end="\r")
+    print(table([known[name] for name in tasks], whole=bool(paths or options.kinds)))
     return 0
 
 
-def judge_path(path: Path) -> Verdict:
+def _crashed(name: str, error: BaseException) -> Verdict:
+    """Returns the figures of a piece that could not be judged, with the reason."""
+    why = f"{type(error).__name__}: {error}"
+    nothing: dict[str, Any] = {"top_faults": [], "grasp_faults": [], "handle_faults": [], "joint_faults": []}
+    inside: dict[str, Any] = {"panels": [0] * len(INTERIORS), "refusals": [], "rooms": [], "interior_faults": []}
+    counts: dict[str, Any] = {"tops": 0, "movers": 0, "handles": 0, "grips": 0, "boards": 0, "waiting": 0}
+    return Verdict(name, [], covered=None, seconds=0.0, crash=why, **counts, **nothing, **inside)
+
+
+def _logged(path: Path | None) -> dict[str, Verdict]:
+    """Returns the figures that a log holds, by what was judged."""
+    lines = path.read_text().splitlines() if path and path.exists() else []
+    return {name: Verdict(**figures) for name, figures in map(json.loads, lines)}
+
+
+def judge_path(path: Path, kinds: Sequence[str] = KINDS) -> Verdict:
     """Returns the figures of a piece of furniture in a folder, its motions from the default source."""
-    return judge(load_asset(path), MotionSource.AUTO)
+    return judge(load_asset(path), MotionSource.AUTO, kinds)
 
 
-def judge_made(seed: int, number: int) -> Verdict:
+def judge_made(seed: int, number: int, kinds: Sequence[str] = KINDS) -> Verdict:
     """Returns the figures of a made piece, with its true joints, and what somebody left out of it left out."""
     specimen = make_specimen(seed, number)
     whole = specimen.whole
     missing = set(specimen.missing)
     parts = tuple(p for p in whole.parts if p.id not in missing)
-    return judge(replace(whole, parts=parts, name=f"{number} {specimen.family}"), MotionSource.ANNOTATION)
+    return judge(replace(whole, parts=parts, name=f"{number} {specimen.family}"), MotionSource.ANNOTATION, kinds)
 
 
-def judge(asset: Asset, source: MotionSource) -> Verdict:
-    """Returns the figures of one piece."""
-    result, plain = _run(asset, source), _run(asset, source, NO_ADDITIONS)
+def judge_kind(kind: str, kinds: Sequence[str] = KINDS) -> Verdict:
+    """Returns the figures of a piece of the catalogue, with its true joints, without its handles."""
+    asset = ALL_KINDS[kind]()
+    parts = tuple(part for part in asset.parts if part.label is not PartLabel.HANDLE)
+    return judge(replace(asset, parts=parts, name=kind), MotionSource.ANNOTATION, kinds)
+
+
+def judge(asset: Asset, source: MotionSource, kinds: Sequence[str] = KINDS) -> Verdict:
+    """Returns the figures of one piece, of those kinds."""
+    result = _run(asset, source)
     tops = sum(a.part.label is PartLabel.TOP_PANEL for a in result.additions)
-    covered, top_faults = _without_its_top(asset, source, plain.object)
-    seen = _top_cover([v.mesh for v in _own(plain.object)])
-    if tops and seen > OPEN:
-        top_faults.append(f"a top added over {seen:.0%}")
-    if not tops and seen < OPEN:
-        top_faults.append(f"no top added, {seen:.0%} covered: {result.body.top.why}")
-    panels, interior_faults = _interiors(result)
+    plain = _run(asset, source, NO_ADDITIONS) if {"top", "joint"} & {*kinds} else None
+    covered, top_faults = _tops(asset, source, plain, result, tops) if plain and "top" in kinds else (None, [])
+    inside = _interiors(result) if "interior" in kinds else Inside([0] * len(INTERIORS), [], [], [])
     timings = dict(result.timings)
     return Verdict(
         name=asset.name,
+        kinds=list(kinds),
         tops=tops,
         covered=covered,
         top_faults=top_faults,
         movers=len(result.object.joints),
         handles=sum(a.part.label is PartLabel.HANDLE for a in result.additions),
         grips=len(result.fittings.carved),
-        grasp_faults=list(_grasp_faults(result)),
-        handle_faults=list(_handle_faults(result)),
-        panels=panels,
-        interior_faults=interior_faults,
+        grasp_faults=list(_grasp_faults(result)) if "grasp" in kinds else [],
+        handle_faults=list(_handle_faults(result)) if "handle" in kinds else [],
+        panels=inside.panels,
+        refusals=inside.refusals,
+        rooms=inside.rooms,
+        interior_faults=inside.faults,
         boards=len(result.body.drawers.additions),
-        joint_faults=list(_joint_faults(plain, result)),
+        waiting=sum(bool(joint.after and _new_handles(result.object, joint)) for joint in result.object.joints),
+        joint_faults=list(_joint_faults(plain, result)) if plain and "joint" in kinds else [],
         seconds=timings["body"] + timings["fittings"],
     )
+
+
+def _tops(
+    asset: Asset, source: MotionSource, plain: Functionalized, result: Functionalized, tops: int
+) -> tuple[float | None, list[str]]:
+    """Returns what a top covers that replaces the piece's own, and what is wrong with it and with tops added."""
+    covered, faults = _without_its_top(asset, source, plain.object)
+    seen = _top_cover([v.mesh for v in _own(plain.object)])
+    if tops and seen > OPEN:
+        faults.append(f"a top added over {seen:.0%}")
+    if not tops and seen < OPEN:
+        faults.append(f"no top added, {seen:.0%} covered: {result.body.top.why}")
+    return covered, faults
 
 
 def _run(asset: Asset, source: MotionSource, additions: AdditionConfig = DEFAULT) -> Functionalized:
@@ -234,31 +296,38 @@ def _grasp_faults(result: Functionalized) -> Iterator[str]:
 
 
 def _handle_faults(result: Functionalized) -> Iterator[str]:
-    """Yields added handles that cut into anything on their way, doors before them open as far as they must be."""
-    skin = SKIN * largest_side(result.object)
-    for joint in result.object.joints:
-        handles = [
-            v for v in result.object.link(joint.child).visuals if v.role is VisualRole.ADDED and "handle" in v.name
-        ]
-        if not handles:
-            continue
-        around = _around(result.object, joint)
-        for handle in handles:
-            hit = _met(handle.mesh, joint, around, skin)
+    """Yields added handles that cut into anything on their way, or that other movers run into on theirs.
+
+    What a joint waits for is open as far as it goes; all else rests.
+    """
+    articulated = result.object
+    skin = SKIN * largest_side(articulated)
+    for joint in articulated.joints:
+        for handle in _new_handles(articulated, joint):
+            hit = _met(handle.mesh, joint, _around(articulated, joint), skin)
             yield from (f"`{handle.name}` meets `{name}`" for name in hit)
+            struck = (other for other in articulated.joints if other.child != joint.child)
+            yield from (
+                f"`{other.child}` strikes `{handle.name}`" for other in struck if _strikes(other, handle, result)
+            )
+
+
+def _new_handles(articulated: ArticulatedObject, joint: Joint) -> list[Visual]:
+    visuals = articulated.link(joint.child).visuals
+    return [v for v in visuals if v.role is VisualRole.ADDED and v.label is PartLabel.HANDLE]
 
 
 def _around(articulated: ArticulatedObject, joint: Joint) -> Any:
-    """Returns all other links at rest, those in front of a joint wide open."""
+    """Returns all other links at rest, those that a joint waits for wide open."""
     manager = MANAGER()
     for visual in articulated.link(articulated.root).visuals:
         if len(visual.mesh.faces):
             manager.add_object(visual.name, visual.mesh.to_trimesh())
+    values = values_before(articulated, joint.id)
     for other in articulated.joints:
         if other.child != joint.child:
-            value = other.limits.upper if other.id in joint.after else 0.0
             mesh = articulated.link(other.child).mesh
-            manager.add_object(other.child, mesh.to_trimesh(), transform=other.motion(value))
+            manager.add_object(other.child, mesh.to_trimesh(), transform=other.motion(values[other.id]))
     return manager
 
 
@@ -274,21 +343,54 @@ def _met(handle: TriangleMesh, joint: Joint, around: Any, skin: float) -> list[s
     return sorted(found)
 
 
+def _strikes(mover: Joint, handle: Visual, result: Functionalized) -> bool:
+    """Whether a mover runs into a handle that rests; seen from the mover, the handle takes the way backwards."""
+    articulated = result.object
+    own = next(joint for joint in articulated.joints if handle in articulated.link(joint.child).visuals)
+    values = values_before(articulated, mover.id)
+    if values[own.id] != own.limits.lower or not len(articulated.link(mover.child).mesh.faces):
+        return False  # the handle is out of the way by then
+    manager = MANAGER()
+    manager.add_object(mover.child, articulated.link(mover.child).mesh.to_trimesh())
+    body, skin = handle.mesh.to_trimesh(), SKIN * largest_side(articulated)
+    for value in np.linspace(mover.limits.lower, mover.limits.upper, POSES):
+        T = np.linalg.inv(mover.motion(float(value)))
+        hit, contacts = manager.in_collision_single(body, transform=T, return_data=True)
+        if hit and any(contact.depth > skin for contact in contacts):
+            return True
+    return False
+
+
 # Interiors, drawer boxes, joints.
 
 
-def _interiors(result: Functionalized) -> tuple[tuple[int, ...], list[str]]:
-    """Returns how many panels each request brings, and what is wrong with them."""
-    counts, faults = [], []
+@dataclass(frozen=True)
+class Inside:
+    """What the requests of `INTERIORS` bring: panels of each, refusals and faults of all, and rooms left empty."""
+
+    panels: list[int]
+    refusals: list[str]
+    rooms: list[str]
+    faults: list[str]
+
+
+def _interiors(result: Functionalized) -> Inside:
+    """Returns what comes of all requests, each on the finished piece with its hardware and handles."""
+    counts, faults, refusals = [], [], []
     for request in INTERIORS:
-        config = AdditionConfig(handles=None, grips=None, interior=parse_interior(request))
-        fittings = add_fittings(result.fittings.scene, result.completion, config, {})
-        names = {a.part.id for a in fittings.additions if a.part.label in (PartLabel.SHELF, PartLabel.DIVIDER)}
-        whole = fitted_object(result.object, fittings)
+        scene = result.fittings.scene
+        inside = furnish_scene(scene, parse_interior(request))
+        names = {a.part.id for a in inside.additions}
+        whole = fitted_object(result.object, Fittings(scene, inside.additions))
         counts.append(len(names))
+        refusals += [one.why for one in inside.refused]
         skin = SKIN * largest_side(whole)
         faults += [f"{request}: `{a}` {what} `{b}`" for a, what, b in panel_faults(whole, names, skin)]
-    return tuple(counts), faults
+    empty = [] if any(counts) else empty_rooms(result.object)
+    rooms = [
+        " x ".join(f"{side:.2f}" for side in box.size) + f" m at {np.round(box.center, 2).tolist()}" for box in empty
+    ]
+    return Inside(counts, refusals, rooms, faults)
 
 
 def _joint_faults(plain: Functionalized, result: Functionalized) -> Iterator[str]:
@@ -309,24 +411,47 @@ def table(found: Sequence[Verdict], whole: bool) -> str:
     for one in found:
         if whole or one.faults:
             cover = "" if one.covered is None else f"{one.covered:.1%}"
-            inside = " / ".join(map(str, one.panels))
-            cells = [one.name, one.tops, cover, one.movers, one.handles, one.grips, inside, one.boards]
+            counts = " / ".join(map(str, one.panels))
+            cells = [one.name, one.tops, cover, one.movers, one.handles, one.grips, counts, one.boards]
             lines.append(f"| {' | '.join(map(str, cells))} | {one.seconds:.2f} | {'; '.join(one.faults)} |")
     topped = [one.covered for one in found if one.covered is not None]
     seconds = [one.seconds for one in found]
     panels = [sum(one.panels[k] for one in found) for k in range(len(INTERIORS))]
+    looked_into = [one for one in found if "interior" in one.kinds]
+    empty = [one for one in looked_into if not any(one.panels)]
+    refusals = Counter(_kind_of(why) for one in found for why in one.refusals)
     movers, tops = sum(one.movers for one in found), sum(one.tops for one in found)
     lines += [
         "",
+        f"- {sum(bool(one.crash) for one in found)} could not be judged.",
         f"- {len(found)} pieces, {movers} movers, {tops} tops added.",
         f"- Without their own tops: {sum(c >= COVERED for c in topped)} of {len(topped)} get one that covers "
         f"{COVERED:.0%} (least {min(topped, default=1.0):.1%}).",
         f"- Panels for {', '.join(INTERIORS)}: {', '.join(map(str, panels))}.",
-        *(f"- {kind} faults: {sum(len(getattr(o, f'{kind}_faults')) for o in found)}." for kind in KINDS),
+        f"- {sum(one.waiting for one in found)} movers with a new handle wait for another to open.",
+        f"- {len(looked_into) - len(empty)} pieces get panels, {len(empty)} none; rays find an empty room in "
+        f"{sum(bool(one.rooms) for one in empty)} of those:",
+        *(
+            f"  - {one.name}: {'; '.join(one.rooms)} ({'; '.join(dict.fromkeys(one.refusals))})"
+            for one in empty
+            if one.rooms
+        ),
+        "- Not built inside, and why:",
+        *(f"  - {count} x {why}" for why, count in refusals.most_common()),
+        *(
+            f"- {kind} faults: {sum(len(getattr(o, f'{kind}_faults')) for o in found)} "
+            f"on {sum(kind in o.kinds for o in found)} pieces."
+            for kind in KINDS
+        ),
         f"- Seconds for additions: median {np.median(seconds):.2f}, 90 % {np.quantile(seconds, 0.9):.2f}, "
         f"most {max(seconds):.2f}.",
     ]
     return "\n".join(lines)
+
+
+def _kind_of(why: str) -> str:
+    """Returns a reason without the names and numbers of one piece."""
+    return re.sub(r"\d+(\.\d+)?", "N", re.sub(r"`[^`]*`", "`...`", why))
 
 
 if __name__ == "__main__":

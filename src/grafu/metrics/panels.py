@@ -6,6 +6,7 @@ scene and no compartments.
 """
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 from typing import Any, Literal
 
@@ -13,8 +14,10 @@ import numpy as np
 import trimesh
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
-from grafu.geometry.arrays import Points
+from grafu.geometry.arrays import Mat4, Points, vec3
+from grafu.geometry.heading import heading_of
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.vocabulary import JointType, PartLabel
 
 PanelFault = tuple[str, Literal["floats", "pierces", "blocks"], str]
@@ -25,8 +28,12 @@ POSES = 60  # of each joint, from closed to wide open
 def panel_faults(articulated: ArticulatedObject, panels: Collection[str], skin: float) -> list[PanelFault]:
     """Returns (panel, fault, the end or the other part) for all that is wrong with panels of the static link.
 
-    `panels` are names of visuals; a cut of less than `skin` metres is a touch, a gap of twice as much none.
+    `panels` are names of visuals; a cut of less than `skin` metres is a touch, a gap of twice as much none. Ends and
+    halves are those along the panels' own level axes.
     """
+    angle = heading_of(v.mesh for v in articulated.link(articulated.root).visuals if v.name in panels)
+    if angle:
+        articulated = _turned(articulated, from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle)))
     root = [v for v in articulated.link(articulated.root).visuals if len(v.mesh.faces)]
     standing = {v.name: v.mesh for v in root}
     moving = {link.id: link.mesh for link in articulated.links if link.id != articulated.root}
@@ -39,6 +46,19 @@ def panel_faults(articulated: ArticulatedObject, panels: Collection[str], skin: 
         blocked = (joint for joint in joints if _is_blocked(panel.mesh, joint, moving[joint.child], skin))
         found += [(panel.name, "blocks", joint.child) for joint in blocked]
     return found
+
+
+def _turned(articulated: ArticulatedObject, T: Mat4) -> ArticulatedObject:
+    """Returns the object, hardware and joints, as it stands after T."""
+
+    def moved(visual: Visual) -> Visual:
+        return replace(visual, surfaces=tuple(surface.transformed(T) for surface in visual.surfaces))
+
+    links = tuple(replace(link, visuals=tuple(map(moved, link.visuals))) for link in articulated.links)
+    joints = tuple(
+        replace(joint, axis=joint.axis.transformed(T, joint.type is JointType.REVOLUTE)) for joint in articulated.joints
+    )
+    return replace(articulated, links=links, joints=joints)
 
 
 def _loose_ends(panel: Visual, others: Mapping[str, TriangleMesh], reach: float) -> Sequence[str]:

@@ -16,9 +16,9 @@ from grafu.realization.grip.outcome import Carved
 from grafu.realization.handle.grasp import Grasp, find_grasps
 from grafu.realization.handle.place import Handles, add_handles, movers_without
 from grafu.realization.handle.relief import Reliefs
-from grafu.realization.interior.compartments import find_compartments
-from grafu.realization.interior.furnish import Furnished, Unfurnished, furnish
+from grafu.realization.interior.furnish import Furnished, Unfurnished
 from grafu.realization.interior.request import InteriorKind, PanelHint
+from grafu.realization.interior.turned import furnish_scene
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.scene import Scene
 from grafu.templates.handle import HandleTemplate
@@ -119,8 +119,7 @@ def _interior(scene: Scene, completion: GraphCompletion, config: AdditionConfig)
     hints = _panel_hints(completion) if request.kind is InteriorKind.PREDICTED else []
     if request.kind is InteriorKind.NONE or (request.kind is InteriorKind.PREDICTED and not hints):
         return Furnished()
-    compartments = find_compartments(scene, config.interior_sizes)
-    return furnish(compartments, request, scene, config.interior_sizes, hints)
+    return furnish_scene(scene, request, config.interior_sizes, hints)
 
 
 def _handle_hints(completion: GraphCompletion) -> dict[str, Vec3]:

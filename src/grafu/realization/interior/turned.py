@@ -1,0 +1,63 @@
+"""Interiors of furniture that stands turned about Z: furnished in the frame that its walls follow, then turned back.
+
+One frame serves the whole piece. Where most walls follow the axes, rooms askew to them are furnished as boxes along the
+axes, or not at all.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from grafu.articulation.articulated_object import Visual
+from grafu.asset.part import Part
+from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.heading import heading_of
+from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points
+from grafu.realization.interior.compartments import find_compartments
+from grafu.realization.interior.config import InteriorConfig
+from grafu.realization.interior.furnish import Furnished, furnish
+from grafu.realization.interior.request import InteriorRequest, PanelHint
+from grafu.realization.scene import Scene
+from grafu.vocabulary import JointType
+
+
+def furnish_scene(
+    scene: Scene,
+    request: InteriorRequest,
+    config: InteriorConfig = InteriorConfig(),
+    hints: Sequence[PanelHint] = (),
+) -> Furnished:
+    """Returns shelves and dividers for all compartments of a scene whose joints are built, however it stands turned.
+
+    `hints` are what the completed graph expects; only `predicted` requests use them.
+    """
+    angle = heading_of(part.mesh for part in scene.static_parts)
+    if not angle:
+        return furnish(find_compartments(scene, config), request, scene, config, hints)
+    T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle))
+    straight = _turned(scene, T)
+    expected = [replace(h, box=Box.around(transform_points(T, h.box.corners()))) for h in hints]
+    found = furnish(find_compartments(straight, config), request, straight, config, expected)
+    back = invert(T)
+    return replace(found, additions=tuple(replace(a, part=_part(a.part, back)) for a in found.additions))
+
+
+def _turned(scene: Scene, T: Mat4) -> Scene:
+    return Scene(
+        {name: _part(part, T) for name, part in scene.parts.items()},
+        scene.movers,
+        scene.unit,
+        tuple((owner, _visual(visual, T)) for owner, visual in scene.hardware),
+        {
+            mover: replace(way, axis=way.axis.transformed(T, way.type is JointType.REVOLUTE))
+            for mover, way in scene.ways.items()
+        },
+    )
+
+
+def _part(part: Part, T: Mat4) -> Part:
+    return replace(part, surfaces=tuple(surface.transformed(T) for surface in part.surfaces))
+
+
+def _visual(visual: Visual, T: Mat4) -> Visual:
+    return replace(visual, surfaces=tuple(surface.transformed(T) for surface in visual.surfaces))
