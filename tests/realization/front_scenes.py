@@ -1,22 +1,36 @@
-"""Scenes of made furniture in which every part moves by its own true joint: no hinges, no rails."""
+"""Scenes of made furniture in which every part moves by its own true joint: no hinges, no rails.
+
+Drawers wait for the doors that stand before them.
+"""
 
 from dataclasses import replace
 
 import numpy as np
 
-from grafu.asset.part import Asset, Part
+from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.geometry.box import Box
 from grafu.realization.scene import Mover, Scene, Way
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
 from grafu.synth.layout import Layout
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import JointType, PartLabel
 
 
 def scene_of(asset: Asset) -> Scene:
     riders = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
     movers = {part: Mover(part, (part, *ids)) for part, ids in riders.items()}
-    ways = {j.part: Way(j.axis, j.type, j.upper) for j in asset.joints}
+    ways = {j.part: Way(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
     return Scene({p.id: p for p in asset.parts}, movers, asset.unit, ways=ways)
+
+
+def doors_before(asset: Asset, joint: AnnotatedJoint) -> tuple[str, ...]:
+    """The doors whose box a drawer runs into when it comes out by 0.2 m or as far as it goes."""
+    if joint.type is not JointType.PRISMATIC:
+        return ()
+    way = asset.part(joint.part).box
+    way = way.union(Box.around(way.corners() + min(joint.upper, 0.2) * joint.axis.direction))
+    doors = (j.part for j in asset.joints if j.type is JointType.REVOLUTE)
+    return tuple(door for door in doors if (way.axis_gaps(asset.part(door).box) < -1e-3).all())
 
 
 def cabinet(layout: Layout, width: float = 0.6, **sizes) -> Asset:

@@ -100,6 +100,12 @@ class MeshCollider:
         corners = self._corners @ T[:3, :3].T + offset
         self._low, self._high = corners.min(axis=0), corners.max(axis=0)
 
+    def posed(self, T: Mat4) -> "MeshCollider":
+        """Returns another collider of the same mesh, posed at T."""
+        found = MeshCollider(self._mesh)
+        found.place(T)
+        return found
+
     def intersects(self, other: "MeshCollider") -> bool:
         """Whether the two, as posed, share a point."""
         if (self._low > other._high).any() or (other._low > self._high).any():

@@ -44,7 +44,7 @@ class Realized:
     """The working object, what came of each request, and the final scene.
 
     The scene holds the parts as they are built, at rest, all hardware, the movers that have a joint, and their ways
-    with the final opening as `upper`.
+    with the final opening as `upper` and the order in which they open.
     """
 
     object: ArticulatedObject
@@ -72,8 +72,12 @@ def realize(
 def _final_scene(scene: Scene, built: list[Built], orders: dict[str, Order]) -> Scene:
     """Returns the scene in which only those move that have a joint, each as far as it opens."""
     ids = [b.request.moving for b in built]
-    ways = {b.request.moving: Way(b.placement.axis, b.request.type, orders[b.request.moving].upper) for b in built}
+    ways = {b.request.moving: _final_way(b, orders[b.request.moving]) for b in built}
     return replace(scene, movers={i: scene.movers[i] for i in ids}, ways=ways)
+
+
+def _final_way(built: Built, order: Order) -> Way:
+    return Way(built.placement.axis, built.request.type, order.upper, after=order.after)
 
 
 def _build_fairly(requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig) -> _Outcomes:

@@ -35,13 +35,15 @@ class Mover:
 class Way:
     """How a mover moves: about or along `axis`, from rest to `upper` (radians or metres).
 
-    `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built.
+    `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built. `after`
+    names the movers that must be wide open before it can move.
     """
 
     axis: Axis
     type: JointType
     upper: float
     is_built: bool = True
+    after: tuple[str, ...] = ()
 
 
 @final

@@ -137,7 +137,7 @@ def _handles_for(scene: Scene, mover: str, around: Surroundings, task: _Task) ->
             if any(pose is None for pose in poses):
                 continue
             placed = [shape.mesh.transformed(pose) for pose in poses if pose is not None]
-            met = next((b for mesh in placed if (b := _blocker(mesh, mover, relief, around, task))), "")
+            met = next((b for mesh in placed if (b := around.blocker(mover, mesh, task.config.poses))), "")
             if not met:
                 kept = [pose for pose in poses if pose is not None]
                 return _additions(scene, mover, template, shape, kept, spot, task)
@@ -165,10 +165,6 @@ def _few(spots: Iterable[Spot]) -> Iterator[Spot]:
             return
         seen.add(key)
         yield spot
-
-
-def _blocker(mesh: TriangleMesh, mover: str, relief: Relief, around: Surroundings, task: _Task) -> str:
-    return around.blocker(mover, relief.front, mesh, task.config.poses)
 
 
 def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple[HandleTemplate, float, float]]:

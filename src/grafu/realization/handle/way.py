@@ -6,11 +6,10 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.waiting import all_before
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.realization.handle.front import Front
-from grafu.realization.handle.relief import stands_before
 from grafu.realization.limits import Motion, in_the_way, motion_about, opening_values, swept_box
 from grafu.realization.scene import Obstacle, Scene
 
@@ -31,10 +30,10 @@ class Surroundings:
         grown = (*self.moving[mover_id], Obstacle(mover_id, MeshCollider(handle)))
         return replace(self, moving={**self.moving, mover_id: grown})
 
-    def blocker(self, mover_id: str, front: Front, handle: TriangleMesh, poses: int) -> str:
+    def blocker(self, mover_id: str, handle: TriangleMesh, poses: int) -> str:
         """Returns the id of something that a handle on a mover runs into, or that runs into it; empty: it is clear.
 
-        Movers that stand before the front (a closed door before a drawer) open first: they are met at rest only.
+        At rest it is clear of everything; on its way, what opens before it (a door before a drawer) stands wide open.
         """
         body = MovingBody(handle, _TOUCH * self.scene.unit)
         others = [other for other in self.moving if other != mover_id]
@@ -43,10 +42,12 @@ class Surroundings:
         if found:
             return found
         motion, upper = self._way(mover_id)
-        after = [other for other in others if not stands_before(self.scene, other, front)]
-        fixed = [*self.still, *(o for other in after for o in self.moving[other])]
-        found = _met(body, motion, upper, in_the_way(fixed, swept_box(handle.box, motion, upper)), poses)
-        return found or next((other for other in others if self._runs_into(other, body, handle, poses)), "")
+        opened = [other for other in others if other in self._before(mover_id)]
+        closed = [*self.still, *(o for other in others if other not in opened for o in self.moving[other])]
+        fixed = in_the_way(closed, swept_box(handle.box, motion, upper))
+        fixed += [obstacle for other in opened for obstacle in self._opened(other)]
+        found = _met(body, motion, upper, fixed, poses)
+        return found or next((o for o in others if self._runs_into(o, mover_id, body, handle, poses)), "")
 
     def _own_hardware(self, mover_id: str) -> list[Obstacle]:
         return [Obstacle(v.name, MeshCollider(v.mesh)) for v in self.scene.hardware_of(mover_id)]
@@ -55,12 +56,27 @@ class Surroundings:
         way = self.scene.ways[mover_id]
         return motion_about(way.axis, way.type), way.upper
 
-    def _runs_into(self, other: str, body: MovingBody, handle: TriangleMesh, poses: int) -> bool:
-        """Whether a mover runs into a handle at rest: seen from that mover, the handle takes the way backwards."""
+    def _before(self, mover_id: str) -> set[str]:
+        """Returns the movers that stand open before a mover can move."""
+        return all_before(mover_id, {name: way.after for name, way in self.scene.ways.items()})
+
+    def _opened(self, mover_id: str) -> list[Obstacle]:
+        motion, upper = self._way(mover_id)
+        return [Obstacle(o.id, o.collider.posed(motion(upper))) for o in self.moving[mover_id]]
+
+    def _runs_into(self, other: str, mover_id: str, body: MovingBody, handle: TriangleMesh, poses: int) -> bool:
+        """Whether a mover runs into a handle at rest, or wide open where that mover waits for the handle's.
+
+        Seen from the mover, the handle takes the way backwards.
+        """
         motion, upper = self._way(other)
+        start = np.eye(4)
+        if mover_id in self._before(other):
+            opening, widest = self._way(mover_id)
+            start = opening(widest)
 
         def backwards(value: float) -> Mat4:
-            return motion(-value)
+            return np.asarray(motion(-value) @ start)
 
         near = in_the_way(self.moving[other], swept_box(handle.box, backwards, upper))
         return bool(_met(body, backwards, upper, near, poses))

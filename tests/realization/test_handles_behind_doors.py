@@ -1,0 +1,118 @@
+"""Handles where one mover waits for another: doors that must be open before the drawers behind them can move."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+import trimesh
+from front_scenes import cabinet, scene_of, without_handles
+
+from grafu.geometry.intersection import MeshCollider
+from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.realization.handle.grasp import find_grasps
+from grafu.realization.handle.place import add_handles
+from grafu.realization.limits import motion_about
+from grafu.realization.scene import Scene, Way
+from grafu.synth.kinds import KINDS
+from grafu.synth.layout import Door, Drawer, Pair, Stack
+from grafu.templates.gallery import builtin_gallery
+
+BEHIND = ("drawers behind a pair", "drawers behind an inset door")
+POSES = 40
+
+
+def behind_a_door() -> Scene:
+    """Two drawers without handles, as high as the inset door before them."""
+    return scene_of(without_handles(KINDS["drawers behind an inset door"]()))
+
+
+def with_way(scene: Scene, mover: str, **changes) -> Scene:
+    return replace(scene, ways={**scene.ways, mover: replace(scene.ways[mover], **changes)})
+
+
+def at(way: Way, value: float) -> np.ndarray:
+    return motion_about(way.axis, way.type)(value)
+
+
+def posed(meshes, T: np.ndarray) -> trimesh.collision.CollisionManager:
+    manager = trimesh.collision.CollisionManager()
+    for number, mesh in enumerate(meshes):
+        manager.add_object(str(number), mesh.to_trimesh(), transform=T)
+    return manager
+
+
+def meshes_of(scene: Scene, mover: str):
+    return [scene.parts[member].mesh for member in scene.movers[mover].members]
+
+
+def meets(scene: Scene, mover: str, other: str, value: float) -> bool:
+    """Whether anything on a mover meets another mover, fixed at a joint value, on its whole way."""
+    fixed = posed(meshes_of(scene, other), at(scene.ways[other], value))
+    way = scene.ways[mover]
+    poses = [at(way, v) for v in np.linspace(0.0, way.upper, POSES)]
+    return any(fixed.in_collision_single(m.to_trimesh(), transform=T) for m in meshes_of(scene, mover) for T in poses)
+
+
+def free_travel(scene: Scene, mover: str, other: str, value: float) -> float:
+    """How far a bare mover comes before it meets another one that is fixed at a joint value."""
+    steps = np.linspace(0.0, scene.ways[mover].upper, 120)
+    ways = [with_way(scene, mover, upper=float(v)) for v in steps]
+    return next((float(steps[k - 1]) for k, s in enumerate(ways) if k and meets(s, mover, other, value)), steps[-1])
+
+
+def test_a_drawers_handle_is_clear_of_a_door_that_opens_little():
+    scene = with_way(behind_a_door(), "door", upper=radians(55))
+    travel = free_travel(scene, "drawer_1", "door", radians(55))
+    assert 0.02 < travel < 0.2
+    scene = with_way(with_way(scene, "drawer_1", upper=travel), "drawer_2", upper=travel)
+    handles = add_handles(scene, find_grasps(scene))
+    assert all(not meets(handles.scene, drawer, "door", radians(55)) for drawer in ("drawer_1", "drawer_2"))
+    held = {a.part.rides_on for a in handles.additions} | {refused.mover for refused in handles.refused}
+    assert {"drawer_1", "drawer_2"} <= held
+
+
+def test_a_handle_does_not_run_into_a_door_that_nobody_opens_first():
+    scene = with_way(with_way(behind_a_door(), "drawer_1", after=()), "drawer_2", after=())
+    travel = free_travel(scene, "drawer_1", "door", 0.0)
+    scene = with_way(with_way(scene, "drawer_1", upper=travel), "drawer_2", upper=travel)
+    handles = add_handles(scene, find_grasps(scene))
+    assert all(not meets(handles.scene, drawer, "door", 0.0) for drawer in ("drawer_1", "drawer_2"))
+
+
+@pytest.mark.parametrize("layout", [Door(behind=Stack((Drawer(handle="none"),) * 3)), Pair(behind=Drawer())])
+def test_a_doors_handle_sits_as_if_nothing_were_behind_the_door(layout):
+    """Drawers come out when the door is open: what they pass is not where its handle is then."""
+    plain = without_handles(cabinet(replace(layout, behind=None), mount="inset"))
+    full = without_handles(cabinet(layout, mount="inset"))
+    doors = [joint.part for joint in plain.joints]
+    at_rest = []
+    for asset in (plain, full):
+        scene = scene_of(asset)
+        found = {a.part.rides_on: a.part.box for a in add_handles(scene, find_grasps(scene)).additions}
+        at_rest.append([found[door] for door in doors])
+    for alone, before in zip(*at_rest, strict=True):
+        assert before.center[0] == pytest.approx(alone.center[0], abs=1e-3)  # its length is that of all fronts' median
+
+
+@pytest.mark.parametrize("kind", BEHIND)
+def test_whole_furniture_opens_in_order_with_its_new_handles(kind):
+    made = functionalize(without_handles(KINDS[kind]()), MotionSource.ANNOTATION, builtin_gallery())
+    scene = made.fittings.scene
+    waiting = {mover: way.after for mover, way in scene.ways.items() if way.after}
+    assert waiting
+    assert waiting.keys() <= {a.part.rides_on for a in made.additions} | {c.part.id for c in made.fittings.carved}
+    assert "none" not in {g.kind for g in find_grasps(scene).values()}
+    for mover, before in waiting.items():
+        for door in before:
+            assert not meets(scene, mover, door, scene.ways[door].upper)
+            handles = [a.part.mesh for a in made.additions if a.part.rides_on == mover]
+            closed = [MeshCollider(mesh) for mesh in meshes_of(scene, door)]
+            assert all(MeshCollider(h).distance(c) > 0 for h in handles for c in closed)
+
+
+def test_the_final_scene_says_what_opens_first():
+    made = functionalize(KINDS["drawers behind a pair"](), MotionSource.ANNOTATION, builtin_gallery())
+    found = {mover: {f"{name}_joint" for name in way.after} for mover, way in made.fittings.scene.ways.items()}
+    assert found == {joint.child: set(joint.after) for joint in made.object.joints}
