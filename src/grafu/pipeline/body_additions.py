@@ -14,7 +14,7 @@ from grafu.realization.carcass.lacks import carcass_lacks
 from grafu.realization.drawer_box.complete import DrawerBoxes, complete_drawers, with_riders
 from grafu.realization.plan import RealizationPlan
 from grafu.realization.report import Skipped, SkipReason
-from grafu.realization.top.complete import TopVerdict, missing_top
+from grafu.realization.top.complete import TopVerdict, missing_tops
 from grafu.realization.top.config import DEFAULT_TOP
 from grafu.vocabulary import PartLabel
 
@@ -35,10 +35,10 @@ class Body:
 
 def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPlan, config: AdditionConfig) -> Body:
     """Returns the asset with the top, boards and drawer boxes that it lacks and may have."""
-    top = missing_top(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
+    top = missing_tops(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
     if config.top is None:
-        top = replace(top, addition=None)
-    above = (top.addition,) if top.addition else ()
+        top = replace(top, addition=None, others=())
+    above = top.additions
     grown = _with(asset, above)
     boxes = config.drawer_boxes
     drawers = complete_drawers(grown.parts, plan, *(() if boxes is None else (boxes,)), build=boxes is not None)

@@ -20,7 +20,7 @@ from grafu.realization.likeness import surface_like
 from grafu.realization.plan import JointRequest
 from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
 from grafu.realization.top.coverage import Coverage, coverage_of
-from grafu.realization.top.evidence import basins_of, cells_of, named_cells, plate_in, speaks_for_bars
+from grafu.realization.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
 from grafu.realization.top.freedom import freedom_of, thick_enough
 from grafu.realization.top.outline import (
     let_in,
@@ -28,6 +28,7 @@ from grafu.realization.top.outline import (
     over_the_base,
     overhanging,
     rim_of,
+    under_what_stands,
     what_pierces,
     with_fronts,
 )
@@ -40,6 +41,8 @@ from grafu.vocabulary import PartLabel
 
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
 _CLEAN = 0.001  # metres beyond a slab's edges, so that grooves run out of it
+_MOST = 3  # tops of one piece: a desk, its pedestal, its hutch
+_STEP = 0.05  # of a top's height
 _CALLED = 0.5  # of what covers at the rim: bars around so much that is called a top are its frame
 
 
@@ -49,7 +52,8 @@ class TopVerdict:
     """Whether there is a top, by what share, and why; and the top to add where there is none.
 
     `coverage` holds the paper's two occupancy maps (None: nothing has a face). `addition` is None where a top is there,
-    and where none can be put: `why` says which. `close_call` says that the maps alone did not decide.
+    and where none can be put: `why` says which. `close_call` says that the maps alone did not decide. `others` are the
+    tops of what stands higher or lower and lacks one, too.
     """
 
     covered: bool
@@ -58,11 +62,45 @@ class TopVerdict:
     coverage: Coverage | None = None
     addition: Addition | None = None
     close_call: bool = False
+    others: tuple[Addition, ...] = ()
+
+    @property
+    def additions(self) -> tuple[Addition, ...]:
+        """All tops to add, the largest first."""
+        return (self.addition, *self.others) if self.addition is not None else ()
 
     @property
     def missing(self) -> bool:
         """Whether furniture lacks a top."""
         return not self.covered
+
+
+def missing_tops(
+    parts: Sequence[Part],
+    movers: Iterable[JointRequest] = (),
+    config: TopConfig = DEFAULT_TOP,
+    hint: Box | None = None,
+) -> TopVerdict:
+    """Returns what `missing_top` does, and further tops: of a desk below its hutch, of a base beside a tower.
+
+    Each is judged with those before it in place; a further one must lie clearly higher or lower than all of them.
+    """
+    movers, parts = tuple(movers), list(parts)
+    first = missing_top(parts, movers, config, hint)
+    found = list(first.additions)
+    while 0 < len(found) < _MOST:
+        parts.append(found[-1].part)
+        further = missing_top(parts, movers, config)
+        if further.addition is None or not _is_apart(further.addition, found):
+            break
+        found.append(further.addition)
+    return replace(first, others=tuple(found[1:]))
+
+
+def _is_apart(top: Addition, others: Sequence[Addition]) -> bool:
+    """Whether a top lies higher or lower than others by more than steps within one surface."""
+    box = top.part.box
+    return all(abs(float(box.high[2] - o.part.box.high[2])) > _STEP * float(box.high[2]) for o in others)
 
 
 def missing_top(
@@ -80,11 +118,7 @@ def missing_top(
     if roles is None:
         return TopVerdict(True, 1.0, "nothing has a surface")
     metre = metre_of(float(Box.around(np.vstack([p.box.corners() for p in parts])).size.max()))
-    views = views_of(roles, metre)
-    coverage = coverage_of(views, config, metre)
-    basins = basins_of(roles, views, coverage, metre)
-    if basins:
-        coverage = coverage_of(views, config, metre, cells_of(basins, views))
+    views, coverage, basins = _seen(roles, config, metre)
     verdict = _judged(roles, views, coverage, config, metre, hint)
     if verdict.covered:
         return verdict
@@ -96,6 +130,23 @@ def missing_top(
     part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles))])
     style = config.shape if _is_rectangle(outline) else f"outline, {config.shape}"
     return replace(verdict, addition=Addition(part, verdict.why, style))
+
+
+def _seen(roles: Roles, config: TopConfig, metre: float) -> tuple[Views, Coverage, tuple[Part, ...]]:
+    """Returns furniture from above, its two maps, and the basins in it: their rims are none that a top closes."""
+    bowls = bowls_of(roles, metre)
+    if bowls:
+        views = _views_without(bowls, roles, metre)
+        basins = basins_of(bowls, views, coverage_of(views, config, metre), metre)
+        if basins:
+            views = _views_without(basins, roles, metre)
+            return views, coverage_of(views, config, metre, cells_of(basins, views)), basins
+    views = views_of(roles, metre)
+    return views, coverage_of(views, config, metre), ()
+
+
+def _views_without(some: tuple[Part, ...], roles: Roles, metre: float) -> Views:
+    return views_of(replace(roles, still=tuple(p for p in roles.still if p not in some)), metre)
 
 
 def _judged(
@@ -135,6 +186,7 @@ def _slab(
         return None
     gap = config.gap * metre
     thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, gap, metre)
+    thickness = under_what_stands(roles, rim, thickness, gap, metre)
     plan = with_fronts(rim, roles.moving, metre)
     plan = overhanging(plan, *over_the_base(plan, roles, rim.seat, config, metre))
     plan = with_corners(plan, config.shape, metre)

@@ -24,7 +24,12 @@ _STEP = 0.03  # metres between the rims of two openings that one top closes
 _ABOVE = 0.06  # metres above a rim at which things still stand at it
 _NICHE = 0.45  # of the height: lower down, what is open in front is a niche or an open drawer, no place for a top
 _NARROW = (0.12, 0.25)  # metres, share of the plan's smaller side: splayed legs stand so far beyond a table's top
+_SLANTS = (0.1, 3.0)  # rise per length: a rim that slants is a flap's or a lid's, no flat top lies on it
+_OVER = 0.5  # of an opening
 _LEAST = 0.15  # of the footprint: smaller holes are sinks, cable outlets and gaps
+
+Opening = tuple[float, CellMask]
+"""The height of a rim, metres, and the cells that one looks into past it."""
 
 
 @final
@@ -73,7 +78,7 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     groups = _by_level(opened, rim, _STEP * metre)
     least = _LEAST * float(views.region.sum())
     spans = [(level, spanned_at(views, level, hole, config, metre) & free) for level, hole in groups]
-    best = _largest(spans, least) or _bare(views, config, metre, least)
+    best = _higher(_largest(spans, least), _bare(views, config, metre, least))
     if best is None:
         return Coverage(views.grid, views.region & free, views.region & free)
     level, hole = best
@@ -93,12 +98,33 @@ def _openings(views: Views, recess: float, gallery: float, narrow: float) -> tup
     """
     around, fixed = _around(views.wall, views.floor), _around(views.cover, views.floor)
     covered = np.where(np.isfinite(views.cover), views.cover, views.floor)
-    enclosed, niche = around[0] - covered > recess, around[1] - covered > gallery
+    hidden = np.where(_closed_in_front(views.wall, around[1] - recess), recess, gallery)
+    enclosed, niche = around[0] - covered > recess, around[1] - covered > hidden
     niche &= around[1] - views.floor >= _NICHE * _height(views)
     niche &= ndimage.binary_opening(niche | enclosed, iterations=max(1, views.grid.cells(narrow) // 2))
     rim = np.where(niche, around[1], around[0])
     held = fixed[2] >= rim - recess  # by two sides at least: the four walls of an open drawer are no rim
-    return rim, views.region & (enclosed | niche) & held
+    return rim, views.region & (enclosed | niche) & held & ~_slants(rim, views.grid)
+
+
+def _closed_in_front(wall: Heights, rim: Heights) -> CellMask:
+    """Whether what stands before a cell reaches its rim: what is open elsewhere only is no gallery."""
+    return np.asarray(np.maximum.accumulate(wall, axis=1) >= rim)
+
+
+def _slants(rim: Heights, grid: Grid) -> CellMask:
+    """Whether a rim rises steadily at a cell, along X or along Y."""
+    low, high = (slant * grid.cell for slant in _SLANTS)
+    found = np.zeros(rim.shape, dtype=bool)
+    for axis in (0, 1):
+        for way in (1.0, -1.0):
+            rises = way * np.diff(rim, axis=axis)
+            steady = (rises >= low) & (rises <= high)
+            ends = [(0, 0), (0, 0)]
+            ends[axis] = (1, 1)
+            sides = np.pad(steady, ends)
+            found |= np.take(sides, range(rim.shape[axis]), axis) & np.take(sides, range(1, rim.shape[axis] + 1), axis)
+    return found
 
 
 def _around(heights: Heights, floor: float) -> Float[np.ndarray, "4 x y"]:
@@ -108,10 +134,10 @@ def _around(heights: Heights, floor: float) -> Float[np.ndarray, "4 x y"]:
     return np.maximum(np.sort(np.stack([*ahead, *behind]), axis=0), floor)
 
 
-def _by_level(opened: CellMask, rim: Heights, step: float) -> list[tuple[float, CellMask]]:
+def _by_level(opened: CellMask, rim: Heights, step: float) -> list[Opening]:
     """Returns the openings, those whose rims are about equally high as one, each with the height of its rim."""
     labels, count = ndimage.label(opened)
-    groups: list[tuple[float, CellMask]] = []
+    groups: list[Opening] = []
     levels = [float(np.median(rim[labels == k])) for k in range(1, count + 1)]
     for k in np.argsort(levels)[::-1]:
         mask = labels == k + 1
@@ -122,13 +148,13 @@ def _by_level(opened: CellMask, rim: Heights, step: float) -> list[tuple[float, 
     return groups
 
 
-def _largest(groups: list[tuple[float, CellMask]], least: float) -> tuple[float, CellMask] | None:
+def _largest(groups: list[Opening], least: float) -> Opening | None:
     """Returns the largest opening of at least so many cells, with the height of its rim."""
     best = max(groups, key=lambda group: int(group[1].sum()), default=None)
     return best if best is not None and best[1].sum() >= least else None
 
 
-def _bare(views: Views, config: TopConfig, metre: float, least: float) -> tuple[float, CellMask] | None:
+def _bare(views: Views, config: TopConfig, metre: float, least: float) -> Opening | None:
     """Returns what the highest supports that enclose nothing span, legs without an apron for one, and their height."""
     nothing = np.zeros(views.grid.shape, dtype=bool)
     for level in levels_of(views, metre):
@@ -136,6 +162,14 @@ def _bare(views: Views, config: TopConfig, metre: float, least: float) -> tuple[
         if spanned.sum() >= max(least, 1.0):
             return level, spanned
     return None
+
+
+def _higher(opening: Opening | None, bare: Opening | None) -> Opening | None:
+    """Returns what supports span where it lies over most of the opening: that one is a ring of stretchers."""
+    if opening is None or bare is None:
+        return opening or bare
+    over = float((opening[1] & bare[1]).sum())
+    return bare if bare[0] > opening[0] and over >= _OVER * float(opening[1].sum()) else opening
 
 
 def _touching(cells: CellMask, seed: CellMask) -> CellMask:

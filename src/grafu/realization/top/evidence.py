@@ -29,11 +29,15 @@ _PLATE = 0.5  # of its own box: a frame of bars covers less, a plate with a sink
 _NAMED_PLATE = 0.35
 
 
-def basins_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> tuple[Part, ...]:
-    """Returns the still parts that hang at a rim like a bowl, well within what stands there."""
-    if coverage.level is None:
-        return ()
-    return tuple(p for p in roles.still if p.label in _NAMELESS and _is_basin(p, views, coverage, metre))
+def bowls_of(roles: Roles, metre: float) -> tuple[Part, ...]:
+    """Returns the still, nameless parts that are as deep as basins."""
+    low, high = (depth * metre for depth in _BASIN_DEPTH)
+    return tuple(p for p in roles.still if p.label in _NAMELESS and low <= p.box.size[2] <= high)
+
+
+def basins_of(bowls: Iterable[Part], views: Views, coverage: Coverage, metre: float) -> tuple[Part, ...]:
+    """Returns the bowls that hang at a rim, well within what stands there; views and coverage are without them."""
+    return tuple(p for p in bowls if _is_basin(p, views, coverage, metre))
 
 
 def cells_of(parts: Iterable[Part], views: Views) -> CellMask:
@@ -82,9 +86,7 @@ def speaks_for_bars(roles: Roles, coverage: Coverage, config: TopConfig, metre: 
 
 def _is_basin(part: Part, views: Views, coverage: Coverage, metre: float) -> bool:
     box, level = part.box, coverage.level
-    if level is None or not _BASIN_DEPTH[0] * metre <= box.size[2] <= _BASIN_DEPTH[1] * metre:
-        return False
-    if not level - _BASIN_RIM[0] * metre <= box.high[2] <= level + _BASIN_RIM[1] * metre:
+    if level is None or not level - _BASIN_RIM[0] * metre <= box.high[2] <= level + _BASIN_RIM[1] * metre:
         return False
     at = coverage.grid.centers(coverage.everything)
     around = Box.around(np.column_stack([at, np.zeros(len(at))])).grown(-_MARGIN * metre)

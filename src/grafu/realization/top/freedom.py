@@ -43,7 +43,9 @@ def freedom_of(
     """Returns what a slab over `outline` that stands at height `seat` must leave free, `gap` metres of air included."""
     cuts, grooves = [], []
     for mover in movers:
-        top = float(mover.mesh.box.high[2])
+        low, top = float(mover.mesh.box.low[2]), float(mover.mesh.box.high[2])
+        if low >= seat + thickness:
+            continue
         if lifts(mover) and top > seat - gap - _NEAR * metre:
             cuts.append(_beyond(mover, outline, metre))
         if top <= seat - gap:

@@ -14,6 +14,7 @@ from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
+from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.top.config import TopConfig
 from grafu.realization.top.coverage import Coverage
@@ -48,6 +49,8 @@ _FRONT = 0.08  # metres before the body in which a front belongs under the top
 _REACH = 0.06  # metres that a front may end below the rim
 _BELOW = 0.08  # metres that base mouldings and pedestals may jut out, and the top with them
 _LET_IN = 0.01  # metres above the rest to which an end panel still carries the top
+_TRAY = 0.15  # metres before the body that a tray under a top may reach, and the top with it
+_SLOT = (0.008, 0.06)  # metres above a seat at which what stands on a top begins: as thick as tops are
 _TONGUE = 0.012  # metres: narrower pieces of a top are no top
 
 
@@ -81,7 +84,7 @@ def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeome
     found = [rim.outline]
     for mover in movers:
         top = float(mover.mesh.box.high[2])
-        if top < rim.seat - _REACH * metre or not _plan_box(mover).intersects(near):
+        if top < rim.seat - _REACH * metre or not _plan_box(mover.mesh.box).intersects(near):
             continue
         height = min(top, rim.seat) - 0.005 * metre
         front = thinned(filled(section(mover.mesh.triangles, [height], metre)), metre)
@@ -104,7 +107,13 @@ def over_the_base(
     front, side, back = (
         max(own, float(base)) if base <= _BELOW * metre else own for own, base in zip(asked, beyond, strict=True)
     )
-    return front, side, back
+    trays = [float(low_y - m.mesh.box.low[1]) for m in roles.sliding if _is_tray(m.mesh.box, seat, metre)]
+    return max([front, *(t for t in trays if t <= _TRAY * metre)]), side, back
+
+
+def _is_tray(body: Box, seat: float, metre: float) -> bool:
+    """Whether what slides lies in a top's thickness: closed, a keyboard's tray ends with the top that hides it."""
+    return bool(body.low[2] >= seat - _LET_IN * metre and body.high[2] <= seat + _SLOT[1] * metre)
 
 
 def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -> BaseGeometry:
@@ -118,10 +127,23 @@ def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -
     return filled(shapely.union_all([outline, *swept]))
 
 
+def under_what_stands(roles: Roles, rim: Rim, thickness: float, gap: float, metre: float) -> float:
+    """Returns how thick a slab may be under what was built to stand on it: as thick as the slot that is left there.
+
+    What moves above it keeps `gap` metres of air.
+    """
+    slot = [rim.seat + length * metre for length in _SLOT]
+    above = [float(p.box.low[2]) for p in roles.still if _plan_box(p.box).intersects(rim.outline)]
+    found = min((low for low in above if slot[0] <= low <= slot[1]), default=rim.seat + thickness)
+    bodies = [m.mesh.box for m in roles.moving if m.mesh.box.high[2] > slot[1] and m.mesh.box.low[2] >= slot[0]]
+    free = min((float(b.low[2]) - gap for b in bodies if _plan_box(b).intersects(rim.outline)), default=np.inf)
+    return min(found, free) - rim.seat
+
+
 def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: float) -> BaseGeometry:
     """Returns what stands up through a slab on the rim, hollow things filled: no top goes there."""
     tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + max(seat, _LET_IN * metre)]
-    return _standing(tall, (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness), metre)
+    return _standing(tall, (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness - seat), metre)
 
 
 def let_in(roles: Roles, rim: Rim, seat: float, metre: float) -> list[tuple[BaseGeometry, float]]:
@@ -221,6 +243,6 @@ def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:
     return shapely.union_all(held) if held else EMPTY
 
 
-def _plan_box(mover: Closed) -> Polygon:
-    low, high = mover.mesh.box.low, mover.mesh.box.high
+def _plan_box(body: Box) -> Polygon:
+    low, high = body.low, body.high
     return box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))

@@ -18,6 +18,7 @@ Fewer = Float[np.ndarray, "f 2 2"]
 _HAIR = 5e-4  # metres: half the width of a section's lines
 _SHORTEST = 1e-7  # metres
 _MANY = 700  # lines: more take longer than a tenth of a second to join
+_SHARPEST = 2.0  # how much farther a corner may move than its edges: 60 degrees; a slip of a hair would grow a spike
 _STEPS = (1e-5, 1e-4, 5e-4, 1e-3, 2e-3)  # metres
 EMPTY = Polygon()
 
@@ -77,9 +78,10 @@ def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
 
 
 def offset(shape: BaseGeometry, distance: float) -> BaseGeometry:
-    """Returns a shape with its edges moved outwards by a distance, corners sharp."""
+    """Returns a shape with its edges moved outwards by a distance, corners of 60 degrees on sharp."""
     with np.errstate(invalid="ignore", divide="ignore"):  # of edges that meet at no angle, which come out right
-        return shape.buffer(distance, join_style="mitre")
+        moved = shape.buffer(distance, join_style="mitre", mitre_limit=_SHARPEST)
+    return moved if moved.is_valid else shapely.union_all(polygons_in(shapely.make_valid(moved)))
 
 
 def _plain(polygon: Polygon, small: float) -> BaseGeometry:

@@ -1,0 +1,127 @@
+"""Whether new tops replace those that were taken away: rays from above, which share nothing with what makes tops.
+
+The measure is the plan that a piece's own top lay over: of all that one saw of it from above, what lies over the body.
+Near its upper end the body's plan is all that reaches there, and what lies between, so kneeholes and rooms belong to it
+and overhangs do not: nobody can tell them from the body alone. What stands up through a top is no part of it. It knows
+no labels, rims or joints.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+
+Field = Float[np.ndarray, "x y"]
+Mask = Bool[np.ndarray, "x y"]
+
+_CELLS = 160  # along the longer side
+_NEAR = 0.1  # of the piece's height: what ends farther below a top does not stand under it
+_LEVEL = 0.1  # of the height: tops that differ by less are one, stepped at most
+_OPEN = 0.06  # of the height: what lies so far below a top does not cover in its place
+_LEAST = 0.15  # of the whole plan: smaller tops lie in niches
+_HOLLOW = 0.5  # of the plan under a top: less is no loss, other boards cover the rest
+_SKIN = 0.001  # of the largest side: a top may be let in so deep
+
+
+@final
+@dataclass(frozen=True)
+class LostTop:
+    """What becomes of a top that was taken away: `level` is the height of its face, metres.
+
+    `hollow` is the share of the plan under it that lies open without it, `covered` the share of that plan that new tops
+    lie over at about its height.
+    """
+
+    level: float
+    hollow: float
+    covered: float
+
+    @property
+    def is_missed(self) -> bool:
+        """Whether most of what it lay over is open without it."""
+        return self.hollow >= _HOLLOW
+
+
+def lost_tops(
+    taken: Sequence[TriangleMesh],
+    still: Sequence[TriangleMesh],
+    moving: Sequence[TriangleMesh],
+    added: Sequence[TriangleMesh],
+) -> tuple[LostTop, ...]:
+    """Returns what becomes of tops that were taken away, those of one height as one, the highest first.
+
+    `still` and `moving` are what is left, closed, without handles; `added` are the new tops. Tops over less than 15 %
+    of the piece's plan are left out.
+
+    Raises:
+        ValueError: if nothing was taken away, or nothing is left.
+    """
+    if not taken or not still:
+        raise ValueError(f"`taken` and `still` must be meshes: got {len(taken)} and {len(still)}")
+    grid = _Grid([*taken, *still, *moving])
+    rest, covers, new = grid.heights([*still, *moving]), grid.heights(still), [grid.heights([top]) for top in added]
+    everything = np.isfinite(np.maximum(rest, grid.heights(taken)))
+    found = []
+    for group in _by_level(taken, _LEVEL * grid.height):
+        own, under = grid.heights(group), grid.undersides(group)
+        reaches = rest >= min(float(mesh.box.low[2]) for mesh in group) - _NEAR * grid.height
+        plan = (own > rest) & _between(_between(reaches))
+        if plan.sum() < max(_LEAST * everything.sum(), 1.0):
+            continue
+        hollow = covers[plan] < under[plan] - _OPEN * grid.height
+        least = np.maximum(rest - _SKIN * grid.unit, own - _NEAR * grid.height)[plan]
+        covered = [(top[plan] > least) & (top[plan] <= own[plan] + _NEAR * grid.height) for top in new]
+        share = float(np.logical_or.reduce(covered).mean()) if covered else 0.0
+        found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), share))
+    return tuple(found)
+
+
+class _Grid:
+    """Rays straight down over the plan of some meshes."""
+
+    def __init__(self, meshes: Sequence[TriangleMesh]) -> None:
+        low, high = np.min([m.box.low for m in meshes], axis=0), np.max([m.box.high for m in meshes], axis=0)
+        self.unit, self.height = float((high - low).max()), float(high[2] - low[2])
+        cell = float((high - low)[:2].max()) / _CELLS
+        x, y = (np.arange(low[k] + cell / 2, high[k], cell) for k in (0, 1))
+        self.shape = len(x), len(y)
+        plan = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+        self.starts = np.column_stack([plan, np.full(len(plan), high[2] + self.unit)])
+
+    def heights(self, meshes: Sequence[TriangleMesh]) -> Field:
+        """Returns the z of what is met first in each cell; minus infinity where nothing is."""
+        if not meshes:
+            return np.full(self.shape, -np.inf)
+        found = self.starts[:, 2] - RayCaster(merge_meshes(meshes)).along(self.starts, np.array([0.0, 0.0, -1.0]))
+        return np.asarray(found).reshape(self.shape)
+
+    def undersides(self, meshes: Sequence[TriangleMesh]) -> Field:
+        """Returns the z of what is met first from below in each cell; infinity where nothing is."""
+        starts = self.starts - np.array([0.0, 0.0, self.height + 2 * self.unit])
+        found = starts[:, 2] + RayCaster(merge_meshes(meshes)).along(starts, np.array([0.0, 0.0, 1.0]))
+        return np.asarray(found).reshape(self.shape)
+
+
+def _by_level(tops: Sequence[TriangleMesh], step: float) -> list[list[TriangleMesh]]:
+    """Returns tops in groups of one height, the highest first."""
+    groups: list[list[TriangleMesh]] = []
+    for mesh in sorted(tops, key=lambda mesh: -float(mesh.box.high[2])):
+        if groups and float(groups[-1][-1].box.high[2] - mesh.box.high[2]) <= step:
+            groups[-1].append(mesh)
+        else:
+            groups.append([mesh])
+    return groups
+
+
+def _between(stands: Mask) -> Mask:
+    """Returns the cells with something on both sides along X or along Y, or on themselves."""
+    found = stands.copy()
+    for axis in (0, 1):
+        before = np.logical_or.accumulate(stands, axis=axis)
+        found |= before & np.flip(np.logical_or.accumulate(np.flip(stands, axis), axis=axis), axis)
+    return found
