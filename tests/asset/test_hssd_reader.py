@@ -12,7 +12,7 @@ from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.geometry.transform import transform_points
 from grafu.synth.kinds import KINDS
 from grafu.vocabulary import JointType, PartLabel
-from hssd_models import hssd_model
+from hssd_models import WORDS, hssd_model
 from small_assets import Y_UP, glb_bytes, gltf_document
 
 PAIR, CORNER, BEHIND = "overlay pair", "corner door at 45 degrees", "drawers behind a pair"
@@ -53,8 +53,7 @@ def test_what_was_made_is_read_back(tmp_path, kind, meshes):
     for before, after in zip(made.parts, asset.parts, strict=True):
         corners = transform_points(T, before.mesh.triangles.reshape(-1, 3))
         np.testing.assert_allclose(np.sort(after.mesh.triangles.reshape(-1, 3), 0), np.sort(corners, 0), atol=1e-6)
-        if before.label in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE):
-            assert after.label is before.label
+        assert after.label is (before.label if before.label in WORDS else PartLabel.MISC)  # `base` is nothing of ours
     ids = {b.id: a.id for b, a in zip(made.parts, asset.parts, strict=True)}
     assert {ids[p.id]: ids[p.rides_on] for p in made.parts if p.rides_on} == {
         p.id: p.rides_on for p in asset.parts if p.rides_on
@@ -132,6 +131,15 @@ def test_triangles_of_no_part_stand_still_and_are_reported(tmp_path):
     assert len(asset.part("rest").mesh.faces) == 6
     assert asset.part("rest").rides_on is None
     assert any("6 triangles belong to no annotated part" in note for note in asset.notes)
+
+
+def test_a_part_without_a_word_stays_unknown_and_the_user_may_mask_all(tmp_path):
+    def change(model):
+        model.parts["parts"][1].update(label="", name=None)
+
+    _, path = written(tmp_path, change=change)
+    assert load_asset(path).part("part_1").label is PartLabel.UNKNOWN
+    assert {p.label for p in load_asset(path, LoadOptions(labels="none")).parts} == {PartLabel.UNKNOWN}
 
 
 def test_a_triangle_of_two_parts_is_the_first_ones(tmp_path):

@@ -3,7 +3,7 @@
 The parts are cut from the GLB's few large meshes along the annotated triangles. It settles no frame.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import final
 
@@ -23,6 +23,7 @@ from grafu.asset.hssd_annotation import (
 )
 from grafu.asset.labels import label_of
 from grafu.asset.options import LoadOptions, check_parts
+from grafu.asset.part import Part
 from grafu.asset.reading import Convention, Reading
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
@@ -83,7 +84,19 @@ def read_hssd(path: Path, options: LoadOptions) -> Reading:
         "the annotation (upAxis, frontAxis; metres)", annotation.up or "+Y", annotation.front or "+Z", unit=1.0
     )
     words = dict.fromkeys([*notes, *said, *silent, *kept, *made.notes, *_misplaced(annotation, cut)])
-    return Reading("hssd", made.parts, convention, made.joints, None, tuple(words), grouped=True)
+    parts = tuple(_named_still(part, annotation) for part in made.parts)
+    return Reading("hssd", parts, convention, made.joints, None, tuple(words), grouped=True)
+
+
+def _named_still(part: Part, annotation: HssdAnnotation) -> Part:
+    """Returns the part as `misc` where the annotators' word is none of ours (`base`): it is no door or drawer.
+
+    The authors do the same with names outside their vocabulary (official.md 2.1); what has no word stays unknown.
+    """
+    named = {_link(p.pid) for p in annotation.parts if p.word} | {REST}
+    if part.label is not PartLabel.UNKNOWN or part.source.link not in named:
+        return part
+    return replace(part, label=PartLabel.MISC, labelled_by="annotation")
 
 
 def _up_axis(annotation: HssdAnnotation) -> int:
@@ -156,14 +169,14 @@ def _surfaces(meshes: list[_Mesh], masks: list[np.ndarray]) -> tuple[Surface, ..
 
 def _bodies(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]], file: str) -> tuple[list[Body], list[str]]:
     """Returns a body per part, what moves with its motion, what hangs on a mover alone with that as its parent."""
-    words = {part.pid: part.word for part in annotation.parts}
+    known = {part.pid: part for part in annotation.parts}
     motions: dict[str, Articulation] = {}
     notes: list[str] = []
     for stated in annotation.articulations:
-        name = f"{words[stated.pid]}-{stated.pid}"
+        name = known[stated.pid].name
         if stated.pid in motions:
             notes.append(f"{name} has several motions: the first counts")
-        elif label_of(words[stated.pid]) in _STAYS:
+        elif label_of(known[stated.pid].word) in _STAYS:
             notes.append(f"{name} is annotated to move, but is no door or drawer: kept in place")
         else:
             motions[stated.pid] = stated
@@ -181,7 +194,7 @@ def _body(
     cut: dict[str, tuple[Surface, ...]],
     file: str,
 ) -> Body:
-    name, link = f"{part.word}-{part.pid}", _link(part.pid)
+    name, link = part.name, _link(part.pid)
     motion = stated and Motion(stated.type, stated.axis, stated.lower, stated.upper, stated.limited)
     visuals = (Visual(name, cut[part.pid], link, file),) if cut[part.pid] else ()
     return Body(name, link, visuals, motion, None if carrier is None else _link(carrier))

@@ -38,12 +38,17 @@ class TriangleRun:
 @final
 @dataclass(frozen=True)
 class AnnotatedPart:
-    """One part by its pid: its word, its triangles, and the box around it where the file states one."""
+    """One part by its pid: its word, empty where it has none, its triangles, and the box around it where stated."""
 
     pid: str
     word: str
     runs: tuple[TriangleRun, ...]
     box: Box | None
+
+    @property
+    def name(self) -> str:
+        """Its word and pid, like `door-1`."""
+        return f"{self.word or 'part'}-{self.pid}"
 
 
 @final
@@ -144,7 +149,7 @@ def _part(file: _Json, entry: dict[str, Any], place: int) -> AnnotatedPart:
     triangles = info.get("meshTri") if isinstance(info, dict) else None
     if not isinstance(triangles, list) or not all(isinstance(t, dict) for t in triangles):
         raise file.damaged(f"part {pid} has no `partInfo.meshTri`")
-    word = str(entry.get("label") or entry.get("name") or "part")
+    word = str(entry.get("label") or entry.get("name") or "")
     return AnnotatedPart(pid, word, tuple(r for t in triangles for r in _runs(file, pid, t)), _box(entry.get("obb")))
 
 
