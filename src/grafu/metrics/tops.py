@@ -69,7 +69,8 @@ def lost_tops(
     found = []
     for group in _by_level(taken, _LEVEL * grid.height):
         own, under = grid.heights(group), grid.undersides(group)
-        reaches = rest >= min(float(mesh.box.low[2]) for mesh in group) - _NEAR * grid.height
+        near = min(float(mesh.box.low[2]) for mesh in group) - _NEAR * grid.height
+        reaches = (rest >= near) | grid.corners([*still, *moving], near)
         plan = (own > rest) & _between(_between(reaches))
         if plan.sum() < max(_LEAST * everything.sum(), 1.0):
             continue
@@ -87,8 +88,8 @@ class _Grid:
     def __init__(self, meshes: Sequence[TriangleMesh]) -> None:
         low, high = np.min([m.box.low for m in meshes], axis=0), np.max([m.box.high for m in meshes], axis=0)
         self.unit, self.height = float((high - low).max()), float(high[2] - low[2])
-        cell = float((high - low)[:2].max()) / _CELLS
-        x, y = (np.arange(low[k] + cell / 2, high[k], cell) for k in (0, 1))
+        self.low, self.cell = low[:2], float((high - low)[:2].max()) / _CELLS
+        x, y = (np.arange(low[k] + self.cell / 2, high[k], self.cell) for k in (0, 1))
         self.shape = len(x), len(y)
         plan = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
         self.starts = np.column_stack([plan, np.full(len(plan), high[2] + self.unit)])
@@ -105,6 +106,14 @@ class _Grid:
         starts = self.starts - np.array([0.0, 0.0, self.height + 2 * self.unit])
         found = starts[:, 2] + RayCaster(merge_meshes(meshes)).along(starts, np.array([0.0, 0.0, 1.0]))
         return np.asarray(found).reshape(self.shape)
+
+    def corners(self, meshes: Sequence[TriangleMesh], least: float) -> Mask:
+        """Returns the cells in which corners of meshes lie, from a height on: rays pass by sheets without thickness."""
+        found = np.zeros(self.shape, dtype=bool)
+        points = np.concatenate([m.vertices[np.unique(m.faces)] for m in meshes])
+        at = np.floor((points[points[:, 2] >= least][:, :2] - self.low) / self.cell).astype(np.int64)
+        found[tuple(np.clip(at, 0, np.array(self.shape) - 1).T)] = True
+        return found
 
 
 def _by_level(tops: Sequence[TriangleMesh], step: float) -> list[list[TriangleMesh]]:

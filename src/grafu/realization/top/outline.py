@@ -14,6 +14,7 @@ from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
+from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.top.config import TopConfig
@@ -72,7 +73,9 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim 
     triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, metre)
     walls = section(triangles, (seat - s * metre for s in _SKIN), metre)
     hollow = shapely.union_all(shapely.box(*coverage.grid.boxes(coverage.opened).T))
-    body = thinned(closed_up(walls.union(hollow), _SPAN * metre), metre)
+    held = shapely.union_all([walls, hollow, *(_plan_box(p.box) for p in _standing_on(roles, seat, metre))])
+    held = held.intersection(shapely.convex_hull(walls.union(hollow)))
+    body = thinned(closed_up(held, _SPAN * metre), metre)
     body = _joined(body, coverage, metre)
     body = _of_openings(_squared(body, _SQUARE * metre), coverage)
     return Rim(seat, thinned(solid(walls, _BOARD * metre), metre), body) if body.area > 0 else None
@@ -133,11 +136,17 @@ def under_what_stands(roles: Roles, rim: Rim, thickness: float, gap: float, metr
     What moves above it keeps `gap` metres of air.
     """
     slot = [rim.seat + length * metre for length in _SLOT]
-    above = [float(p.box.low[2]) for p in roles.still if _plan_box(p.box).intersects(rim.outline)]
-    found = min((low for low in above if slot[0] <= low <= slot[1]), default=rim.seat + thickness)
+    above = [p for p in _standing_on(roles, rim.seat, metre) if _plan_box(p.box).intersects(rim.outline)]
+    found = min((float(p.box.low[2]) for p in above), default=rim.seat + thickness)
     bodies = [m.mesh.box for m in roles.moving if m.mesh.box.high[2] > slot[1] and m.mesh.box.low[2] >= slot[0]]
     free = min((float(b.low[2]) - gap for b in bodies if _plan_box(b).intersects(rim.outline)), default=np.inf)
     return min(found, free) - rim.seat
+
+
+def _standing_on(roles: Roles, seat: float, metre: float) -> list[Part]:
+    """Returns what stands still on a top that was there: it begins as high above a seat as tops are thick."""
+    low, high = (seat + length * metre for length in _SLOT)
+    return [p for p in roles.still if low <= p.box.low[2] <= high]
 
 
 def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: float) -> BaseGeometry:

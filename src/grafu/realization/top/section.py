@@ -73,8 +73,9 @@ def filled(shape: BaseGeometry) -> BaseGeometry:
 
 def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without holes, and without bays and gaps up to `width` metres wide; corners stay sharp."""
-    plain = [_plain(p, 0.1 * width) for p in polygons_in(shape)]
-    return filled(offset(filled(offset(shapely.union_all(plain), 0.5 * width)), -0.5 * width))
+    plain = shapely.union_all([_plain(p, 0.1 * width) for p in polygons_in(shape)])
+    closed = offset(filled(offset(plain, 0.5 * width)), -0.5 * width)
+    return filled(closed.intersection(shapely.convex_hull(plain)))  # slips of a hair beget spikes beyond it
 
 
 def offset(shape: BaseGeometry, distance: float) -> BaseGeometry:

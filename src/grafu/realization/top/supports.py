@@ -28,6 +28,8 @@ _ABOVE = 0.06  # metres: what stands higher than that belongs to something else
 _FILLED = 0.25  # of what lies between supports: less is a mirror, an apron, a cable tray
 _FOOTPRINT = 0.6  # of all that stands no higher
 _FULL = 0.7  # of its bounding rectangle: an outline that takes less is none, but a triangle or a diamond
+_DIVIDER = 0.06  # metres: thicker is no board
+_PARTS = 0.6  # of the depth: so far a divider reaches
 _INNER = 0.99  # of a cell: farther inside of an outline a cell is next to its supports and does not reach beyond them
 _NOTCH = 0.25  # metres: both sides of the free corner of an L
 _ARM = 0.3  # metres: the width of either arm of an L
@@ -155,12 +157,34 @@ def _is_whole(outline: Polygon, supports: _Supports) -> bool:
 
 
 def _is_free(between: CellMask, supports: _Supports, config: TopConfig) -> bool:
-    """Whether what lies between supports is open far down, and nothing of another height stands there."""
+    """Whether what lies between supports is open far down, and nothing of another height stands there.
+
+    Between dividers that reach the level a top belongs, however near below it a shelf lies.
+    """
     area = int(between.sum())
     cover, floor = supports.views.cover, supports.views.floor
-    high = between & (cover > floor + _BELOW * (supports.level - floor))
+    parted = _is_parted(between | supports.ends, supports, config)
+    surface = supports.level - config.recess * supports.metre if parted else floor + _BELOW * (supports.level - floor)
+    high = between & (cover > surface)
     around = area + int(supports.ends.sum()) + int(supports.opened.sum())
     return area > 0 and int(high.sum()) <= _FILLED * area and int(supports.ends.sum()) < config.coverage * around
+
+
+def _is_parted(around: CellMask, supports: _Supports, config: TopConfig) -> bool:
+    """Whether a divider ends near a level well within an outline: what lies beside it is a bay, not a tray or rack."""
+    grid, level, metre = supports.views.grid, supports.level, supports.metre
+    still = supports.views.still
+    walls = around & (still >= level - config.recess * metre) & (still <= level + _EVEN * metre)
+    width, inset = grid.cells(_DIVIDER * metre), grid.cells(_WIDEST * metre)
+    for axis in (0, 1):
+        deep = np.flatnonzero(around.any(axis=axis))
+        along = np.flatnonzero(around.any(axis=1 - axis))
+        full = walls.sum(axis=1 - axis) >= _PARTS * len(deep)
+        inner = full[along[0] + inset : along[-1] + 1 - inset] if len(along) else full[:0]
+        _, count = ndimage.label(inner)
+        if count and inner.sum() <= count * width:
+            return True
+    return False
 
 
 def _cells_in(outline: BaseGeometry, grid: Grid) -> CellMask:
