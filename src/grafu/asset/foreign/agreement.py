@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from grafu.asset.foreign.box_overlap import intersection_over_union
 from grafu.asset.foreign.motions import ForeignMotions, ForeignPart
@@ -17,6 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import invert, scale_of, transform_points
+from grafu.vocabulary import PartLabel
 
 _ASKED = 64  # points of each of the asset's parts
 _DRAWN = 30_000  # points of the whole prediction, spread evenly: a part is as finely drawn as any other
@@ -25,6 +26,7 @@ _FAR = 0.05  # share of the object's size beyond which a point is simply elsewhe
 _LOOSE_BOX, _LOOSE_MESH = 0.02, 1e-4  # what a part's likeness to the whole predicted part weighs, in shares of the size
 _SLACK = 0.005  # share of the size by which boxes are grown before they are compared: sheets have volume then
 _REGRESSED = 0.1  # up to which boxes that lie apart are still taken in order: regressed ones err by 0.06 to 0.08
+_FEW = 100  # points that are as quickly taken all
 _UNMATCHED = 0.25  # what a predicted body that covers no part adds, in shares of the size
 
 LEAST_OVERLAP = 0.3
@@ -46,16 +48,24 @@ class Agreement:
     overlap: float
 
 
+def label_disagrees(label: PartLabel, foreign: PartLabel, moves: bool) -> bool:
+    """Whether a part's label contradicts that of the predicted part, or what does not move is predicted to."""
+    if foreign is not PartLabel.UNKNOWN:
+        return label is not foreign
+    return moves != (label.is_movable or label is PartLabel.HANDLE)
+
+
 class Comparison:
     """An asset and a prediction, sampled once, to be compared in many frames."""
 
     def __init__(self, asset: Asset, foreign: ForeignMotions) -> None:
         self.asset, self.foreign = asset, foreign
-        self.points = np.vstack([_used(part.mesh) for part in foreign.parts])
+        self._outlines = {part.name: _outline(part.mesh) for part in foreign.parts}
+        self.points = np.vstack(list(self._outlines.values()))
         self._asked = [_points_of(part.mesh, _ASKED) for part in asset.parts]
         self._boxes = [part.box for part in asset.parts]
         area = sum(part.mesh.area for part in foreign.parts if not part.is_box)
-        self._shapes = [_Shape(part, area) for part in foreign.parts]
+        self._shapes = [_Shape(part, area, foreign.body_of[part.name] is not None) for part in foreign.parts]
 
     def agreement(self, T_object_foreign: Mat4) -> Agreement:
         """Returns how well the parts agree where the prediction is drawn in this frame."""
@@ -66,11 +76,20 @@ class Comparison:
     def _compared(self, part_of: tuple[str | None, ...], T_object_foreign: Mat4) -> Agreement:
         """Returns how well the bodies agree where each part is covered so."""
         residuals, overlaps = [], []
-        for body in dict.fromkeys(self.foreign.body_of.values()):
+        for body in self._bodies:
             mine, theirs = self._box_of(body, part_of), self._foreign_box(body, T_object_foreign)
             residuals.append(_faces_apart(mine, theirs) / self.asset.unit if mine else _UNMATCHED)
             overlaps.append(intersection_over_union(mine, theirs, _SLACK * self.asset.unit) if mine else 0.0)
         return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
+
+    def body_boxes(self, part_of: tuple[str | None, ...], T_object_foreign: Mat4) -> list[tuple[Box, Box]]:
+        """Returns for each predicted body that covers parts their box, and the body's in this frame."""
+        pairs = ((self._box_of(body, part_of), self._foreign_box(body, T_object_foreign)) for body in self._bodies)
+        return [(mine, theirs) for mine, theirs in pairs if mine is not None]
+
+    @property
+    def _bodies(self) -> tuple[str | None, ...]:
+        return tuple(dict.fromkeys(self.foreign.body_of.values()))
 
     def _apart(self, T: Mat4) -> bool:
         """Whether the two as a whole are of different sizes or in different places."""
@@ -96,10 +115,10 @@ class Comparison:
     def _covering(self, T: Mat4) -> tuple[str, ...]:
         T_foreign_object, scale = invert(T), scale_of(T)
         found = []
-        for box, points in zip(self._boxes, self._asked, strict=True):
+        for part, box, points in zip(self.asset.parts, self._boxes, self._asked, strict=True):
             there = transform_points(T_foreign_object, points)
             mine = Box.around(transform_points(T_foreign_object, box.corners()))
-            costs = [shape.cost(there, mine, self.asset.unit / scale) for shape in self._shapes]
+            costs = [shape.cost(there, mine, self.asset.unit / scale, part.label) for shape in self._shapes]
             found.append(self.foreign.parts[int(np.argmin(costs))].name)
         return tuple(found)
 
@@ -112,34 +131,47 @@ class Comparison:
         return _around(covered) if covered else None
 
     def _foreign_box(self, body: str | None, T: Mat4) -> Box:
-        body_of = self.foreign.body_of
-        parts = [part for part in self.foreign.parts if body_of[part.name] == body]
-        return Box.around(transform_points(T, np.vstack([_used(part.mesh) for part in parts])))
+        parts = (name for name, moved_by in self.foreign.body_of.items() if moved_by == body)
+        return Box.around(transform_points(T, np.vstack([self._outlines[name] for name in parts])))
 
 
 class _Shape:
     """A predicted part as something that points lie on, or in."""
 
-    def __init__(self, part: ForeignPart, area: float) -> None:
-        self._box, self._is_box = part.mesh.box, part.is_box
+    def __init__(self, part: ForeignPart, area: float, moves: bool) -> None:
+        self._box, self._is_box, self._label, self._moves = part.mesh.box, part.is_box, part.label, moves
         count = max(_LEAST_DRAWN, int(_DRAWN * part.mesh.area / area)) if area > 0 else _LEAST_DRAWN
         self._tree = None if part.is_box else cKDTree(_points_of(part.mesh, count, _MOST_CORNERS))
 
-    def cost(self, points: Points, box: Box, unit: float) -> float:
-        """Returns how far points lie from the part, and a little for a part that is much smaller than this one."""
+    def cost(self, points: Points, box: Box, unit: float, label: PartLabel) -> float:
+        """Returns how far points lie from the part, and a little for what is much smaller, or of another kind."""
         far = _FAR * unit
+        looseness = (_LOOSE_BOX if self._is_box else _LOOSE_MESH) * unit
+        if self._box.gap(box) > far:
+            return far + looseness
         if self._tree is None:
             gaps = np.linalg.norm(np.maximum(np.abs(points - self._box.center) - self._box.half, 0.0), axis=1)
         else:
             gaps, _ = self._tree.query(points, distance_upper_bound=far)
-        looseness = (_LOOSE_BOX if self._is_box else _LOOSE_MESH) * unit
         unlike = 1.0 - intersection_over_union(self._box, box, _SLACK * unit)
-        return float(np.minimum(gaps, far).mean() + looseness * unlike)
+        contradicted = label is not PartLabel.UNKNOWN and label_disagrees(label, self._label, self._moves)
+        return float(np.minimum(gaps, far).mean() + looseness * (unlike + contradicted))
 
 
 def _used(mesh: TriangleMesh) -> Points:
     """Returns the vertices that faces name."""
     return mesh.vertices[np.unique(mesh.faces)] if len(mesh.faces) else mesh.vertices
+
+
+def _outline(mesh: TriangleMesh) -> Points:
+    """Returns the corners of the convex hull: all that boxes in turned frames depend on."""
+    points = _used(mesh)
+    if len(points) < _FEW:
+        return points
+    try:
+        return points[ConvexHull(points).vertices]
+    except (QhullError, ValueError):  # a flat sheet, or a line
+        return points
 
 
 def _points_of(mesh: TriangleMesh, count: int, corners: int | None = None) -> Points:

@@ -3,7 +3,7 @@
 Likelier ones come first. It weighs nothing: `grafu.asset.foreign.agreement` does.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import permutations, product
 from typing import final
@@ -17,6 +17,7 @@ from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, frozen_array
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import from_rotation, is_mirror, rotation_matrix, scale_of
 
+_ROUNDS = 30  # of weighing again; ten bring millimetres, thirty the last digits
 _Y_UP_Z_FRONT = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
 _Z_UP_X_FRONT = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
 _Z_UP_X_BACK = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])  # PartNet-Mobility's URDF root: front -X
@@ -79,6 +80,24 @@ def tilted_frames(points: Points, whole: Box) -> tuple[FrameGuess, ...]:
             FrameGuess("turned straight", _laid_over(points, Q @ straight, whole), False) for Q in _yaws_and_flips()
         ]
     return tuple(found)
+
+
+def drawn_together(pairs: Sequence[tuple[Box, Box]]) -> Mat4:
+    """Returns the scale and shift that lay the second boxes of pairs over the first; what fits badly counts little."""
+    if not pairs:
+        return np.eye(4)
+    wanted, given = (np.array([[pair[k].low, pair[k].high] for pair in pairs]).reshape(-1, 3) for k in (0, 1))
+    weights = np.ones(wanted.shape)
+    scale, shift = 1.0, np.zeros(3)
+    for _ in range(_ROUNDS):
+        total = np.maximum(weights.sum(axis=0), 1e-300)
+        middles = (weights * given).sum(axis=0) / total, (weights * wanted).sum(axis=0) / total
+        spread, there = given - middles[0], wanted - middles[1]
+        scale = float((weights * spread * there).sum() / max(float((weights * spread**2).sum()), 1e-300))
+        shift = middles[1] - scale * middles[0]
+        errors = np.abs(scale * given + shift - wanted)
+        weights = 1.0 / np.maximum(errors, 1e-9 * float(np.ptp(wanted)) + 1e-300)  # least distances, not least squares
+    return from_rotation(scale * np.eye(3), shift)
 
 
 def quarter_turns() -> Iterator[Mat3]:

@@ -4,13 +4,13 @@ Frames that are known come first, then all quarter turns fitted to the whole box
 image: between frames that fit alike, labels and the way in which joints open decide, and then what is likelier.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
-from grafu.asset.foreign.agreement import LEAST_OVERLAP, Agreement, Comparison
-from grafu.asset.foreign.frames import FrameGuess, fitted_frames, known_frames, tilted_frames
+from grafu.asset.foreign.agreement import LEAST_OVERLAP, Agreement, Comparison, label_disagrees
+from grafu.asset.foreign.frames import FrameGuess, drawn_together, fitted_frames, known_frames, tilted_frames
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, JointFrame
 from grafu.asset.foreign.plausibility import strangeness
 from grafu.asset.part import Asset, Part
@@ -21,6 +21,8 @@ from grafu.geometry.transform import scale_of
 from grafu.vocabulary import JointType, PartLabel
 
 _EXACT = 0.002  # a residual below which nothing needs to be turned straight, as a share of the size
+_SOUND = 1e-9  # a residual that is rounding
+_GAIN = 0.9  # what must be left of a residual for another round to be worth it
 _ALIKE = (1.2, 0.005)  # frames fit alike whose residuals are within this factor and this addition of the best
 _SURER = 0.15  # by how much a less likely frame's joints must look better than a likelier one's
 _DOUBT = 0.05  # doubts that differ by less are none
@@ -71,11 +73,16 @@ def match_parts(asset: Asset, foreign: ForeignMotions) -> Match:
         AssetError: if no frame brings the parts to agree: the prediction is of another object.
     """
     comparison = Comparison(asset, foreign)
-    guesses = [*known_frames(asset.frame), *fitted_frames(foreign, asset.frame, comparison.points, asset.box)]
-    found = [(guess, comparison.agreement(guess.T_object_foreign)) for guess in guesses]
+    given, *others = known_frames(asset.frame)
+    found = [(given, comparison.agreement(given.T_object_foreign))]
+    if found[0][1].residual < _EXACT:  # what was made from the same file needs no second look
+        return _with_joint_frame(asset, foreign, *found[0])
+    others += fitted_frames(foreign, asset.frame, comparison.points, asset.box)
+    found += [(guess, comparison.agreement(guess.T_object_foreign)) for guess in others]
     if min(agreed.residual for _, agreed in found) > _EXACT:
         tilted = tilted_frames(comparison.points, asset.box)
         found += [(guess, comparison.agreement(guess.T_object_foreign)) for guess in tilted]
+    found = [refined(comparison, *guess) for guess in _best_of_turns(found)]
     matches = [_with_joint_frame(asset, foreign, guess, agreed) for guess, agreed in _best_of_turns(found)]
     best = max(agreed.overlap for _, agreed in found)
     if best < LEAST_OVERLAP:
@@ -84,8 +91,8 @@ def match_parts(asset: Asset, foreign: ForeignMotions) -> Match:
             f"asset's by {best:.2f}, at least {LEAST_OVERLAP} is expected; is it a prediction of this object?"
         )
     fitting = [match for match in matches if match.overlap >= min(LEAST_OVERLAP, best)]
-    if fitting[0].frame.known and fitting[0].frame.name == known_frames(asset.frame)[0].name:
-        return fitting[0]  # what was made from the same file needs no second look
+    if fitting[0].frame == given:
+        return fitting[0]
     return min(fitting, key=lambda match: _doubts(asset, foreign, match))
 
 
@@ -103,6 +110,21 @@ def _best_of_turns(found: list[tuple[FrameGuess, Agreement]]) -> list[tuple[Fram
         elif agreed.residual < kept[same][1].residual - 1e-6:
             kept[same] = (guess, agreed)
     return kept
+
+
+def refined(comparison: Comparison, guess: FrameGuess, agreed: Agreement) -> tuple[FrameGuess, Agreement]:
+    """Returns a fitted frame with scale and shift taken from the bodies, where that fits better than the whole did.
+
+    A door that one of the two draws ajar spoils the whole box, but not those of the other bodies.
+    """
+    while not guess.known and agreed.residual > _SOUND:
+        pairs = comparison.body_boxes(agreed.part_of, guess.T_object_foreign)
+        better = replace(guess, T_object_foreign=drawn_together(pairs) @ guess.T_object_foreign)
+        again = comparison.agreement(better.T_object_foreign)
+        if again.residual > _GAIN * agreed.residual:
+            break
+        guess, agreed = better, again
+    return guess, agreed
 
 
 def _with_joint_frame(asset: Asset, foreign: ForeignMotions, guess: FrameGuess, agreed: Agreement) -> Match:
@@ -136,13 +158,6 @@ def _doubts(asset: Asset, foreign: ForeignMotions, match: Match) -> float:
     ]
     labels = float(np.mean(wrong)) if wrong else 0.0
     return round((labels + _mean_strangeness(asset, foreign, match)) / _DOUBT)
-
-
-def label_disagrees(label: PartLabel, foreign: PartLabel, moves: bool) -> bool:
-    """Whether a part's label contradicts that of the predicted part, or what does not move is predicted to."""
-    if foreign is not PartLabel.UNKNOWN:
-        return label is not foreign
-    return moves != (label.is_movable or label is PartLabel.HANDLE)
 
 
 def covered_parts(asset: Asset, foreign: ForeignMotions, match: Match, body: str) -> tuple[Part, ...]:

@@ -20,15 +20,17 @@ _A_LITTLE = 1e-3  # radians or metres: how far a joint is moved to see where the
 def strangeness(kind: JointType, axis: Axis, lower: float, upper: float, box: Box) -> float:
     """Returns from 0 (as expected) to 1 how odd a joint is for a part with this box, all in the object frame.
 
-    Half of it is where the part sets off to, half how far a hinge's axis runs from the part.
+    Half of it is where the part sets off to; of a hinge the other half is how far its axis runs from the part, or
+    how much across the part's plane.
     """
     sense = 1.0 if abs(upper) >= abs(lower) else -1.0
     x, y, z = _sets_off(kind, axis, sense * _A_LITTLE, box.center).tolist()
-    lifts = z if kind is JointType.REVOLUTE else -1.0
+    lifts = z if kind is JointType.REVOLUTE and box.thin_axis == 2 else -1.0
     backwards = (1.0 - max(-y, lifts, _SIDEWAYS * abs(x))) / 2
     if kind is not JointType.REVOLUTE:
         return backwards
-    return 0.5 * backwards + 0.5 * min(_distance(axis, box) / max(box.diagonal, 1e-12), 1.0)
+    across = abs(float(axis.direction[box.thin_axis]))
+    return 0.5 * backwards + 0.5 * max(min(_distance(axis, box) / max(box.diagonal, 1e-12), 1.0), across)
 
 
 def _sets_off(kind: JointType, axis: Axis, value: float, point: Vec3) -> Vec3:
