@@ -8,7 +8,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from grafu.cli import ablate, functionalize, inspect, synth, templates, train
+from grafu.cli import ablate, evaluate, functionalize, inspect, synth, templates, train
 from grafu.cli.input_options import join_directions
 from grafu.cli.messages import INTERRUPTED, complain, internal_fault
 from grafu.errors import FunctionalizationError
@@ -24,6 +24,7 @@ examples:
   grafu synth --count 10000 --out data
   grafu train --out runs/base
   grafu ablate losses --out runs/losses
+  grafu evaluate --data models --out results
 
 exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments
 """
@@ -55,7 +56,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
-    for verb in (functionalize, inspect, templates, synth, train, ablate):
+    for verb in (functionalize, inspect, templates, synth, train, ablate, evaluate):
         subparser = verb.add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")

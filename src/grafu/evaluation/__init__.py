@@ -1,1 +1,1 @@
-"""Runs over datasets: one table for each of the paper's, for any method, on any data."""
+"""Runs over data sets: what each method makes of each model, measured, and the tables of it. It needs no torch."""

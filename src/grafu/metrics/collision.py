@@ -26,20 +26,24 @@ class CollisionConfig:
     """How a collision is counted.
 
     `tolerance` is a share of the object's largest side (0: strict). `hardware` counts hinges and rails on both sides;
-    `movers` also counts the other moving bodies, at rest or where they must be open first.
+    `movers` also counts the other moving bodies, at rest or where they must be open first. `unit` is the side in metres
+    to use instead of the object's own: that of the input, where parts were added to it.
 
     Raises:
-        ValueError: if there is no pose or the tolerance is negative.
+        ValueError: if there is no pose, the tolerance is negative or the unit is not positive.
     """
 
     poses: int = 50  # the paper's number
     tolerance: float = 0.0
     hardware: bool = False
     movers: bool = False
+    unit: float | None = None
 
     def __post_init__(self) -> None:
         if self.poses < 1 or self.tolerance < 0:
             raise ValueError(f"a collision needs poses and a tolerance >= 0: got {self.poses}, {self.tolerance}")
+        if self.unit is not None and not self.unit > 0:
+            raise ValueError(f"`CollisionConfig.unit` must be above 0: got {self.unit}")
 
 
 STRICT = CollisionConfig()
@@ -66,7 +70,7 @@ class _Scene:
 
     def __init__(self, articulated: ArticulatedObject, config: CollisionConfig) -> None:
         self._articulated, self._config = articulated, config
-        self._depth = config.tolerance * largest_side(articulated)
+        self._depth = config.tolerance * (config.unit or largest_side(articulated))
         movers = [joint.child for joint in articulated.moving_joints] if config.movers else []
         meshes = {link: self._mesh(link) for link in (articulated.root, *movers)}
         self._obstacles = {link: MeshCollider(mesh) for link, mesh in meshes.items() if len(mesh.faces)}

@@ -21,16 +21,25 @@ from grafu.metrics.bodies import anchored_mesh, largest_side, rigid_body
 class ConnectivityConfig:
     """How connection is measured; `tolerance` is a share of the object's largest side.
 
+    `unit` is the side in metres to use instead of the object's own: that of the input, where parts were added to it.
+
     Raises:
-        ValueError: if there is no pose or the tolerance is negative.
+        ValueError: if there is no pose, the tolerance is negative or the unit is not positive.
     """
 
     poses: int = 50  # as for collisions
     tolerance: float = 0.005  # the paper's 5 mm in a unit cube
+    unit: float | None = None
 
     def __post_init__(self) -> None:
         if self.poses < 1 or self.tolerance < 0:
             raise ValueError(f"connectivity needs poses and a tolerance >= 0: got {self.poses}, {self.tolerance}")
+        if self.unit is not None and not self.unit > 0:
+            raise ValueError(f"`ConnectivityConfig.unit` must be above 0: got {self.unit}")
+
+    def allowed(self, articulated: ArticulatedObject) -> float:
+        """Returns the widest gap in metres that still counts as connected."""
+        return self.tolerance * (self.unit or largest_side(articulated))
 
 
 DEFAULT = ConnectivityConfig()
@@ -41,7 +50,7 @@ def largest_gaps(articulated: ArticulatedObject, config: ConnectivityConfig = DE
 
     Where one of the two has no faces the gap is infinite.
     """
-    tolerance = config.tolerance * largest_side(articulated)
+    tolerance = config.allowed(articulated)
     static = anchored_mesh(rigid_body(articulated, articulated.root), tolerance)
     if not len(static.faces):
         return {joint.id: float("inf") for joint in articulated.moving_joints}
@@ -51,7 +60,7 @@ def largest_gaps(articulated: ArticulatedObject, config: ConnectivityConfig = DE
 
 def connected_joints(articulated: ArticulatedObject, config: ConnectivityConfig = DEFAULT) -> dict[str, bool]:
     """Returns for each moving joint whether its body stays within the tolerance of the static body."""
-    allowed = config.tolerance * largest_side(articulated)
+    allowed = config.allowed(articulated)
     return {joint: gap <= allowed for joint, gap in largest_gaps(articulated, config).items()}
 
 

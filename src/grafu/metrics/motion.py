@@ -20,11 +20,15 @@ ANGLE = radians(10)
 @final
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """How one part moves: positive motion along or about `axis` opens. `center` is the middle of its box, metres."""
+    """How one part moves: positive motion along or about `axis` opens. `center` is the middle of its box, metres.
+
+    `both_ways` says of a true motion that the part was drawn half open: either sense agrees with it.
+    """
 
     type: JointType
     axis: Axis
     center: Vec3
+    both_ways: bool = False
 
 
 @final
@@ -72,7 +76,8 @@ def _compare(part: str, found: Motion | None, truth: Motion, angle: float) -> Ag
     if found is None:
         return Agreement(part, False, False, False)
     same_type = found.type is truth.type
-    same_direction = same_type and found.axis.angle_to(truth.axis) <= angle
+    senses = (truth.axis, truth.axis.reversed()) if truth.both_ways else (truth.axis,)
+    same_direction = same_type and any(found.axis.angle_to(sense) <= angle for sense in senses)
     return Agreement(part, same_type, same_direction, same_direction and _same_border(found, truth))
 
 

@@ -1,0 +1,101 @@
+"""Runs `evaluate`: does what is not done, counts it on a bar, keeps the rows, and writes the tables."""
+
+import argparse
+import os
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+
+from grafu.cli.messages import complain
+from grafu.cli.pool import CRASHED, run_all
+from grafu.cli.progress import with_progress
+from grafu.cli.tables import plain_table, wide_console
+from grafu.evaluation.bootstrap import Figure
+from grafu.evaluation.dataset import find_models
+from grafu.evaluation.methods import parse_method
+from grafu.evaluation.output import build_tables, output_files
+from grafu.evaluation.perform import failed, perform
+from grafu.evaluation.plan import EvaluationPlan
+from grafu.evaluation.records import Row
+from grafu.evaluation.results import Results, collect
+from grafu.evaluation.rows import NAME, append_rows, done, read_rows
+from grafu.evaluation.table import Table
+from grafu.evaluation.table_forms import shown
+from grafu.evaluation.tasks import Task, key_of
+from grafu.export.files import ExportFiles, write_files
+
+EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+_SHOWN = ("aligned", "reasonable", "collision", "collision_fixed", "connected_fixed", "works", "works_fixed")
+
+
+def run_evaluation(options: argparse.Namespace) -> int:
+    """Measures what is not measured yet and writes the tables; returns 1 where a task failed, 130 where it was stopped.
+
+    Raises:
+        FunctionalizationError: if the options are wrong, there is nothing to measure, or files cannot be written.
+    """
+    plan = _plan(options)
+    file = options.out / NAME
+    if options.overwrite:
+        file.unlink(missing_ok=True)
+    rows = read_rows(file)
+    jobs = options.jobs or os.cpu_count() or 1
+    try:
+        first = plan.first_tasks()
+        _do(first, rows, file, jobs)
+        pairs = plan.twin_tasks(rows)
+        _do(pairs, rows, file, jobs)
+    except KeyboardInterrupt:
+        complain(f"interrupted; {len(rows)} rows stand in {file}, and the same command goes on")
+        return EXIT_INTERRUPTED
+    results = collect((*first, *pairs), rows)
+    files = ExportFiles(output_files(plan, results, _command(options)))
+    write_files(files, options.out / "tables", overwrite=True)
+    _say(plan, results, options.out)
+    return EXIT_FAILED if results.failures else EXIT_DONE
+
+
+def _plan(options: argparse.Namespace) -> EvaluationPlan:
+    methods = tuple(parse_method(word) for word in _words(options.methods))
+    return EvaluationPlan(options.data, find_models(options.data), methods, _words(options.tables), options.seeds)
+
+
+def _words(text: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+def _do(tasks: Sequence[Task], rows: dict[str, Row], file: Path, jobs: int) -> None:
+    """Does the tasks that have no row yet, and keeps each row at once."""
+    left = [task for task in tasks if not done(rows, key_of(task))]
+    if not left:
+        return
+    crashed = run_all(left, jobs, perform, lambda task: failed(task, CRASHED))
+    for row in with_progress(crashed, len(left), "tasks"):
+        append_rows(file, [row])
+        rows[row.key] = row
+
+
+def _command(options: argparse.Namespace) -> str:
+    """Returns the command that gives these tables, whatever it was spelled like."""
+    words = ["grafu", "evaluate", "--data", options.data, "--methods", options.methods, "--tables", options.tables]
+    return shlex.join([*words, "--seeds", str(options.seeds), "--out", str(options.out)])
+
+
+def _say(plan: EvaluationPlan, results: Results, out: Path) -> None:
+    motion = next((table for table in build_tables(plan, results) if table.name == "motion"), None)
+    if motion is not None:
+        _print_motion(motion)
+    for failure in results.failures:
+        complain(f"{failure.model}: {failure.what}: {failure.error}")
+    print(f"written to {out / 'tables' / 'index.md'}")
+
+
+def _print_motion(table: Table) -> None:
+    names = [column.name for column in table.columns]
+    kept = [column for column in table.columns if column.name in ("method", "data", *_SHOWN)]
+    printed = plain_table(*(column.title for column in kept))
+    for row in table.rows:
+        if row[names.index("over")] == "objects":
+            cells = ((row[names.index(column.name)], column) for column in kept)
+            printed.add_row(*(shown(c.value if isinstance(c, Figure) else c, column) for c, column in cells))
+    wide_console().print(printed)

@@ -1,0 +1,74 @@
+"""What static functionalization found missing and made: tops, grasps, interiors, each looked at again afterwards."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.pipeline.functionalize import Functionalized
+from grafu.realization.handle.grasp import find_grasp
+from grafu.realization.interior.compartments import Compartment, find_compartments
+from grafu.realization.interior.furnish import furnish
+from grafu.realization.interior.request import InteriorKind, InteriorRequest
+from grafu.realization.scene import Scene
+from grafu.realization.top.complete import missing_top
+
+_ONE_PANEL = (InteriorRequest(InteriorKind.COUNTED, shelves=1), InteriorRequest(InteriorKind.COUNTED, dividers=1))
+
+
+@final
+@dataclass(frozen=True)
+class GraspChange:
+    """How a mover can be grasped before and after, as the same search finds it: handle, recess, edge or none."""
+
+    part: str
+    before: str
+    after: str
+
+
+@final
+@dataclass(frozen=True)
+class Completeness:
+    """What of a model's statics was missing, and what is there now.
+
+    `topped` says of a topless model that the coverage test finds a top afterwards. `compartments` counts the rooms that
+    are large enough for shelves or dividers, `filled` those that take one when it is asked for.
+    """
+
+    topless: bool
+    topped: bool
+    grasps: tuple[GraspChange, ...]
+    compartments: int
+    filled: int
+
+    @property
+    def has_all_grasps(self) -> bool:
+        """Whether every mover can be grasped in the end."""
+        return all(grasp.after != "none" for grasp in self.grasps)
+
+
+def completeness_of(result: Functionalized) -> Completeness:
+    """Returns what was missing and what was made in one result; compartments are furnished for the count alone."""
+    top = result.body.top
+    topped = top.missing and top.addition is not None
+    if topped:
+        topped = missing_top(result.body.asset.parts, result.plan.joints).covered
+    return Completeness(top.missing, topped, _grasps(result), *_interiors(result))
+
+
+def _grasps(result: Functionalized) -> tuple[GraspChange, ...]:
+    """Returns the change of each mover; only where nothing was found before is looked at again."""
+    found = []
+    for mover, grasp in result.fittings.grasps.items():
+        after = grasp.kind if grasp.kind != "none" else find_grasp(result.fittings.scene, mover).kind
+        found.append(GraspChange(mover, grasp.kind, after))
+    return tuple(found)
+
+
+def _interiors(result: Functionalized) -> tuple[int, int]:
+    """Returns how many compartments there are, and how many take a shelf or else a divider."""
+    scene = result.fittings.scene
+    compartments = find_compartments(scene)
+    return len(compartments), sum(_takes_a_panel(compartment, scene) for compartment in compartments)
+
+
+def _takes_a_panel(compartment: Compartment, scene: Scene) -> bool:
+    return any(furnish((compartment,), request, scene).additions for request in _ONE_PANEL)

@@ -1,0 +1,94 @@
+"""The methods that are compared: each states how the parts of a model move, and the pipeline builds it.
+
+Only the annotation sees the annotation. It measures nothing.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, final
+
+from grafu.asset.part import Asset
+from grafu.errors import OptionError
+from grafu.evaluation.masking import masked
+from grafu.pipeline.addition_config import AdditionConfig
+from grafu.pipeline.foreign import prediction_for
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionChoice, MotionSource
+from grafu.realization.interior.request import NOTHING
+from grafu.templates.gallery import builtin_gallery
+
+OWN: Final = ("annotation", "rule", "network")
+FOREIGN: Final = ("particulate", "singapo", "grafu-pred", "urdf")
+DEFAULT_METHODS: Final = ("annotation", "rule", "network")
+_JOINTS_ALONE = AdditionConfig(handles=None, grips=None, interior=NOTHING)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A source of motions by its name; foreign ones have a folder that holds one entry per model id.
+
+    Raises:
+        OptionError: if the name is none of those known, or a folder is missing or superfluous.
+    """
+
+    name: str
+    folder: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.name not in (*OWN, *FOREIGN):
+            raise OptionError(f"a method must be one of {', '.join((*OWN, *FOREIGN))}: got `{self.name}`")
+        if (self.folder is None) == (self.name in FOREIGN):
+            said = f"`{self.name}:DIR` with a folder of predictions" if self.name in FOREIGN else f"`{self.name}` alone"
+            raise OptionError(f"method `{self.name}` must be given as {said}")
+
+    @property
+    def spelled(self) -> str:
+        """The method as the command spells it."""
+        return self.name if self.folder is None else f"{self.name}:{self.folder}"
+
+    @property
+    def can_be_masked(self) -> bool:
+        """Whether it answers from labels, so that hiding them says something."""
+        return self.name in ("rule", "network")
+
+
+def parse_method(text: str) -> Method:
+    """Returns the method that a word of the command line spells: `network`, `particulate:DIR`.
+
+    Raises:
+        OptionError: if it spells none.
+    """
+    name, _, folder = text.strip().partition(":")
+    return Method(name, Path(folder) if folder else None)
+
+
+def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = False) -> Functionalized:
+    """Returns what the pipeline makes of an annotated asset with this method's motions.
+
+    With `joints_alone`, nothing is added that decides no joint: no handles, grips and interiors.
+
+    Raises:
+        AssetError: if a foreign prediction is missing, damaged, or fits no part.
+        WeightsError: if the network's weights are missing.
+    """
+    config = PipelineConfig(additions=_JOINTS_ALONE) if joints_alone else PipelineConfig()
+    if method.name in ("rule", "network"):
+        return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
+    if method.folder is None:
+        return functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
+    choice = MotionChoice(MotionSource(method.name), method.folder)
+    foreign = prediction_for(choice, model_id, alone=False)
+    return functionalize(asset.without_annotation(), foreign, builtin_gallery(), config)
+
+
+def made_with_labels_hidden(method: Method, asset: Asset, share: float, seed: int) -> Functionalized:
+    """Returns what the pipeline makes of the asset with a share of its labels hidden, joints alone.
+
+    Raises:
+        OptionError: if the method does not answer from labels.
+    """
+    if not method.can_be_masked:
+        raise OptionError(f"labels can be hidden from rule and network alone: got `{method.name}`")
+    config = PipelineConfig(additions=_JOINTS_ALONE)
+    return functionalize(masked(asset, share, seed), MotionSource(method.name), builtin_gallery(), config)

@@ -1,0 +1,180 @@
+"""The form of a line of `rows.jsonl`, as checked values: what one task found out. It measures nothing.
+
+Lengths are metres, angles radians, points and directions in the object frame.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat
+
+from grafu.evaluation.completeness import Completeness
+from grafu.evaluation.measures import PartMeasure
+from grafu.evaluation.moving_parts import MovingPart
+from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.axis import Axis
+from grafu.metrics.motion import Motion
+from grafu.vocabulary import JointType, PartLabel
+
+Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+
+
+class Record(BaseModel):
+    """Abstract base: frozen, and strict about unknown fields."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class MotionRecord(Record):
+    """A motion: positive along or about the axis opens."""
+
+    type: JointType
+    point: Vector
+    direction: Vector
+    center: Vector
+    both_ways: bool = False
+
+    @classmethod
+    def of(cls, motion: Motion) -> "MotionRecord":
+        """Returns the record of a motion."""
+        axis = motion.axis
+        ends = _vector(axis.point), _vector(axis.direction), _vector(motion.center)
+        return cls(type=motion.type, point=ends[0], direction=ends[1], center=ends[2], both_ways=motion.both_ways)
+
+    def motion(self) -> Motion:
+        """Returns the motion."""
+        axis = Axis(vec3(*self.point), vec3(*self.direction))
+        return Motion(self.type, axis, vec3(*self.center), self.both_ways)
+
+
+class MeasureRecord(Record):
+    """What was measured on one part of one result (see `PartMeasure`); null where it stands still."""
+
+    found: MotionRecord | None
+    aligned: bool
+    collision: FiniteFloat | None
+    touch: FiniteFloat | None
+    gap: FiniteFloat | None
+    opening: FiniteFloat
+    connected: bool
+    works: bool
+
+    @classmethod
+    def of(cls, measure: PartMeasure) -> "MeasureRecord":
+        """Returns the record of a measure."""
+        return cls(
+            found=MotionRecord.of(measure.found) if measure.found else None,
+            aligned=measure.aligned,
+            collision=measure.collision,
+            touch=measure.touch,
+            gap=measure.gap,
+            opening=measure.opening,
+            connected=measure.connected,
+            works=measure.works,
+        )
+
+
+class PartRecord(Record):
+    """One part that counts: on the stated axes alone, and after the geometric fix."""
+
+    part: str
+    raw: MeasureRecord | None = None
+    fixed: MeasureRecord | None = None
+    plausible: bool | None = None
+    objection: str = ""
+    skipped: str = ""
+
+
+class GraspRecord(Record):
+    """How a mover can be grasped before and after."""
+
+    part: str
+    before: str
+    after: str
+
+
+class CompletenessRecord(Record):
+    """What of the statics was missing, and what is there now (see `Completeness`)."""
+
+    topless: bool
+    topped: bool
+    grasps: tuple[GraspRecord, ...]
+    compartments: int
+    filled: int
+
+    @classmethod
+    def of(cls, found: Completeness) -> "CompletenessRecord":
+        """Returns the record of what was found."""
+        grasps = tuple(GraspRecord(part=g.part, before=g.before, after=g.after) for g in found.grasps)
+        return cls(
+            topless=found.topless,
+            topped=found.topped,
+            grasps=grasps,
+            compartments=found.compartments,
+            filled=found.filled,
+        )
+
+
+class TruthRecord(Record):
+    """A part that counts, as it is annotated."""
+
+    part: str
+    label: PartLabel
+    motion: MotionRecord
+    reference: FiniteFloat
+
+    @classmethod
+    def of(cls, part: MovingPart) -> "TruthRecord":
+        """Returns the record of a part."""
+        return cls(part=part.id, label=part.label, motion=MotionRecord.of(part.motion), reference=part.reference)
+
+
+class ModelFacts(Record):
+    """What is true of a model whatever the method."""
+
+    kind: Literal["model"] = "model"
+    category: str
+    parts: tuple[TruthRecord, ...]
+    fingerprint: tuple[FiniteFloat, ...]
+    features: tuple[FiniteFloat, ...]
+
+
+class MethodFacts(Record):
+    """What one method made of a model."""
+
+    kind: Literal["method"] = "method"
+    parts: tuple[PartRecord, ...]
+    completeness: CompletenessRecord | None = None
+
+
+class TwinFacts(Record):
+    """Whether two models are of one geometry, and the motions that each one's annotation gives the other's parts."""
+
+    kind: Literal["twins"] = "twins"
+    same: bool
+    for_first: dict[str, MotionRecord] = {}
+    for_second: dict[str, MotionRecord] = {}
+
+
+class MadeFacts(Record):
+    """The features of one made model of the training distribution."""
+
+    kind: Literal["made"] = "made"
+    features: tuple[FiniteFloat, ...]
+
+
+Facts = Annotated[ModelFacts | MethodFacts | TwinFacts | MadeFacts, Field(discriminator="kind")]
+
+
+class Row(Record):
+    """One line: which task (its key says all that determines it), what it found, or why it failed."""
+
+    key: str
+    task: dict[str, str]
+    seconds: FiniteFloat
+    error: str = ""
+    facts: Facts | None = None
+
+
+def _vector(values: Vec3) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,131 @@
+"""Models of one geometry whose annotations differ: found by numbers that no turn changes, confirmed on the surfaces.
+
+The dataset of the paper holds many models several times. What another annotation of the same geometry says of a part is
+a reasonable motion of it. It compares no predictions.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import final
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from grafu.asset.edit import centred, scaled, yawed
+from grafu.asset.part import Asset
+from grafu.evaluation.moving_parts import MovingPart, counted_parts
+from grafu.geometry.arrays import Points
+from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.sampling import sample_surface
+from grafu.metrics.motion import Motion
+
+ALIKE = 0.01  # relative: fingerprints that differ more are of other models
+SAME_BOX = 0.01  # of the largest side: a part's twin has its box within this
+_POINTS = 4000
+_SLACK, _NOISE = 1.3, 0.002  # of what two samples of one surface differ by, and of the largest side
+
+
+@final
+@dataclass(frozen=True)
+class Twins:
+    """Whether two models are one geometry, and what each one's annotation says of the other's parts (by part id)."""
+
+    same: bool
+    for_first: Mapping[str, Motion]
+    for_second: Mapping[str, Motion]
+
+
+NOT_TWINS = Twins(False, {}, {})
+
+
+def fingerprint(asset: Asset) -> tuple[float, ...]:
+    """Returns numbers of the whole surface that no move, turn about the vertical by 90 degrees or scale changes.
+
+    Its area, the sides of its box (the two level ones sorted) and the spread of its surface along its own axes, each
+    over the largest side. How the surface is split into parts, and in which order, changes nothing.
+    """
+    mesh, unit = merge_meshes([part.mesh for part in asset.parts]), asset.unit
+    weights = mesh.face_areas
+    total = float(weights.sum())
+    if not total > 0:
+        return (0.0,) * 7
+    middles = mesh.triangles.mean(axis=1)
+    center = weights @ middles / total
+    corners = mesh.triangles - center
+    spread = np.einsum("f,fki,fkj->ij", weights, corners, corners) / (3 * total)
+    sizes = asset.box.size / unit
+    level = sorted(sizes[:2].tolist())
+    axes = np.sqrt(np.maximum(np.linalg.eigvalsh(spread), 0.0)) / unit
+    return (float(np.sqrt(total) / unit), *level, float(sizes[2]), *(float(v) for v in axes))
+
+
+def alike_pairs(fingerprints: Mapping[str, Sequence[float]]) -> tuple[tuple[str, str], ...]:
+    """Returns the pairs of models, by id and in order, whose fingerprints agree: candidates to be confirmed."""
+    ids = sorted(fingerprints)
+    return tuple((a, b) for a, b in combinations(ids, 2) if _agree(fingerprints[a], fingerprints[b]))
+
+
+def compare_twins(first: Asset, second: Asset) -> Twins:
+    """Returns whether two assets are one geometry, in any quarter turn and at any scale, and the motions to exchange.
+
+    Every point of either surface must lie on the other, but for what two samples of one surface differ by. A part's
+    twin is the part that counts with the same box.
+    """
+    first_home = centred(first)
+    points = _surface(first_home)
+    for turns in range(4):
+        turned = centred(yawed(scaled(second, first.unit / second.unit), turns * np.pi / 2))
+        if np.allclose(turned.box.size, first_home.box.size, atol=ALIKE * first.unit) and _cover(
+            points, _surface(turned), first.unit
+        ):
+            return _exchanged(first, first_home, second, turned)
+    return NOT_TWINS
+
+
+def _agree(a: Sequence[float], b: Sequence[float]) -> bool:
+    return bool(np.allclose(a, b, rtol=ALIKE, atol=ALIKE * 0.1))
+
+
+def _surface(asset: Asset) -> tuple[Points, Points]:
+    """Returns two samples of the whole surface, drawn apart."""
+    mesh = merge_meshes([part.mesh for part in asset.parts])
+    return sample_surface(mesh, _POINTS, 1).points, sample_surface(mesh, _POINTS, 2).points
+
+
+def _cover(a: tuple[Points, Points], b: tuple[Points, Points], unit: float) -> bool:
+    """Whether two surfaces, each sampled twice, are as near to each other as each is to itself."""
+
+    def apart(ones: Points, others: Points) -> np.ndarray:
+        return np.asarray(cKDTree(others).query(ones)[0])
+
+    own = max(float(apart(*a).mean()), float(apart(*b).mean()))
+    allowed = _SLACK * own + _NOISE * unit
+    return max(float(apart(a[0], b[0]).mean()), float(apart(b[0], a[0]).mean())) <= allowed
+
+
+def _exchanged(first: Asset, first_home: Asset, second: Asset, turned: Asset) -> Twins:
+    """Returns the motions that each annotation gives the other's parts, each in the other's own frame."""
+    here, there = counted_parts(first_home), counted_parts(turned)
+    own = {part.id: part for part in counted_parts(first)}, {part.id: part for part in counted_parts(second)}
+    near = SAME_BOX * first.unit
+    pairs = [(a, b) for a in here for b in there if _same_place(first_home, a, turned, b, near)]
+    # back into each model's own frame: both were moved by similarities that keep lines lines
+    to_first = first.frame.input_to_output @ np.linalg.inv(first_home.frame.input_to_output)
+    to_second = second.frame.input_to_output @ np.linalg.inv(turned.frame.input_to_output)
+    return Twins(
+        True,
+        {a.id: _moved(b.motion, to_first, own[0][a.id]) for a, b in pairs if a.id in own[0]},
+        {b.id: _moved(a.motion, to_second, own[1][b.id]) for a, b in pairs if b.id in own[1]},
+    )
+
+
+def _same_place(first: Asset, a: MovingPart, second: Asset, b: MovingPart, near: float) -> bool:
+    boxes = first.part(a.id).box, second.part(b.id).box
+    return bool(
+        np.allclose(boxes[0].low, boxes[1].low, atol=near) and np.allclose(boxes[0].high, boxes[1].high, atol=near)
+    )
+
+
+def _moved(motion: Motion, T: np.ndarray, part: MovingPart) -> Motion:
+    return Motion(motion.type, motion.axis.transformed(T), part.motion.center, motion.both_ways)
