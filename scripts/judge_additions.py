@@ -29,13 +29,12 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visu
 from grafu.articulation.sweep import values_before
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster
 from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
 from grafu.metrics.panels import panel_faults
 from grafu.metrics.rooms import empty_rooms
+from grafu.metrics.tops import lost_tops
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.fittings import Fittings, fitted_object
@@ -52,11 +51,10 @@ from grafu.vocabulary import PartLabel
 
 SEED = 990_003
 INTERIORS = ("shelves=2", "dividers=1", "auto")
-CELLS = 64  # of the map from above, along the longer side
 POSES = 40  # of each joint in which handles are looked at
 WIDE = 0.9  # metres: from here on two handles are no waste
 COVERED = 0.97  # share of the plan that a top must cover
-OPEN = 0.5  # share of the plan that is covered where there is no top
+OPEN = 0.5  # share of the plan that lies open where there is no top
 SKIN = 0.001  # of the largest side: deeper cuts are cuts
 LEAST_OPENING = 0.999  # of the opening that a joint has without additions; the rest is a sweep's last step
 
@@ -214,21 +212,7 @@ def _run(asset: Asset, source: MotionSource, additions: AdditionConfig = DEFAULT
     return functionalize(asset, source, builtin_gallery(), PipelineConfig(additions=additions))
 
 
-# Tops: a map from above, by rays.
-
-
-def _grid_over(meshes: Sequence[TriangleMesh]) -> Points:
-    """Returns where rays start down from: a grid over the plan of some meshes."""
-    low, high = np.min([m.box.low for m in meshes], axis=0), np.max([m.box.high for m in meshes], axis=0)
-    cell = float(max(high[:2] - low[:2])) / CELLS
-    x, y = (np.arange(low[k] + cell / 2, high[k], cell) for k in (0, 1))
-    grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-    return np.column_stack([grid, np.full(len(grid), 2 * high[2] - low[2])])
-
-
-def _heights(meshes: Sequence[TriangleMesh], grid: Points) -> Scalars:
-    """Returns the z of what is met first below each point of a grid; -inf where nothing is."""
-    return grid[:, 2] - RayCaster(merge_meshes(meshes)).along(grid, np.array([0.0, 0.0, -1.0]))
+# Tops: maps from above, by rays.
 
 
 def _own(articulated: ArticulatedObject) -> list[Visual]:
@@ -246,32 +230,27 @@ def _body_of(asset: Asset, source: MotionSource) -> Body:
     return complete_body(asset, completion, motion.plan(asset, completion), DEFAULT)
 
 
-def _top_cover(body: Sequence[TriangleMesh]) -> float:
-    """Returns the share of the plan that is covered within 6 % of the height below the highest rim."""
-    heights = _heights(body, _grid_over(body))
-    low = min(float(mesh.box.low[2]) for mesh in body)
-    seen = heights[np.isfinite(heights)] - low
-    return float((seen > 0.94 * np.quantile(seen, 0.98)).mean())
-
-
 def _without_its_top(asset: Asset, source: MotionSource, closed: ArticulatedObject) -> tuple[float | None, list[str]]:
-    """Returns the share of the plan that a top covers which replaces the piece's own, and what is wrong with it."""
-    tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL}
+    """Returns the least share of a lost top's plan that the one in its place covers, and what is wrong with them."""
+    tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL and len(p.mesh.faces)}
     moving = {p.rides_on for p in asset.parts if p.rides_on} | {joint.part for joint in asset.joints}
-    left = tuple(p for p in asset.parts if p.id not in tops)
-    standing = {v.name for v in closed.link(closed.root).visuals} - tops  # drawers may have been drawn open
-    body = [v.mesh for v in _own(closed) if v.name in standing]
-    if not tops or tops & moving or not body or _top_cover(body) > OPEN:
-        return None, []  # it has none, a lid that moves, or what is called a top covers nothing that is open without it
-    additions = _body_of(replace(asset, parts=left), source).additions
+    standing = {v.name for v in closed.link(closed.root).visuals if not v.label.is_movable}
+    own = {v.name: v.mesh for v in _own(closed)}
+    taken, left = ([mesh for name, mesh in own.items() if (name in tops) is is_top] for is_top in (True, False))
+    still = [mesh for name, mesh in own.items() if name in standing - tops]
+    if not taken or tops & moving or not still:
+        return None, []  # it has none, or a lid that moves
+    additions = _body_of(replace(asset, parts=tuple(p for p in asset.parts if p.id not in tops)), source).additions
     added = [a.part.mesh for a in additions if a.part.label is PartLabel.TOP_PANEL]
-    if len(added) != 1:
-        return 0.0, [f"{len(added)} tops in place of its own"]
-    grid = _grid_over(body)
-    below = _heights(body, grid)
-    stands = np.isfinite(below)
-    share = float((_heights(added, grid) > below - SKIN * asset.unit)[stands].mean())
-    return share, [f"its new top covers {share:.1%}"] if share < COVERED else []
+    lost = lost_tops(taken, still, [mesh for mesh in left if not any(mesh is s for s in still)], added)
+    missed = [one for one in lost if one.is_missed]
+    if not missed and not added:
+        return None, []  # other boards cover all that it covered
+    share = min((one.covered for one in (lost if len(added) >= len(lost) else missed)), default=1.0)
+    faults = [f"its new top covers {share:.1%}"] if share < COVERED else []
+    if not len(missed) <= len(added) <= len(lost):
+        faults.append(f"{len(added)} tops in place of {len(missed)}")
+    return share, faults
 
 
 # Grasps and handles: sweeps with fcl over the meshes of the object.

@@ -4,8 +4,13 @@ from math import radians
 
 import pytest
 
+from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.asset.edit import scaled, yawed
 from grafu.asset.part import Asset
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.metrics.rooms import empty_rooms
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
@@ -13,6 +18,16 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.realization.interior.request import parse_interior
 from grafu.synth.kinds import KINDS
 from grafu.templates.gallery import builtin_gallery
+
+Point = tuple[float, float, float]
+
+
+def box(name: str, low: Point, high: Point) -> Visual:
+    return Visual(name, (Surface(TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))),))
+
+
+def still(*visuals: Visual) -> ArticulatedObject:
+    return ArticulatedObject("still", "body", (Link("body", visuals),))
 
 
 def rooms(asset: Asset, config: AdditionConfig = NO_ADDITIONS):
@@ -55,3 +70,13 @@ def test_a_turned_cabinet_holds_a_room_too():
 def test_shelves_close_together_leave_no_room():
     config = AdditionConfig(interior=parse_interior("shelves=4"))
     assert rooms(KINDS["inset pair"](), config) == []
+
+
+def test_posts_are_no_walls():
+    boards = [box(f"board_{k}", (0.0, 0.0, z), (0.9, 0.5, z + 0.02)) for k, z in enumerate((0.1, 0.8))]
+    corners = [(x, y) for x in (0.0, 0.86) for y in (0.0, 0.46)]
+    posts = [box(f"post_{k}", (x, y, 0.0), (x + 0.04, y + 0.04, 0.9)) for k, (x, y) in enumerate(corners)]
+    sides = [box(f"side_{k}", (x, 0.0, 0.0), (x + 0.02, 0.5, 0.9)) for k, x in enumerate((-0.02, 0.9))]
+    back = box("back", (0.0, 0.5, 0.0), (0.9, 0.51, 0.9))
+    assert empty_rooms(still(*boards, *posts)) == []
+    assert len(empty_rooms(still(*boards, *posts, *sides, back))) == 1

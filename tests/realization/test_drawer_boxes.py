@@ -55,6 +55,20 @@ def test_what_has_a_box_lacks_nothing(kind):
     assert made.additions == ()
 
 
+@pytest.mark.parametrize("depth", [0.41, 0.56, 0.73, 0.95])
+@pytest.mark.parametrize("mount", ["overlay", "inset"])
+def test_a_drawer_opens_as_far_with_its_box_as_its_bare_front_did(depth, mount):
+    """However deep the case is; and its rails are as long as the box, whichever rows of rays it lies between."""
+    layout = Stack((Drawer("front only"), Drawer("front only")), between="nothing")
+    asset = make_cabinet(Cabinet("chest", Case(width=0.45, depth=depth), layout, mount))
+    bare = realize(plan_from_annotation(asset), asset, GALLERY).object
+    whole = completed(asset).object
+    assert found(asset).refused == ()
+    for before, after in zip(bare.joints, whole.joints, strict=True):
+        assert before.child == after.child
+        assert after.limits.upper >= 0.999 * before.limits.upper
+
+
 def test_trays_and_solid_blocks_lack_nothing():
     walls = [
         box("side_left", (-0.3, -0.2, 0.0), (-0.28, 0.25, 0.3)),
@@ -286,7 +300,7 @@ def test_a_model_without_drawers_lacks_none():
     )
 
 
-@pytest.mark.parametrize("name", ["wall", "side_gap", "deepest"])
+@pytest.mark.parametrize("name", ["wall", "side_gap", "highest"])
 def test_lengths_are_above_zero(name):
     with pytest.raises(ValueError, match=f"`DrawerBoxConfig.{name}` must be above 0: got 0"):
         DrawerBoxConfig(**{name: 0.0})

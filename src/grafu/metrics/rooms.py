@@ -2,7 +2,8 @@
 
 It shares nothing with what finds compartments: points in a grid look along the axes at what is at rest. A room has
 walls on both sides, a floor, a ceiling and a back that stand still; in front of it is nothing, or a door. Its middle, a
-cube, must be empty. What a drawer takes of a room, with all that lies behind it, is no room.
+cube, must be empty, and half of all faces but the front be covered. What a drawer takes of a room, with all that lies
+behind it, is no room.
 """
 
 from typing import Any
@@ -23,6 +24,7 @@ _STEPS = 30  # points along the object's longest side
 LEAST = 0.25  # metres, each way: smaller rooms are pigeonholes
 LEAST_SHARE = 0.2  # of the largest side: no room needs to be larger in a model of another scale
 _MOST_TRIED = 40  # candidates that are looked at one by one
+_ACROSS, _COVERED = 7, 0.5  # rays along each side of a face, and the share of them that meets a wall there
 _LEAF = 0.15  # of the next longer side: thinner sliders are doors
 
 
@@ -38,7 +40,7 @@ def empty_rooms(articulated: ArticulatedObject) -> list[Box]:
     points = _points(whole.box, unit / _STEPS)
     points = points[~_taken(points, articulated)]
     rooms = _seen_from(points, RayCaster(still), RayCaster(merge_meshes(moving)), whole.box, least)
-    manager = _MANAGER()
+    manager, everything = _MANAGER(), RayCaster(whole)
     manager.add_object("", whole.to_trimesh())
     found: list[Box] = []
     for room in sorted(rooms, key=lambda box: -float(box.size.prod()))[:_MOST_TRIED]:
@@ -46,9 +48,23 @@ def empty_rooms(articulated: ArticulatedObject) -> list[Box]:
             continue
         half = np.full(3, 0.45 * least)
         cube = TriangleMesh.box_mesh(Box.from_center(room.center, half)).to_trimesh()
-        if not manager.in_collision_single(cube):
+        if not manager.in_collision_single(cube) and _is_enclosed(room, everything):
             found.append(room)
     return found
+
+
+def _is_enclosed(room: Box, everything: RayCaster) -> bool:
+    """Whether surfaces cover at least half of five faces of a room: posts and rails are no walls."""
+    steps = np.linspace(-0.8, 0.8, _ACROSS)
+    covered = []
+    for axis in range(3):
+        shares = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+        origins = np.tile(room.center, (len(shares), 1))
+        origins[:, [k for k in range(3) if k != axis]] += shares * np.delete(room.half, axis)
+        for sign in (-1.0, 1.0):
+            found = everything.along(origins, sign * np.eye(3)[axis])
+            covered.append(float((found <= 1.1 * room.half[axis]).mean()))
+    return sum(share >= _COVERED for share in covered) >= len(covered) - 1
 
 
 def _points(box: Box, step: float) -> Points:

@@ -37,8 +37,6 @@ class DrawerBoxConfig:
     """Thickness of the bottom: the common 6 mm plywood."""
     wall_share: float = 0.05
     """Most of the front's smaller side that a wall takes (a bottom half of it)."""
-    deepest: float = 0.65
-    """Depth above which drawers are not made, unless they are wider still."""
     highest: float = 0.25
     """Height of a box's walls above which ..."""
     high_share: float = 0.8

@@ -53,7 +53,7 @@ def find_room(
         config: clearances and least sizes.
         limit: the y at which the box must end at the latest, metres.
     """
-    end = min(_end_of(still, frame), limit, frame.depth + max(config.deepest, frame.width))
+    end = min(_end_of(still, frame), limit)
     if end <= frame.depth:
         return "nothing stands behind the front that could carry a box"
     half = np.array([frame.width / 2, frame.height / 2]) - min(_INSIDE, 0.01 * frame.height)

@@ -5,6 +5,7 @@ origin is the middle of the drawer's front side: it fills |x| <= width / 2, 0 <=
 sliding door is framed alike, but lying: X up, so that its flanks are its lower and upper edges, where tracks belong.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
@@ -18,6 +19,7 @@ from grafu.geometry.transform import from_rotation, transform_points
 from grafu.realization.hinge.border import part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
+_FINER = 24  # rows between two of those, where a body begins and ends: to a thousandth of the depth
 _BOARD = 0.15  # what is less deep than this share of its smaller side is a front without a container
 _THICKEST, _SLAT = 0.03, 0.1  # metres, share of its longer side: low fronts are thick for their height
 _SHORTEST = 0.3  # a body shorter than this share of the drawer's depth is no container (official 7.4)
@@ -116,30 +118,41 @@ def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> Bod
     """
     if is_board(frame):
         return None
-    flanks = _flanks(mesh, frame)
+    caster = RayCaster(mesh)
+    y, z = _grid(frame)
+    flanks = _flanks(caster, frame, y, z)
     columns = np.array([[_median(column) for column in flank] for flank in flanks])
     if min(np.isfinite(columns).sum(axis=1)) < _SHORTEST * _SLIDE:
         return None
     band = max(tolerance * frame.width, 2e-3)
     medians = np.nanmedian(columns, axis=1)
     in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
-    run = _longest_run(in_body.sum(axis=1) >= max(2, 0.2 * in_body.sum(axis=1).max()))
+    enough = max(2.0, 0.2 * float(in_body.sum(axis=1).max()))
+    run = _longest_run(in_body.sum(axis=1) >= enough)
     if run[1] - run[0] + 1 < _SHORTEST * _SLIDE:
         return None
     rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
     if rows[1] < rows[0]:
         return None
     left, right = (float(np.median(flank[in_body])) for flank in flanks)
-    y, z = _grid(frame)
-    step, lift = frame.depth / _SLIDE / 2, frame.height / _HEIGHT / 2
-    return BodyRegion(
-        left,
-        right,
-        float(y[run[0]] - step),
-        float(y[run[1]] + step),
-        float(z[rows[0]] - lift),
-        float(z[rows[1]] + lift),
-    )
+    lift = frame.height / _HEIGHT / 2
+
+    def belongs(at: np.ndarray) -> np.ndarray:
+        near = np.abs(_flanks(caster, frame, at, z) - medians[:, None, None]) < band
+        return np.asarray(near.all(axis=0).sum(axis=1) >= enough)
+
+    front, back = _ends(y[run[0]], y[run[1]], frame.depth, belongs)
+    return BodyRegion(left, right, front, back, float(z[rows[0]] - lift), float(z[rows[1]] + lift))
+
+
+def _ends(first: float, last: float, depth: float, belongs: Callable[[np.ndarray], np.ndarray]) -> tuple[float, float]:
+    """Returns where a body begins before its first row of rays and ends behind its last: rows between two tell it."""
+    cell = depth / _SLIDE
+    reaches = min(cell, first), min(cell, depth - last)
+    shares = (np.arange(_FINER) + 0.5) / _FINER  # away from the body
+    found = belongs(np.concatenate([first - reaches[0] * shares, last + reaches[1] * shares])).reshape(2, _FINER)
+    run = [_FINER if row.all() else int(np.argmin(row)) for row in found]
+    return float(first - reaches[0] * run[0] / _FINER), float(last + reaches[1] * run[1] / _FINER)
 
 
 def is_board(frame: DrawerFrame) -> bool:
@@ -165,18 +178,16 @@ def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
     return y, z
 
 
-def _flanks(mesh: TriangleMesh, frame: DrawerFrame) -> np.ndarray:
-    """Returns the x of the left and the right outside at each (slide, height) cell; NaN where there is none."""
-    y, z = _grid(frame)
+def _flanks(caster: RayCaster, frame: DrawerFrame, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Returns the x of the left and the right outside at each (y, z); NaN where there is none."""
     grid_y, grid_z = (a.ravel() for a in np.meshgrid(y, z, indexing="ij"))
     outside = frame.width / 2 + 0.01
-    caster = RayCaster(mesh)
     sides = []
     for sign in (-1.0, 1.0):
         origins = frame.to_object(np.column_stack([np.full_like(grid_y, sign * outside), grid_y, grid_z]))
         distance = caster.along(origins, -sign * frame.rotation[:, 0])
         sides.append(np.where(distance < outside, sign * (outside - distance), np.nan))
-    return np.stack(sides).reshape(2, _SLIDE, _HEIGHT)
+    return np.stack(sides).reshape(2, len(y), len(z))
 
 
 def _longest_run(flags: np.ndarray) -> tuple[int, int]:
