@@ -34,7 +34,7 @@ from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
 from grafu.metrics.panels import panel_faults
 from grafu.metrics.rooms import empty_rooms
-from grafu.metrics.tops import lost_tops
+from grafu.metrics.tops import lost_tops, open_share
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.fittings import Fittings, fitted_object
@@ -200,11 +200,11 @@ def _tops(
 ) -> tuple[float | None, list[str]]:
     """Returns what a top covers that replaces the piece's own, and what is wrong with it and with tops added."""
     covered, faults = _without_its_top(asset, source, plain.object)
-    seen = _top_cover([v.mesh for v in _own(plain.object)])
-    if tops and seen > OPEN:
-        faults.append(f"a top added over {seen:.0%}")
-    if not tops and seen < OPEN:
-        faults.append(f"no top added, {seen:.0%} covered: {result.body.top.why}")
+    seen = open_share([v.mesh for v in _own(plain.object)])
+    if tops and seen < OPEN:
+        faults.append(f"a top added, {seen:.0%} open")
+    if not tops and seen > OPEN:
+        faults.append(f"no top added, {seen:.0%} open: {result.body.top.why}")
     return covered, faults
 
 

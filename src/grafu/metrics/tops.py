@@ -1,9 +1,9 @@
-"""Whether new tops replace those that were taken away: rays from above, which share nothing with what makes tops.
+"""Whether furniture is open from above, and whether new tops replace those that were taken away.
 
-The measure is the plan that a piece's own top lay over: of all that one saw of it from above, what lies over the body.
-Near its upper end the body's plan is all that reaches there, and what lies between, so kneeholes and rooms belong to it
-and overhangs do not: nobody can tell them from the body alone. What stands up through a top is no part of it. It knows
-no labels, rims or joints.
+By rays, which share nothing with what makes tops. The measure of a new top is the plan that the piece's own top lay
+over: of all that one saw of it from above, what lies over the body. Near its upper end the body's plan is all that
+reaches there, and what lies between, so kneeholes and rooms belong to it and overhangs do not: nobody can tell them
+from the body alone. What stands up through a top is no part of it. It knows no labels, rims or joints.
 """
 
 from collections.abc import Sequence
@@ -11,20 +11,25 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 
 Field = Float[np.ndarray, "x y"]
 Mask = Bool[np.ndarray, "x y"]
+Counts = Int[np.ndarray, "x y"]
 
+_WAYS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
 _CELLS = 160  # along the longer side
 _NEAR = 0.1  # of the piece's height: what ends farther below a top does not stand under it
 _LEVEL = 0.1  # of the height: tops that differ by less are one, stepped at most
 _OPEN = 0.06  # of the height: what lies so far below a top does not cover in its place
 _LEAST = 0.15  # of the whole plan: smaller tops lie in niches
 _HOLLOW = 0.5  # of the plan under a top: less is no loss, other boards cover the rest
+_RIM = 0.98  # of what one sees from above lies lower than the rim: mirrors, posts and finials stand higher
+_SIDES = 3  # walls around a room
+_DEEP = 0.5  # of the rim's height
 _SKIN = 0.001  # of the largest side: a top may be let in so deep
 
 
@@ -70,8 +75,7 @@ def lost_tops(
     for group in _by_level(taken, _LEVEL * grid.height):
         own, under = grid.heights(group), grid.undersides(group)
         near = min(float(mesh.box.low[2]) for mesh in group) - _NEAR * grid.height
-        reaches = (rest >= near) | grid.corners([*still, *moving], near)
-        plan = (own > rest) & _between(_between(reaches))
+        plan = (own > rest) & grid.between(rest >= near, [*still, *moving], near)
         if plan.sum() < max(_LEAST * everything.sum(), 1.0):
             continue
         hollow = covers[plan] < under[plan] - _OPEN * grid.height
@@ -82,12 +86,34 @@ def lost_tops(
     return tuple(found)
 
 
+def open_share(meshes: Sequence[TriangleMesh]) -> float:
+    """Returns the share of the plan of furniture, closed, without handles, that lies open from above.
+
+    There one looks past the rim into a room that is walled on three sides, or down by more than half the height, as
+    between legs. What lies lower but is neither is the desk before its hutch, or the uppermost shelf of a rack.
+
+    Raises:
+        ValueError: if there is no mesh.
+    """
+    if not meshes:
+        raise ValueError("`meshes` must be furniture: got none")
+    grid = _Grid(meshes)
+    rises = grid.heights(meshes) - grid.floor
+    plan = grid.between(np.isfinite(rises), meshes, grid.floor)
+    if not np.isfinite(rises).any():
+        return 0.0
+    rim = float(np.quantile(rises[np.isfinite(rises)], _RIM))
+    walled = grid.walls(meshes, grid.floor + (1 - 0.5 * _OPEN) * rim) >= _SIDES
+    is_open = (rises < (1 - _OPEN) * rim) & (walled | (rises < _DEEP * rim))
+    return float(is_open[plan].mean())
+
+
 class _Grid:
     """Rays straight down over the plan of some meshes."""
 
     def __init__(self, meshes: Sequence[TriangleMesh]) -> None:
         low, high = np.min([m.box.low for m in meshes], axis=0), np.max([m.box.high for m in meshes], axis=0)
-        self.unit, self.height = float((high - low).max()), float(high[2] - low[2])
+        self.unit, self.height, self.floor = float((high - low).max()), float(high[2] - low[2]), float(low[2])
         self.low, self.cell = low[:2], float((high - low)[:2].max()) / _CELLS
         x, y = (np.arange(low[k] + self.cell / 2, high[k], self.cell) for k in (0, 1))
         self.shape = len(x), len(y)
@@ -107,13 +133,24 @@ class _Grid:
         found = starts[:, 2] + RayCaster(merge_meshes(meshes)).along(starts, np.array([0.0, 0.0, 1.0]))
         return np.asarray(found).reshape(self.shape)
 
-    def corners(self, meshes: Sequence[TriangleMesh], least: float) -> Mask:
-        """Returns the cells in which corners of meshes lie, from a height on: rays pass by sheets without thickness."""
-        found = np.zeros(self.shape, dtype=bool)
+    def walls(self, meshes: Sequence[TriangleMesh], height: float) -> Counts:
+        """Returns towards how many sides of four one meets something from each cell at a height."""
+        starts = np.column_stack([self.starts[:, :2], np.full(len(self.starts), height)])
+        caster = RayCaster(merge_meshes(meshes))
+        met = [np.isfinite(caster.along(starts, np.array([*way, 0.0]))) for way in _WAYS]
+        return np.sum(met, axis=0).reshape(self.shape)
+
+    def between(self, stands: Mask, meshes: Sequence[TriangleMesh], least: float) -> Mask:
+        """Returns what lies between marked cells and corners of meshes from a height on: rays pass by thin sheets."""
         points = np.concatenate([m.vertices[np.unique(m.faces)] for m in meshes])
-        at = np.floor((points[points[:, 2] >= least][:, :2] - self.low) / self.cell).astype(np.int64)
+        points = points[points[:, 2] >= least][:, :2]
+        if not len(points):
+            return stands
+        found, at = stands.copy(), np.floor((points - self.low) / self.cell).astype(np.int64)
         found[tuple(np.clip(at, 0, np.array(self.shape) - 1).T)] = True
-        return found
+        middles = self.starts[:, :2]
+        within = np.all((middles >= points.min(axis=0)) & (middles <= points.max(axis=0)), axis=1)
+        return stands | (_between(_between(found)) & within.reshape(self.shape))
 
 
 def _by_level(tops: Sequence[TriangleMesh], step: float) -> list[list[TriangleMesh]]:
