@@ -18,6 +18,7 @@ from grafu.evaluation.dataset_release import DOOR_RANGE, DRAWER_RANGE
 from grafu.graph.motion import direction_to_code
 from grafu.synth.generate import make_specimen
 from grafu.synth.kinds import KINDS
+from grafu.training.source import RESERVED_SEEDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import hssd_model
 from small_assets import AS_IT_IS, Y_UP, obj_text, write_glb, write_obj_folder, write_pnm, write_urdf, yaw
@@ -155,6 +156,7 @@ def test_made_furniture_is_what_the_generator_makes_with_its_true_joints(specime
     refs = find_models(f"synth:{SEED}:{COUNT}")
     assert [ref.number for ref in refs] == [0, 1, 2]
     assert {ref.seed for ref in find_models("synth")} == {TEST_SEED}
+    assert TEST_SEED in RESERVED_SEEDS  # training refuses it
     for ref, specimen in zip(refs, specimens, strict=True):
         asset = load_model(ref)
         assert (asset.name, ref.id) == (specimen.id, specimen.id)

@@ -22,6 +22,7 @@ from grafu.geometry.box import Box
 from grafu.vocabulary import JointType
 
 PARTS, MOTIONS = ".artpre.json", ".articulations.json"
+_LARGEST = 1e9  # metres or radians: beyond, a number is no coordinate
 _TYPES = {"rotation": JointType.REVOLUTE, "hinge_rotation": JointType.REVOLUTE, "translation": JointType.PRISMATIC}
 
 
@@ -170,7 +171,7 @@ def _is_count(value: Any) -> bool:
 
 
 def _number(value: Any) -> float | None:
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e300
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _LARGEST
     return float(value) if is_number and math.isfinite(value) else None
 
 
