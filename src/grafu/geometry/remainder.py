@@ -10,6 +10,8 @@ import manifold3d
 import numpy as np
 from jaxtyping import Float
 
+_ROUNDED = 1e-7  # outlines come with corners rounded to 1e-8: triangles thinner than that may be turned over
+
 
 def remainder(corners: Float[np.ndarray, "3 3"], pieces: Sequence[np.ndarray]) -> Float[np.ndarray, "m 3 3"]:
     """Returns what is left as triangles turned like the given one: each corner as weights of the three `corners`.
@@ -27,7 +29,7 @@ def remainder(corners: Float[np.ndarray, "3 3"], pieces: Sequence[np.ndarray]) -
     points = np.vstack(outlines)
     second, third = np.linalg.solve(whole[1:].T, points.T)
     weights = np.column_stack([1.0 - second - third, second, third])
-    return weights[np.asarray(manifold3d.triangulate(outlines), np.int64)]
+    return weights[np.asarray(manifold3d.triangulate(outlines, _ROUNDED), np.int64)]
 
 
 def _plane(corners: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 2"]:
