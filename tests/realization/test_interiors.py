@@ -325,3 +325,15 @@ def test_two_panels_never_stand_in_one_place() -> None:
     first, second = (addition.part.box for addition in result.additions)
     assert first.axis_gaps(second).max() > 0
     assert faults_of_panels(result.additions, scene) == []
+
+
+@pytest.mark.parametrize("above", [True, False])
+def test_a_drawer_closes_the_open_room_beside_it_where_no_board_parts_them(above):
+    low, high = (0.7, 0.97) if above else (0.03, 0.3)
+    drawer = box("drawer", (-0.37, -0.19, low), (0.37, 0.15, high))
+    furniture = scene_of(*CASE, drawer, ways={"drawer": pulled()})
+    (room,) = find_compartments(furniture)
+    assert room.box.size[2] == pytest.approx(0.68, abs=0.03)
+    panels = furnished(furniture).additions
+    assert len(panels) == 2
+    assert all(p.part.box.gap(drawer.box) > 0.05 for p in panels)

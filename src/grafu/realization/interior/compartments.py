@@ -94,7 +94,8 @@ def _compartment(
     sides = [f for f in range(4) if f // 2 != depth]
     is_walled = all(still[f] >= config.wall_share for f in sides)
     has_door = faces[opening].moving >= _DOOR_SHARE
-    is_held = has_door or min(still[4], still[5]) >= config.wall_share  # a door's cells are held one by one
+    held = (still[f] >= config.wall_share or around.meets_a_drawer(box, f) for f in (4, 5))
+    is_held = has_door or all(held)  # a door's cells are held one by one
     if not (is_walled and is_held):
         return None
     box = around.within_walls(box, opening) if not faces[opening].moving else box

@@ -12,6 +12,7 @@ from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.realization.interior.occupied import is_drawer
 from grafu.realization.scene import Scene
 
 _RAYS = 9  # along each side of a face
@@ -19,6 +20,8 @@ _MARGIN = 0.94  # of a face: rays keep off its rim, where neighbours meet
 _REACH = 1.05  # cells beyond a box of cells: what bounds it lies in the next one
 _NEAR = 10.0  # cells behind the nearest hit at which a wall still counts: brackets stand before it, or it runs askew
 _SKIN = 0.05  # cells around a part's box in which a hit is still on the part
+_MOSTLY = 0.5  # of a face that one drawer takes to close it
+_BEYOND = 3.0  # cells between a box of free cells and such a drawer: what a drawer takes is counted in whole cells
 _WALL = 0.1  # share of the hits on a face that makes a part one of its walls
 
 
@@ -47,6 +50,7 @@ class Surroundings:
         self._lows = np.array([part.box.low for part in own]).reshape(-1, 3) - _SKIN * cell
         self._highs = np.array([part.box.high for part in own]).reshape(-1, 3) + _SKIN * cell
         self._movers = [(mover, scene.moving_mesh(mover).box) for mover in scene.movers]
+        self._drawers = [box for mover, box in self._movers if is_drawer(scene, scene.movers[mover])]
 
     def faces_of(self, box: Box) -> tuple[Face, ...]:
         """Returns the six faces (-X, +X, -Y, +Y, -Z, +Z) where the meshes bound a box of free cells."""
@@ -103,6 +107,18 @@ class Surroundings:
         low, high = box.low.copy(), box.high.copy()
         (high if is_high else low)[axis] = steps[last]
         return Box(low, high)
+
+    def meets_a_drawer(self, box: Box, face: int) -> bool:
+        """Whether a box ends, at a face, where a drawer begins that takes most of it across: no board parts the two."""
+        axis, is_high = divmod(face, 2)
+        across = [k for k in range(3) if k != axis]
+        for own in self._drawers:
+            gap = own.low[axis] - box.high[axis] if is_high else box.low[axis] - own.high[axis]
+            sides = np.minimum(own.high, box.high)[across] - np.maximum(own.low, box.low)[across]
+            is_most = (sides > 0).all() and np.prod(sides) >= _MOSTLY * np.prod(box.size[across])
+            if is_most and abs(float(gap)) <= _BEYOND * self._cell:
+                return True
+        return False
 
     def movers_before(self, box: Box, opening: int) -> tuple[str, ...]:
         """Returns the movers whose boxes lie before a box, seen from its opening, and overlap it across."""
