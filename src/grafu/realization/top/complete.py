@@ -136,17 +136,17 @@ def _seen(roles: Roles, config: TopConfig, metre: float) -> tuple[Views, Coverag
     """Returns furniture from above, its two maps, and the basins in it: their rims are none that a top closes."""
     bowls = bowls_of(roles, metre)
     if bowls:
-        views = _views_without(bowls, roles, metre)
+        views = views_of(_without(bowls, roles), metre)
         basins = basins_of(bowls, views, coverage_of(views, config, metre), metre)
         if basins:
-            views = _views_without(basins, roles, metre)
+            views = views_of(_without(basins, roles), metre)
             return views, coverage_of(views, config, metre, cells_of(basins, views)), basins
     views = views_of(roles, metre)
     return views, coverage_of(views, config, metre), ()
 
 
-def _views_without(some: tuple[Part, ...], roles: Roles, metre: float) -> Views:
-    return views_of(replace(roles, still=tuple(p for p in roles.still if p not in some)), metre)
+def _without(some: tuple[Part, ...], roles: Roles) -> Roles:
+    return replace(roles, still=tuple(p for p in roles.still if p not in some))
 
 
 def _judged(
@@ -177,7 +177,7 @@ def _slab(
     roles: Roles, views: Views, coverage: Coverage, basins: tuple[Part, ...], config: TopConfig, metre: float
 ) -> tuple[TriangleMesh, Polygon] | None:
     """Returns the slab and its outline from above; None where nothing carries one."""
-    rim = rim_of(roles, views, coverage, metre)
+    rim = rim_of(_without(basins, roles), views, coverage, metre)
     if rim is None:
         return None
     unit = float(views.grid.cell) * max(views.grid.shape)

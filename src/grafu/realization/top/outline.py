@@ -4,7 +4,7 @@ Rectangles stay rectangles, L-shaped, cut-off and bowed outlines keep their shap
 through the top (backs, posts, towers, a basin's rim) is left out of it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -19,7 +19,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.top.config import TopConfig
 from grafu.realization.top.coverage import Coverage
-from grafu.realization.top.height_map import CellMask
+from grafu.realization.top.height_map import CellMask, heights_of
 from grafu.realization.top.roles import Closed, Roles, triangles_of
 from grafu.realization.top.section import (
     EMPTY,
@@ -66,8 +66,8 @@ class Rim:
 
 
 def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim | None:
-    """Returns the rim around an opening; None where nothing still carries a top."""
-    seat = _seat(views, coverage, metre)
+    """Returns the rim around an opening, in roles without basins; None where nothing still carries a top."""
+    seat = _seat(roles, views, coverage, metre)
     if seat is None:
         return None
     triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, metre)
@@ -182,10 +182,16 @@ def one_piece(shape: BaseGeometry, coverage: Coverage, metre: float) -> Polygon 
     return plain if isinstance(plain, Polygon) and plain.is_valid and plain.area > 0 else best
 
 
-def _seat(views: Views, coverage: Coverage, metre: float) -> float | None:
-    """Returns the greatest height at which enough of the rim ends; single points a little higher lift it."""
+def _seat(roles: Roles, views: Views, coverage: Coverage, metre: float) -> float | None:
+    """Returns the greatest height at which enough of the rim ends; single points a little higher lift it.
+
+    What begins above the rim stood on the top and carries none.
+    """
     if coverage.level is None:
         return None
+    carriers = [p for p in roles.still if p.box.low[2] < coverage.level + _SLOT[0] * metre]
+    if len(carriers) < len(roles.still):
+        views = replace(views, still=heights_of(triangles_of(p.mesh for p in carriers), views.grid))
     around = ndimage.binary_dilation(coverage.opened, iterations=coverage.grid.cells(_RIM * metre))
     low, high = coverage.level - _NEAR_RIM[0] * metre, coverage.level + _NEAR_RIM[1] * metre
     rim = around & (views.still >= low) & (views.still <= high)
