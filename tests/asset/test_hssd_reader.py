@@ -13,7 +13,7 @@ from grafu.geometry.transform import transform_points
 from grafu.synth.kinds import KINDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import WORDS, hssd_model
-from small_assets import Y_UP, glb_bytes, gltf_document
+from small_assets import Y_UP, glb_bytes, gltf_document, mesh_of
 
 PAIR, CORNER, BEHIND = "overlay pair", "corner door at 45 degrees", "drawers behind a pair"
 
@@ -324,18 +324,43 @@ def test_inspect_tells_kind_parts_and_joints(tmp_path, capsys):
     assert "revolute" in said
 
 
-def test_a_mesh_of_several_primitives_may_be_counted_whole(tmp_path):
-    """Where the counting by primitives does not fit, a node's triangles are counted through."""
-    document, binary = gltf_document(["vertical_side_panel-1", "shelf-6", "top_panel-3"])
+def two_primitives(folder: Path, runs, boxes=()):
+    """Writes a GLB of two meshes, the first of two primitives (a side, a shelf), the second a top; 12 faces each."""
+    names = ["vertical_side_panel-1", "shelf-6", "top_panel-3"]
+    document, binary = gltf_document(names)
     primitives = [mesh["primitives"][0] for mesh in document["meshes"]]
     document["meshes"] = [{"primitives": primitives[:2]}, {"primitives": primitives[2:]}]
     document["nodes"] = [{"mesh": 0}, {"mesh": 1}]
     document["scenes"] = [{"nodes": [0, 1]}]
-    path = tmp_path / "two.glb"
+    path = folder / "two.glb"
     path.write_bytes(glb_bytes(document, binary))
-    runs = ([{"meshIndex": 0, "triIndex": [[0, 12]]}], [{"meshIndex": 0, "triIndex": [[12, 24]]}], [{"meshIndex": 1}])
-    parts = [{"pid": k, "label": "base", "partInfo": {"meshTri": run}} for k, run in enumerate(runs)]
+    parts = [{"pid": k, "label": "base", "partInfo": {"meshTri": [run]}} for k, run in enumerate(runs)]
+    for part, name in zip(parts, boxes, strict=False):
+        corners = mesh_of(name).vertices @ Y_UP.T
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        axes = list(np.eye(3).flat)
+        part["obb"] = {"centroid": list((low + high) / 2), "axesLengths": list(high - low), "normalizedAxes": axes}
     path.with_name("two.artpre.json").write_text(json.dumps({"parts": parts}))
-    asset = load_asset(path)
-    sizes = sorted(round(float(p.box.size.max()), 3) for p in asset.parts)
-    assert sizes == [0.76, 0.8, 0.98]
+    return path
+
+
+def test_a_mesh_of_several_primitives_may_be_counted_whole(tmp_path):
+    """Where the counting by primitives does not fit, a node's triangles are counted through."""
+    runs = ({"meshIndex": 0, "triIndex": [[0, 12]]}, {"meshIndex": 0, "triIndex": [[12, 24]]}, {"meshIndex": 1})
+    asset = load_asset(two_primitives(tmp_path, runs))
+    assert [round(float(p.box.size.max()), 3) for p in asset.parts] == [0.98, 0.76, 0.8]
+
+
+@pytest.mark.parametrize(
+    ("boxes", "longest"),
+    [
+        (("vertical_side_panel-1", "shelf-6"), [0.98, 0.76, 0.8]),  # by primitives, the rest is the top
+        (("vertical_side_panel-1", "top_panel-3"), [0.98, 0.8, 0.76]),  # by nodes, the rest is the shelf
+    ],
+)
+def test_where_both_ways_of_counting_fit_the_annotated_boxes_decide(tmp_path, boxes, longest):
+    runs = ({"meshIndex": 0, "triIndex": [[0, 12]]}, {"meshIndex": 1, "triIndex": [[0, 12]]})
+    asset = load_asset(two_primitives(tmp_path, runs, boxes))
+    assert [round(float(p.box.size.max()), 3) for p in asset.parts] == longest
+    assert asset.parts[2].source.name == "rest"
+    assert not any("elsewhere" in note for note in asset.notes)

@@ -104,17 +104,22 @@ def _up_axis(annotation: HssdAnnotation) -> int:
 
 
 def _fitting(nodes: tuple[tuple[Surface, ...], ...], annotation: HssdAnnotation, path: Path) -> list[_Mesh]:
-    """Returns the meshes as the annotation counts them: each primitive one, or else each node's.
+    """Returns the meshes as the annotation counts them: each primitive one, or each node's as one.
+
+    Where both may be meant, the one counts that puts more parts where the annotation says that they are.
 
     Raises:
         UnreadableAsset: if it names a mesh or triangle that is there in neither way of counting.
     """
     primitives = [_Mesh((surface,)) for surfaces in nodes for surface in surfaces]
     whole = [_Mesh(surfaces) for surfaces in nodes]
-    misfit = _misfit(primitives, annotation)
-    if misfit and _misfit(whole, annotation):
+    fitting = [meshes for meshes in (primitives, whole) if not _misfit(meshes, annotation)]
+    if not fitting:
+        misfit = _misfit(primitives, annotation)
         raise UnreadableAsset(f"{path}: {misfit}; the annotation is of another model: fetch both again")
-    return whole if misfit else primitives
+    if len(fitting) == 1 or len(primitives) == len(whole):
+        return fitting[0]
+    return min(fitting, key=lambda meshes: len(_strays(annotation, _cut(meshes, annotation)[0])))
 
 
 def _misfit(meshes: list[_Mesh], annotation: HssdAnnotation) -> str:
@@ -252,12 +257,18 @@ def _box(surfaces: tuple[Surface, ...]) -> Box:
 
 def _misplaced(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]]) -> list[str]:
     """Returns a note where parts lie elsewhere than the boxes that the annotation states for them."""
+    strays = _strays(annotation, cut)
+    if not strays:
+        return []
+    count = len(annotation.parts)
+    return [f"{len(strays)} of {count} parts lie elsewhere than annotated (part {strays[0]}): joints may be misplaced"]
+
+
+def _strays(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]]) -> list[str]:
+    """Returns the pids of the parts whose triangles lie elsewhere than the annotation's boxes."""
     boxes = {pid: _box(surfaces) for pid, surfaces in cut.items() if surfaces}
     if not boxes:
         return []
     reach = _AGREES * Box.around(np.vstack([b.corners() for b in boxes.values()])).diagonal
-    pairs = [(p, boxes[p.pid]) for p in annotation.parts if p.box is not None and p.pid in boxes]
-    off = [p.pid for p, box in pairs if p.box is not None and np.abs(p.box.center - box.center).max() > reach]
-    if not off:
-        return []
-    return [f"{len(off)} of {len(pairs)} parts lie elsewhere than annotated (part {off[0]}): joints may be misplaced"]
+    pairs = [(p.pid, p.box, boxes[p.pid]) for p in annotation.parts if p.box is not None and p.pid in boxes]
+    return [pid for pid, stated, box in pairs if np.abs(stated.center - box.center).max() > reach]
