@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from grafu.geometry import intersection
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, MovingBody, shrunk
+from grafu.geometry.intersection import MeshCollider, MovingBody, share_shape, shrunk
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 
@@ -88,6 +88,41 @@ def test_shrinking_moves_each_side_of_its_own_box_in_by_the_depth(depth, yaw):
 def test_thin_sides_keep_a_fifth():
     sheet = shrunk(box_mesh((0.0, 0.0, 0.0), (1.0, 0.001, 1.0)), 0.01)
     np.testing.assert_allclose(sheet.box.size, [0.98, 0.0002, 0.98])
+
+
+@given(st.floats(-np.pi, np.pi), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(-np.pi, np.pi))
+def test_a_copy_that_shares_its_shape_stands_where_it_was_moved_to(angle, x, y, turn):
+    T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), angle), vec3(x, y, 0.3))
+    own, shared, twice = CUBE.transformed(T), CUBE.transformed(T), CUBE.transformed(T @ T)
+    share_shape(shared, CUBE, T)
+    share_shape(twice, shared, T)
+    pairs = [(MeshCollider(own), MeshCollider(shared)), (MeshCollider(CUBE.transformed(T @ T)), MeshCollider(twice))]
+    pose = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), turn), vec3(-0.5, 0.1, 0.0))
+    for one, other in pairs:
+        assert other.distance(WALL) == pytest.approx(one.distance(WALL), abs=1e-9)
+        one.place(pose)
+        other.place(pose)
+        assert other.distance(WALL) == pytest.approx(one.distance(WALL), abs=1e-9)
+
+
+@given(st.floats(0.01, 3.0), st.floats(0.0, 3.0))
+def test_within_reach_is_what_is_no_farther(gap, reach):
+    cube = MeshCollider(CUBE)
+    cube.place(translation(vec3(-gap, 0.0, 0.0)))
+    if abs(gap - reach) > 1e-9:
+        assert cube.is_within(reach, WALL) == (gap < reach)
+
+
+@given(st.floats(-0.05, 0.05))
+def test_a_body_of_pieces_is_what_it_is_as_one(reach):
+    pieces = [box_mesh((0.0, 0.0, 0.0), (0.4, 1.0, 1.0)), box_mesh((0.3, 0.0, 0.0), (1.0 + reach, 1.0, 1.0))]
+    whole = merge_meshes(pieces)
+    bodies = [MovingBody(whole, DEPTH), MovingBody(whole, DEPTH, pieces=pieces)]
+    for body in bodies:
+        body.place(HOME)
+    assert bodies[0].touches(WALL) == bodies[1].touches(WALL)
+    assert bodies[0].penetrated([WALL]) == bodies[1].penetrated([WALL])
+    assert bodies[0].distance(WALL) == pytest.approx(bodies[1].distance(WALL))
 
 
 @pytest.mark.parametrize(("reach", "cuts"), [(-0.5, False), (0.0, False), (0.9, False), (2.1, True), (5.0, True)])

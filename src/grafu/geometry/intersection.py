@@ -5,7 +5,7 @@ pass through one another cut surfaces, which is what is asked here.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 from weakref import finalize
 
@@ -31,12 +31,14 @@ _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
 class _Model:
     """A BVH, and for each face of its mesh the face that stands for it in the BVH (none: each stands for itself).
 
-    Real furniture draws most faces twice, front and back; once is enough to be hit.
+    Real furniture draws most faces twice, front and back; once is enough to be hit. `pose` is where the BVH stands when
+    the mesh is at rest (none: where it was built).
     """
 
     bvh: fcl.BVHModel
     kept: Indices
     stand_in: Int[np.ndarray, " faces"] | None
+    pose: Mat4 | None = None
 
     def faces(self, hit: set[int]) -> set[int]:
         """Returns the mesh's faces that the BVH's faces stand for."""
@@ -55,6 +57,18 @@ def _model(mesh: TriangleMesh) -> _Model:
         _models[key] = _built(mesh)
         finalize(mesh, _models.pop, key, None)
     return _models[key]
+
+
+def share_shape(copy: TriangleMesh, original: TriangleMesh, T: Mat4) -> None:
+    """Lets `copy`, which is `original` mapped by the rotation and shift T, be tested with the original's BVH.
+
+    Building one takes longer than most tests: it spares as many as there are places where a thing is tried.
+    """
+    model = _model(original)
+    pose = T if model.pose is None else T @ model.pose
+    if id(copy) not in _models:
+        finalize(copy, _models.pop, id(copy), None)
+    _models[id(copy)] = replace(model, pose=pose)
 
 
 def _built(mesh: TriangleMesh) -> _Model:
@@ -82,14 +96,21 @@ class MeshCollider:
         self._low, self._high = mesh.box.low, mesh.box.high
         self._pose: tuple[Mat3, Vec3] | None = None
         self._made: fcl.CollisionObject | None = None
+        self._start: Mat4 | None = None
 
     @property
     def _object(self) -> fcl.CollisionObject:
         """The FCL object in its present pose; the BVH is built when first asked for."""
         if self._made is None:
-            self._made = fcl.CollisionObject(_model(self._mesh).bvh)
+            model = _model(self._mesh)
+            self._made, self._start = fcl.CollisionObject(model.bvh), model.pose
+            if self._pose is None and self._start is not None:
+                self._pose = (np.eye(3), np.zeros(3))
         if self._pose is not None:
-            self._made.setTransform(fcl.Transform(*self._pose))
+            R, t = self._pose
+            if self._start is not None:
+                R, t = R @ self._start[:3, :3], R @ self._start[:3, 3] + t
+            self._made.setTransform(fcl.Transform(R, t))
             self._pose = None
         return self._made
 
@@ -126,6 +147,10 @@ class MeshCollider:
         apart = np.maximum(np.maximum(self._low - other._high, other._low - self._high), 0.0)
         return float(np.linalg.norm(apart))
 
+    def is_within(self, reach: float, other: "MeshCollider") -> bool:
+        """Whether the two, as posed, come within `reach` metres of one another."""
+        return self.box_gap(other) <= reach and self.distance(other) <= reach
+
     def distance(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the two as posed, 0 where they intersect."""
         if self.intersects(other):
@@ -158,11 +183,15 @@ class MovingBody:
     It penetrates an obstacle when it still intersects it after it was shrunk by `depth` on each side, and still does so
     after a further shift by `depth` along each of the six directions of its own box: faces that merely lie flush come
     free in one of them. A single face thus counts as cut from twice the depth on.
+
+    `pieces` are meshes that make up the body (none: it is one): what was tested before is not prepared anew.
     """
 
-    def __init__(self, mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> None:
+    def __init__(
+        self, mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None, pieces: Sequence[TriangleMesh] = ()
+    ) -> None:
         axes = np.eye(3) if rotation is None else rotation
-        self._plain = MeshCollider(mesh)
+        self._plain = [MeshCollider(piece) for piece in pieces or (mesh,)]
         self._shrunk = MeshCollider(shrunk(mesh, depth, axes))
         self._T: Mat4 = np.eye(4)
         self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
@@ -170,11 +199,12 @@ class MovingBody:
     def place(self, T: Mat4) -> None:
         """Poses the body at T for the queries that follow."""
         self._T = T
-        self._plain.place(T)
+        for piece in self._plain:
+            piece.place(T)
 
     def touches(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, shares a point with the obstacle."""
-        return self._plain.intersects(obstacle)
+        return any(piece.intersects(obstacle) for piece in self._plain)
 
     def penetrates(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, cuts into the obstacle by more than the depth."""
@@ -185,7 +215,7 @@ class MovingBody:
 
         They count together: a body wedged between two obstacles comes free of each in some direction, of both in none.
         """
-        if not any(self._plain.intersects(obstacle) for obstacle in obstacles):
+        if not any(self.touches(obstacle) for obstacle in obstacles):
             return []
         self._shrunk.place(self._T)
         met = [k for k, obstacle in enumerate(obstacles) if self._shrunk.intersects(obstacle)]
@@ -205,4 +235,4 @@ class MovingBody:
 
     def distance(self, obstacle: MeshCollider) -> float:
         """Returns the distance in metres of the body, as posed, from the obstacle; 0 where they intersect."""
-        return self._plain.distance(obstacle)
+        return min(piece.distance(obstacle) for piece in self._plain)

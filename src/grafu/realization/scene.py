@@ -121,17 +121,10 @@ class Scene:
         others = (other for other in self.movers if other != mover_id)
         return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
 
-    def distance_to_static(self, mesh: TriangleMesh, enough: float) -> float:
-        """Returns the distance of a mesh from the static parts; anything up to `enough` counts as found."""
+    def is_near_static(self, mesh: TriangleMesh, within: float) -> bool:
+        """Whether a mesh comes within so many metres of a static part."""
         collider = MeshCollider(mesh)
-        nearest = float("inf")
-        for obstacle in self.static_obstacles:
-            if obstacle.collider.box.gap(mesh.box) > min(nearest, max(enough, 0.1 * self.unit)):
-                continue
-            nearest = min(nearest, collider.distance(obstacle.collider))
-            if nearest <= enough:
-                break
-        return nearest
+        return any(collider.is_within(within, obstacle.collider) for obstacle in self.static_obstacles)
 
     def hardware_of(self, mover_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a mover."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.candidates import PinCandidate
@@ -70,4 +71,6 @@ def fit_hinge(model: HingeModel, size: HingeSize, frame: BorderFrame, pin: PinCa
     T = frame.T_object_border @ from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), pin.roll), vec3(pin.x, pin.y, z))
     static = Visual("hinge_static", template.static.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
     dynamic = Visual("hinge_dynamic", template.dynamic.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
+    share_shape(static.mesh, template.static.mesh, T)
+    share_shape(dynamic.mesh, template.dynamic.mesh, T)
     return FittedHinge(template, T, static, dynamic)

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
@@ -39,6 +40,7 @@ class Site:
     door_body: MovingBody
     scene: Scene
     static_rays: RayCaster
+    door_rays: RayCaster
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Neighbour, ...]
     motion: Motion
@@ -61,10 +63,21 @@ class InstalledHinge:
     dynamic: tuple[Visual, ...]
     struck_by: tuple[str, ...] = ()
 
+    @property
+    def static_meshes(self) -> list[TriangleMesh]:
+        """The meshes of the static end."""
+        return [visual.mesh for visual in self.static]
+
+    @property
+    def dynamic_meshes(self) -> list[TriangleMesh]:
+        """The meshes of the moving end."""
+        return [visual.mesh for visual in self.dynamic]
+
 
 def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge | None:
     """Returns the hinge anchored on both sides; None where it finds no hold or gets in the way."""
-    static, dynamic = _anchored_static(hinge, pin, site), _anchored_dynamic(hinge, site)
+    dynamic = _anchored_dynamic(hinge, site)
+    static = _anchored_static(hinge, pin, site) if dynamic else None
     if static is None or dynamic is None:
         return None
     return judged_hinge(InstalledHinge(static, dynamic), site)
@@ -72,10 +85,10 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
 
 def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
     """Returns the hinge with who would run into it; None where an end cuts into the other side or a mover at rest."""
-    if _static_in_the_way(hinge.static, site) or _dynamic_in_the_way(hinge.dynamic, site):
+    static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
+    if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
         return None
-    static, dynamic = (merge_meshes([v.mesh for v in end]) for end in (hinge.static, hinge.dynamic))
-    struck_by = [n.id for n in site.neighbours if n.runs_into(static) or _strikes_closed(n, dynamic, site)]
+    struck_by = [n.id for n in site.neighbours if n.runs_into(*static) or _strikes_closed(n, dynamic, site)]
     if _blocks_itself(hinge, site):
         struck_by.append(site.mover)
     return replace(hinge, struck_by=tuple(struck_by))
@@ -83,42 +96,43 @@ def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
 
 def _blocks_itself(hinge: InstalledHinge, site: Site) -> bool:
     """Whether a support block of one end cuts into the other end; without blocks the template keeps them apart."""
-    static, dynamic = ([v.mesh for v in end] for end in (hinge.static, hinge.dynamic))
+    static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
     pairs = [(static, dynamic[1:]), (static[1:], dynamic[:1])]
     return any(
-        not is_free(
-            MovingBody(merge_meshes(moving), site.depth),
-            site.motion,
-            site.upper,
-            [Obstacle("hinge", MeshCollider(merge_meshes(still)))],
-            _POSES,
-        )
+        not is_free(_body(moving, site), site.motion, site.upper, _standing(still), _POSES)
         for still, moving in pairs
         if still and moving
     )
 
 
-def _strikes_closed(neighbour: Neighbour, dynamic: TriangleMesh, site: Site) -> bool:
+def _body(meshes: list[TriangleMesh], site: Site) -> MovingBody:
+    return MovingBody(merge_meshes(meshes), site.depth, pieces=meshes)
+
+
+def _standing(meshes: list[TriangleMesh]) -> list[Obstacle]:
+    return [Obstacle("hinge", MeshCollider(mesh)) for mesh in meshes]
+
+
+def _strikes_closed(neighbour: Neighbour, dynamic: list[TriangleMesh], site: Site) -> bool:
     """Whether a neighbour runs into the moving end while the door is closed, though not into the door itself."""
-    return neighbour.runs_into(dynamic) and not neighbour.runs_into(site.door)
+    return neighbour.runs_into(*dynamic) and not neighbour.runs_into(site.door)
 
 
-def _static_in_the_way(static: tuple[Visual, ...], site: Site) -> bool:
+def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
     """Whether the door, another mover at rest, or other hardware cuts into the static hardware."""
-    collider = MeshCollider(merge_meshes([v.mesh for v in static]))
-    if not is_free(site.door_body, site.motion, site.upper, [Obstacle("hinge", collider)], 2 * _POSES):
+    if not is_free(site.door_body, site.motion, site.upper, _standing(static), 2 * _POSES):
         return True
-    body = MovingBody(merge_meshes([v.mesh for v in static]), site.depth)
+    body = _body(static, site)
     body.place(np.eye(4))
     others = (*(n.at_rest for n in site.neighbours), *(o.collider for o in site.scene.static_hardware))
     return any(body.penetrates(other) for other in others)
 
 
-def _dynamic_in_the_way(dynamic: tuple[Visual, ...], site: Site) -> bool:
+def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
     """Whether the moving hardware cuts into static parts somewhere, or into other movers at rest."""
-    mesh = merge_meshes([v.mesh for v in dynamic])
-    body = MovingBody(mesh, site.depth)
-    near = in_the_way(site.obstacles, swept_box(mesh.box, site.motion, site.upper))
+    body = _body(dynamic, site)
+    box = Box.around(np.vstack([mesh.box.corners() for mesh in dynamic]))
+    near = in_the_way(site.obstacles, swept_box(box, site.motion, site.upper))
     if not is_free(body, site.motion, site.upper, near, _POSES):
         return True
     body.place(np.eye(4))
@@ -129,9 +143,9 @@ def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.let_in:
         tongue = _tongue(hinge, pin, site.frame)
-        held = site.scene.distance_to_static(tongue.mesh, site.anchor) <= site.anchor
+        held = site.scene.is_near_static(tongue.mesh, site.anchor)
         return (hinge.static, tongue) if held else None
-    if site.scene.distance_to_static(hinge.static.mesh, site.anchor) <= site.anchor:
+    if site.scene.is_near_static(hinge.static.mesh, site.anchor):
         return (hinge.static,)
     snap = hinge.template.static.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.static, snap, site.static_rays, site)
@@ -139,12 +153,10 @@ def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple
 
 def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | None:
     """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
-    if MeshCollider(hinge.dynamic.mesh).distance(MeshCollider(site.door)) <= site.anchor:
+    if MeshCollider(hinge.dynamic.mesh).is_within(site.anchor, MeshCollider(site.door)):
         return (hinge.dynamic,)
     snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
-    return _bridged(
-        hinge.dynamic, snap, RayCaster(site.door), replace(site, reach=min(0.5 * site.frame.width, site.reach))
-    )
+    return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=min(0.5 * site.frame.width, site.reach)))
 
 
 def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:

@@ -32,12 +32,12 @@ class Neighbour:
         self.at_rest = MeshCollider(self.mesh)
         self._part, self._depth = scene.parts[mover_id].mesh, depth
 
-    def runs_into(self, standing: TriangleMesh) -> bool:
-        """Whether it cuts into a standing mesh anywhere on its way."""
-        if self.way is None or not self._swept.overlaps(standing.box):
+    def runs_into(self, *standing: TriangleMesh) -> bool:
+        """Whether it cuts into standing meshes, taken together, anywhere on its way."""
+        if self.way is None:
             return False
-        obstacle = Obstacle(self.id, MeshCollider(standing))
-        return not is_free(self._body, self._motion, self.way.upper, [obstacle], _POSES)
+        near = [Obstacle(self.id, MeshCollider(mesh)) for mesh in standing if self._swept.overlaps(mesh.box)]
+        return bool(near) and not is_free(self._body, self._motion, self.way.upper, near, _POSES)
 
     @cached_property
     def _motion(self) -> Motion:

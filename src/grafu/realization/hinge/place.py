@@ -5,8 +5,10 @@ initial axis) is taken, and its pin becomes the rectified axis. Hardware that an
 left out as long as something else holds the door; the placement notes it.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import final
 
 from grafu.articulation.articulated_object import Visual
 from grafu.realization.hinge.candidates import PinCandidate
@@ -26,19 +28,47 @@ _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more
 _STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
 
+@final
+@dataclass(frozen=True)
+class _Try:
+    """A placement as far as the first hinge that others would run into, and what returns all of it.
+
+    The rest of its hinges is tried only where nothing better is found; None where one of them finds no place.
+    """
+
+    placement: Placement
+    whole: Callable[[], Placement | None]
+
+
 def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
     """Returns the best placement that works; None where no pin can be given hardware.
 
     Where others would run into every placement, it is the first of those that spare the joints that stand already.
     """
-    struck: list[Placement] = []
-    for placement in _placements(search, gallery):
-        if not placement.struck_by and (not struck or placement.upper >= search.config.restricted * search.wanted):
-            return _noted(placement, struck, search.request.moving)
-        struck.append(placement)
-    if not struck:
+    left_out: list[_Try] = []
+    for one in _tries(search, gallery):
+        found = one.placement
+        is_wide = found.upper >= search.config.restricted * search.wanted
+        if not found.struck_by and (is_wide or all(other.whole() is None for other in left_out)):
+            return _noted(found, [other.placement for other in left_out], search.request.moving)
+        left_out.append(one)
+    return _least_struck(left_out, search)
+
+
+def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None:
+    """Returns the first whole placement that the fewest joints that stand would run into."""
+    least: Placement | None = None
+    for one in tries:
+        placement = one.whole()
+        if placement is None:
+            continue
+        hit = _built_ones(placement.struck_by, search)
+        if least is None or len(hit) < len(_built_ones(least.struck_by, search)):
+            least = placement
+        if not hit:
+            break
+    if least is None:
         return None
-    least = min(struck, key=lambda p: len(_built_ones(p.struck_by, search)))
     hits = (f"{name} runs into its hardware" for name in _built_ones(least.struck_by, search))
     return replace(least, notes=tuple(hits))
 
@@ -63,7 +93,7 @@ def _noted(placement: Placement, left_out: Sequence[Placement], mover: str) -> P
     return replace(placement, notes=tuple(notes))
 
 
-def _placements(search: DoorSearch, gallery: Gallery) -> Iterator[Placement]:
+def _tries(search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
     """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
     tried = 0
     for judged in search.in_order():
@@ -74,7 +104,7 @@ def _placements(search: DoorSearch, gallery: Gallery) -> Iterator[Placement]:
         yield from install_at(judged, search, gallery)
 
 
-def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Iterator[Placement]:
+def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
     """Yields the placements of the templates of the pin's class whose hinges all fit."""
     count = hinge_count(search.frame.length)
     for model in gallery.hinges_of(judged.pin.mechanism):
@@ -84,13 +114,13 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
         if upper < _LEAST_SHARE * search.wanted:
             return
-        site = _site(judged, upper, search)
-        hinges = _installed(model, judged.pin, site, count, search)
-        if hinges:
-            yield _placement(judged, model.id, upper, hinges, search)
+        attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
+        placement = attempt(is_whole=False)
+        if placement is not None:
+            yield _Try(placement, partial(attempt, is_whole=True))
 
 
-def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[Placement]:
+def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[_Try]:
     """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
     if upper < _LEAST_SHARE * search.wanted:
@@ -103,7 +133,8 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[
     held = [hinge for hinge in judgements if hinge is not None]
     free = [hinge for hinge in held if not hinge.struck_by]
     if held:
-        yield _placement(judged, PIVOT, upper, free or held, search)
+        placement = _placement(judged, PIVOT, upper, free or held, search)
+        yield _Try(placement, lambda: placement)
 
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
@@ -116,9 +147,10 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         door_body=search.body,
         scene=search.scene,
         static_rays=search.static_rays,
+        door_rays=search.door_rays,
         obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
         neighbours=search.movers_around,
-        motion=motion_about(judged.axis, JointType.REVOLUTE),
+        motion=cache(motion_about(judged.axis, JointType.REVOLUTE)),
         upper=upper,
         depth=search.depth,
         anchor=search.config.anchor * unit,
@@ -126,23 +158,38 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
     )
 
 
+def _attempted(
+    model: HingeModel, judged: JudgedPin, site: Site, count: int, search: DoorSearch, is_whole: bool
+) -> Placement | None:
+    """Returns a placement of one model at one pin; unless `is_whole`, it ends with the first hinge that is struck."""
+    hinges: list[InstalledHinge] = []
+    for hinge in _installed(model, judged.pin, site, count, search):
+        if hinge is None:
+            return None
+        hinges.append(hinge)
+        if hinge.struck_by and not is_whole:
+            break
+    return _placement(judged, model.id, site.upper, hinges, search) if hinges else None
+
+
 def _installed(
     model: HingeModel, pin: PinCandidate, site: Site, count: int, search: DoorSearch
-) -> list[InstalledHinge]:
-    """Returns one hinge per height, each shifted along the pin where its place is taken; empty where one finds none."""
+) -> Iterator[InstalledHinge | None]:
+    """Yields one hinge per height, each shifted along the pin where its place is taken; None where it finds none."""
     size = hinge_size(model, search.frame, pin, count)
     if size is None:
-        return []
-    placed: dict[float, InstalledHinge] = {}
+        return
+    taken: list[float] = []
     for z in hinge_heights(search.frame.length, count):
         levels = [float(z) + share * search.frame.length for share in _HEIGHT_SHIFTS]
-        free = (level for level in levels if all(abs(level - other) > size.length for other in placed))
+        free = (level for level in levels if all(abs(level - other) > size.length for other in taken))
         tries = ((level, install(fit_hinge(model, size, search.frame, pin, level), pin, site)) for level in free)
         found = _first_unstruck((level, hinge) for level, hinge in tries if hinge is not None)
         if found is None:
-            return []
-        placed[found[0]] = found[1]
-    return list(placed.values())
+            yield None
+            return
+        taken.append(found[0])
+        yield found[1]
 
 
 def _first_unstruck(hinges: Iterator[tuple[float, InstalledHinge]]) -> tuple[float, InstalledHinge] | None:

@@ -84,6 +84,11 @@ class DoorSearch:
         return RayCaster(self.scene.static_mesh_near(box, 0.25 * float(box.size.max())))
 
     @cached_property
+    def door_rays(self) -> RayCaster:
+        """The door and all that rides on it, prepared for rays."""
+        return RayCaster(self.scene.moving_mesh(self.request.moving))
+
+    @cached_property
     def movers_around(self) -> tuple[Neighbour, ...]:
         """The other movers, with the ways that they take or are expected to take."""
         return neighbours_of(self.request.moving, self.scene, self.depth)

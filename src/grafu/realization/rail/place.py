@@ -86,7 +86,7 @@ def _anchored(
     static, dynamic = template.static.transformed(T), template.dynamic.transformed(T)
     held_static = [_visual(f"rail_{name}_{side}_static", static)]
     held_dynamic = [_visual(f"rail_{name}_{side}_dynamic", dynamic)]
-    if search.scene.distance_to_static(static.mesh, anchor) > anchor:
+    if not search.scene.is_near_static(static.mesh, anchor):
         bridge = shortest_bridge(_footings(static, T), search.static_rays, search.config.bridge * search.scene.unit)
         if bridge is None:
             return None
