@@ -7,17 +7,20 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from grafu.asset.foreign.box_overlap import intersection_over_union
 from grafu.asset.foreign.motions import ForeignMotions, ForeignPart
-from grafu.asset.part import Asset
-from grafu.geometry.arrays import Mat4, Points
+from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import Mat4, Points, Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import invert, scale_of, transform_points
 from grafu.vocabulary import PartLabel
+
+Boxes = Float[np.ndarray, "_ 2 3"]  # low and high corners
 
 _ASKED = 64  # points of each of the asset's parts
 _DRAWN = 30_000  # points of the whole prediction, spread evenly: a part is as finely drawn as any other
@@ -64,13 +67,14 @@ class Comparison:
         self.points = np.vstack(list(self._outlines.values()))
         self._asked = [_points_of(part.mesh, _ASKED) for part in asset.parts]
         self._boxes = [part.box for part in asset.parts]
-        area = sum(part.mesh.area for part in foreign.parts if not part.is_box)
-        self._shapes = [_Shape(part, area, foreign.body_of[part.name] is not None) for part in foreign.parts]
+        area = sum((part.mesh.area for part in foreign.parts if not part.is_box), start=0.0)
+        self._shapes = [_Shape(part, area) for part in foreign.parts]
+        self._theirs = np.array([[part.mesh.box.low, part.mesh.box.high] for part in foreign.parts])
+        self._looseness = np.array([_LOOSE_BOX if part.is_box else _LOOSE_MESH for part in foreign.parts])
+        self._contradicted = np.array([[self._disagrees(mine, part) for part in foreign.parts] for mine in asset.parts])
 
     def agreement(self, T_object_foreign: Mat4) -> Agreement:
         """Returns how well the parts agree where the prediction is drawn in this frame."""
-        if self._apart(T_object_foreign):
-            return Agreement((None,) * len(self.asset.parts), 1.0, 0.0)
         return self._in_order(T_object_foreign) or self._compared(self._covering(T_object_foreign), T_object_foreign)
 
     def _compared(self, part_of: tuple[str | None, ...], T_object_foreign: Mat4) -> Agreement:
@@ -91,10 +95,14 @@ class Comparison:
     def _bodies(self) -> tuple[str | None, ...]:
         return tuple(dict.fromkeys(self.foreign.body_of.values()))
 
-    def _apart(self, T: Mat4) -> bool:
-        """Whether the two as a whole are of different sizes or in different places."""
-        whole = Box.around(transform_points(T, self.points))
-        return intersection_over_union(whole, self.asset.box, _SLACK * self.asset.unit) < 0.2
+    def whole_overlap(self, T_object_foreign: Mat4) -> float:
+        """Returns the intersection over union of the two as a whole."""
+        whole = Box.around(transform_points(T_object_foreign, self.points))
+        return intersection_over_union(whole, self.asset.box, _SLACK * self.asset.unit)
+
+    def _disagrees(self, mine: Part, theirs: ForeignPart) -> bool:
+        moves = self.foreign.body_of[theirs.name] is not None
+        return mine.label is not PartLabel.UNKNOWN and label_disagrees(mine.label, theirs.label, moves)
 
     def _in_order(self, T: Mat4) -> Agreement | None:
         """Returns what comes of taking predicted parts for the asset's in order, or None where that fits nothing."""
@@ -113,13 +121,21 @@ class Comparison:
         return Agreement(part_of, residual, max(overlap, LEAST_OVERLAP))
 
     def _covering(self, T: Mat4) -> tuple[str, ...]:
-        T_foreign_object, scale = invert(T), scale_of(T)
+        T_foreign_object, unit = invert(T), self.asset.unit / scale_of(T)
+        corners = [transform_points(T_foreign_object, box.corners()) for box in self._boxes]
+        mine = np.array([[c.min(axis=0), c.max(axis=0)] for c in corners])
+        gaps, unlike = _gaps(mine, self._theirs), 1.0 - _overlaps(mine, self._theirs, _SLACK * unit)
+        small = unit * self._looseness * (unlike + self._contradicted)
         found = []
-        for part, box, points in zip(self.asset.parts, self._boxes, self._asked, strict=True):
+        for k, points in enumerate(self._asked):
             there = transform_points(T_foreign_object, points)
-            mine = Box.around(transform_points(T_foreign_object, box.corners()))
-            costs = [shape.cost(there, mine, self.asset.unit / scale, part.label) for shape in self._shapes]
-            found.append(self.foreign.parts[int(np.argmin(costs))].name)
+            best, cost = 0, np.inf
+            for f in np.argsort(gaps[k] + small[k], kind="stable").tolist():
+                if gaps[k, f] + small[k, f] >= cost:  # no point is nearer than the boxes are
+                    continue
+                own = float(self._shapes[f].distances(there, _FAR * unit).mean()) + small[k, f]
+                best, cost = (f, own) if own < cost else (best, cost)
+            found.append(self.foreign.parts[best].name)
         return tuple(found)
 
     def _box_of(self, body: str | None, part_of: tuple[str | None, ...]) -> Box | None:
@@ -138,24 +154,34 @@ class Comparison:
 class _Shape:
     """A predicted part as something that points lie on, or in."""
 
-    def __init__(self, part: ForeignPart, area: float, moves: bool) -> None:
-        self._box, self._is_box, self._label, self._moves = part.mesh.box, part.is_box, part.label, moves
+    def __init__(self, part: ForeignPart, area: float) -> None:
+        self._box = part.mesh.box
         count = max(_LEAST_DRAWN, int(_DRAWN * part.mesh.area / area)) if area > 0 else _LEAST_DRAWN
         self._tree = None if part.is_box else cKDTree(_points_of(part.mesh, count, _MOST_CORNERS))
 
-    def cost(self, points: Points, box: Box, unit: float, label: PartLabel) -> float:
-        """Returns how far points lie from the part, and a little for what is much smaller, or of another kind."""
-        far = _FAR * unit
-        looseness = (_LOOSE_BOX if self._is_box else _LOOSE_MESH) * unit
-        if self._box.gap(box) > far:
-            return far + looseness
+    def distances(self, points: Points, far: float) -> Scalars:
+        """Returns how far points lie from the part, at most `far`."""
         if self._tree is None:
             gaps = np.linalg.norm(np.maximum(np.abs(points - self._box.center) - self._box.half, 0.0), axis=1)
         else:
             gaps, _ = self._tree.query(points, distance_upper_bound=far)
-        unlike = 1.0 - intersection_over_union(self._box, box, _SLACK * unit)
-        contradicted = label is not PartLabel.UNKNOWN and label_disagrees(label, self._label, self._moves)
-        return float(np.minimum(gaps, far).mean() + looseness * (unlike + contradicted))
+        return np.minimum(gaps, far)
+
+
+def _gaps(a: Boxes, b: Boxes) -> np.ndarray:
+    """Returns how far each box of `a` is from each of `b`."""
+    apart = np.maximum(a[:, None, 0] - b[None, :, 1], b[None, :, 0] - a[:, None, 1])
+    return np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+
+
+def _overlaps(a: Boxes, b: Boxes, margin: float) -> np.ndarray:
+    """Returns the shared over the joint volume of each box of `a` with each of `b`, all grown by `margin`."""
+    grow = np.array([[-margin], [margin]])
+    a, b = a + grow, b + grow
+    shared = np.minimum(a[:, None, 1], b[None, :, 1]) - np.maximum(a[:, None, 0], b[None, :, 0])
+    common = np.prod(np.maximum(shared, 0.0), axis=2)
+    volumes = [np.prod(boxes[:, 1] - boxes[:, 0], axis=1) for boxes in (a, b)]
+    return common / np.maximum(volumes[0][:, None] + volumes[1][None] - common, 1e-300)
 
 
 def _used(mesh: TriangleMesh) -> Points:

@@ -4,6 +4,7 @@ Frames that are known come first, then all quarter turns fitted to the whole box
 image: between frames that fit alike, labels and the way in which joints open decide, and then what is likelier.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -21,6 +22,7 @@ from grafu.geometry.transform import scale_of
 from grafu.vocabulary import JointType, PartLabel
 
 _EXACT = 0.002  # a residual below which nothing needs to be turned straight, as a share of the size
+_WHOLE = 0.6  # what share of the best overlap as a whole a frame must reach to be looked at
 _SOUND = 1e-9  # a residual that is rounding
 _GAIN = 0.9  # what must be left of a residual for another round to be worth it
 _ALIKE = (1.2, 0.005)  # frames fit alike whose residuals are within this factor and this addition of the best
@@ -78,10 +80,9 @@ def match_parts(asset: Asset, foreign: ForeignMotions) -> Match:
     if found[0][1].residual < _EXACT:  # what was made from the same file needs no second look
         return _with_joint_frame(asset, foreign, *found[0])
     others += fitted_frames(foreign, asset.frame, comparison.points, asset.box)
-    found += [(guess, comparison.agreement(guess.T_object_foreign)) for guess in others]
+    found += _weighed(comparison, others)
     if min(agreed.residual for _, agreed in found) > _EXACT:
-        tilted = tilted_frames(comparison.points, asset.box)
-        found += [(guess, comparison.agreement(guess.T_object_foreign)) for guess in tilted]
+        found += _weighed(comparison, tilted_frames(comparison.points, asset.box))
     found = [refined(comparison, *guess) for guess in _best_of_turns(found)]
     matches = [_with_joint_frame(asset, foreign, guess, agreed) for guess, agreed in _best_of_turns(found)]
     best = max(agreed.overlap for _, agreed in found)
@@ -94,6 +95,13 @@ def match_parts(asset: Asset, foreign: ForeignMotions) -> Match:
     if fitting[0].frame == given:
         return fitting[0]
     return min(fitting, key=lambda match: _doubts(asset, foreign, match))
+
+
+def _weighed(comparison: Comparison, guesses: Iterable[FrameGuess]) -> list[tuple[FrameGuess, Agreement]]:
+    """Returns the guesses in which the two as a whole are about alike, with what comes of them."""
+    wholes = [(guess, comparison.whole_overlap(guess.T_object_foreign)) for guess in guesses]
+    least = _WHOLE * max(overlap for _, overlap in wholes)
+    return [(g, comparison.agreement(g.T_object_foreign)) for g, overlap in wholes if overlap >= least]
 
 
 def _best_of_turns(found: list[tuple[FrameGuess, Agreement]]) -> list[tuple[FrameGuess, Agreement]]:
@@ -149,7 +157,7 @@ def _mean_strangeness(asset: Asset, foreign: ForeignMotions, match: Match) -> fl
     return float(np.mean(values)) if values else 0.0
 
 
-def _doubts(asset: Asset, foreign: ForeignMotions, match: Match) -> float:
+def _doubts(asset: Asset, foreign: ForeignMotions, match: Match) -> int:
     """Returns what speaks against a frame: labels that do not go together, joints that open backwards."""
     wrong = [
         label_disagrees(part.label, foreign.labels[name], foreign.body_of[name] is not None)
