@@ -66,6 +66,29 @@ def test_formats_are_a_choice(tmp_path: Path) -> None:
     assert "model.urdf" not in names
 
 
+def test_a_page_for_each_model_and_one_for_several(
+    result: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    first, second = (write_cabinet(tmp_path, name) for name in ("a", "b"))
+    out = tmp_path / "out"
+    arguments = ["functionalize", str(first), str(second), "--out", str(out), "--formats", "urdf", "--jobs", "2"]
+
+    assert "</html>" in (result / "report.html").read_text()
+    assert not (result.parent / "index.html").exists()
+    assert main(arguments) == 0
+    assert 'href="a/report.html"' in (out / "index.html").read_text()
+    assert str(out / "index.html") in capsys.readouterr().out
+    (out / "index.html").write_text("mine")
+    assert main([*arguments, "--overwrite"]) == 0
+    assert (out / "index.html").read_text() == "mine"
+
+
+def test_pages_can_be_left_out(tmp_path: Path) -> None:
+    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--no-page"])
+
+    assert "report.html" not in {p.name for p in (tmp_path / "out" / "cabinet").iterdir()}
+
+
 def test_overwrite_replaces_an_earlier_result(tmp_path: Path) -> None:
     arguments = ["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "urdf"]
     assert main(arguments) == 0
@@ -120,4 +143,5 @@ def test_one_bad_input_does_not_stop_the_others(tmp_path: Path, capsys: pytest.C
     assert "1 of 2 inputs failed" in said.out
     assert str(bad) in said.err
     assert said.err.count("\n") == 1
-    assert [p.name for p in out.iterdir()] == ["cabinet"]
+    assert sorted(p.name for p in out.iterdir()) == ["cabinet", "index.html"]
+    assert "bad" in (out / "index.html").read_text()

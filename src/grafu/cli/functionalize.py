@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
 _DESCRIPTION = """\
 Reads part-segmented furniture (GLB, glTF, URDF, OBJ, a folder of meshes, a PartNet-Mobility folder) and writes for
-each input DIR/<name>/ with model.glb (animated), model.urdf with meshes/, graph.json and report.json.
+each input DIR/<name>/ with model.glb (animated), model.urdf with meshes/, graph.json, report.json and report.html;
+of several inputs DIR/index.html shows all, worst first.
 """
 _EXAMPLES = """\
 examples:
@@ -53,6 +54,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
+    parser.add_argument(
+        "--no-page", action="store_true", help="leave out report.html of each model, and index.html of several"
+    )
     parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
     parser.add_argument("--overwrite", action="store_true", help="replace results that are there already")
     add_addition_options(parser)
@@ -67,11 +71,14 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong; nothing has been written then.
     """
-    from grafu.cli.summary import print_results
+    from grafu.cli.run_page import write_index
+    from grafu.cli.summary import print_place, print_results
 
     jobs = _jobs(options)
     results = [_run_one(jobs[0])] if len(jobs) == 1 else _run_several(jobs, options.jobs or os.cpu_count() or 1)
     print_results(results)
+    if len(results) > 1 and not options.no_page and (page := write_index(results, options.out)):
+        print_place("all on one page", page)
     return _exit_code(results)
 
 
@@ -108,6 +115,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         formats=formats,
         templates=options.templates,
         trim=not options.no_trim,
+        page=not options.no_page,
         additions=addition_config(options, open_handles(options.templates)),
         overwrite=options.overwrite,
         debug=options.debug,

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from grafu.pipeline.functionalize import Functionalized
     from grafu.pipeline.report_schema import Report
 
+MODEL_PAGE = "report.html"
+
 
 @final
 @dataclass(frozen=True)
@@ -35,6 +37,7 @@ class JobOptions:
     formats: tuple[str, ...] = ("glb", "urdf")
     templates: Path | None = None
     trim: bool = True
+    page: bool = True
     additions: "AdditionConfig | None" = None
     overwrite: bool = False
     debug: bool = False
@@ -59,11 +62,15 @@ class Job:
 @final
 @dataclass(frozen=True)
 class Succeeded:
-    """The report of a job that is done, and how long it took from reading to writing, in seconds."""
+    """The report of a job that is done, and how long it took from reading to writing, in seconds.
+
+    `picture` is a small picture of the result for the page of the run; empty where no page was asked for.
+    """
 
     job: Job
     report: "Report"
     seconds: float
+    picture: bytes = b""
 
 
 @final
@@ -83,8 +90,8 @@ def run_job(job: Job) -> JobResult:
     """Returns what came of a job; a failure is a value, but for an interruption."""
     try:
         started = perf_counter()
-        report = _functionalize(job)
-        return Succeeded(job, report, perf_counter() - started)
+        report, picture = _functionalize(job)
+        return Succeeded(job, report, perf_counter() - started, picture)
     except FunctionalizationError as error:
         return Failed(job, one_line(str(error)), users_fault=True)
     except MemoryError:
@@ -93,7 +100,7 @@ def run_job(job: Job) -> JobResult:
         return Failed(job, internal_fault(error, f"`{job.input}`", job.options.debug), users_fault=False)
 
 
-def _functionalize(job: Job) -> "Report":
+def _functionalize(job: Job) -> "tuple[Report, bytes]":
     from grafu.asset.load import load_asset
     from grafu.export.files import write_files
     from grafu.export.formats import export
@@ -121,9 +128,26 @@ def _functionalize(job: Job) -> "Report":
     files = export(result.object, options.formats)
     clock.lap("export")
     outside = {name: seconds for name, seconds in clock.seconds.items() if name != "functionalize"}
-    report = report_of(result, job.name, outside)
+    report, picture = report_of(result, job.name, outside), b""
+    if options.page:
+        page, picture = _page(result, report)
+        files = files.joined(page)
+        clock.lap("page")
+        timings = {**report.timings, "page": round(clock.seconds["page"], 4)}
+        report = report.model_copy(update={"timings": timings})
     write_files(files.joined(_json_files(result, report)), job.folder, options.overwrite)
-    return report
+    return report, picture
+
+
+def _page(result: "Functionalized", report: "Report") -> "tuple[ExportFiles, bytes]":
+    """Returns the page of a model as a file, and a small picture of it for the page of the run."""
+    from grafu.export.files import ExportFiles
+    from grafu.viewer.model_page import model_page
+    from grafu.viewer.pictures import take_stills, thumbnail
+
+    stills = take_stills(result.asset, result.object)
+    page = model_page(result.asset, result.object, result.completion, report, stills)
+    return ExportFiles({MODEL_PAGE: page.encode()}), thumbnail(stills)
 
 
 class _Stopwatch:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from math import degrees
+from pathlib import Path
 
 from rich.markup import escape
 from rich.table import Table
@@ -24,7 +25,12 @@ def print_results(results: Sequence[JobResult]) -> None:
             console.print(_joints_table(report))
         else:
             console.print("nothing moves: no part is a door or a drawer (see `grafu inspect`)")
-        console.print(f"written to {results[0].job.folder}", soft_wrap=True, markup=False, highlight=False)
+        print_place("written to", results[0].job.folder)
+
+
+def print_place(what: str, path: Path) -> None:
+    """Prints where something was written; a path is never folded."""
+    wide_console().print(f"{what} {path}", soft_wrap=True, markup=False, highlight=False)
 
 
 def _joints_table(report: Report) -> Table:

@@ -1,0 +1,115 @@
+"""The page of one model: a single file that opens from a disk, without a network. It writes no files.
+
+A header with the verdict, a 3D view with a slider per joint, pictures, the functional graph, and the report as tables.
+"""
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.asset.part import Asset
+from grafu.export.graph_picture import draw_graph, drawing_svg
+from grafu.graph.completion import GraphCompletion
+from grafu.pipeline.report_schema import Report
+from grafu.viewer.markup import Html, joined, json_block, tag
+from grafu.viewer.pictures import Stills, stills_row
+from grafu.viewer.report_tables import added_table, joints_table, lacks_table, lines, skipped_table, timing_words
+from grafu.viewer.scene_data import scene_data
+from grafu.viewer.shell import section, whole_page
+from grafu.viewer.wording import opening, size_words, verdict
+
+_STYLES = ("page.css", "model.css")
+_SCRIPTS = (
+    "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js", "gestures.js",
+    "overlay.js", "controls.js", "model.js",
+)  # fmt: skip
+_NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
+_HINT = (
+    "Select a part to see its name and its axis. Drag to turn; two fingers or Shift to move; click, then wheel to zoom."
+)
+_SWITCHES = (("hardware", "Hardware", True), ("added", "Added parts", True), ("categories", "Category colours", False))
+
+
+def model_page(
+    asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report, stills: Stills
+) -> str:
+    """Returns the page of a model: what was read, what came of it, and its report as words, tables and pictures."""
+    scene = scene_data(articulated, report)
+    body = joined([
+        tag("header", tag("h1", report.input.name), tag("p", verdict(report), class_="verdict"), _facts(asset, report)),
+        tag("main", _stage(articulated), section("Before and after", stills_row(stills, report.input.name)),
+            *_report_sections(report, completion)),
+        tag("footer", f"grafu {report.version}"),
+        json_block("scene", scene.tables),
+        tag("script", Html(scene.packed), type="text/plain", id="geometry"),
+    ])  # fmt: skip
+    return whole_page(report.input.name, body, _STYLES, _SCRIPTS)
+
+
+def _facts(asset: Asset, report: Report) -> Html:
+    said = (
+        f"{report.input.parts} parts",
+        size_words(asset.box.size.tolist()),
+        f"read as {report.input.kind}",
+        f"motions by {report.motion.source}",
+    )
+    return tag("p", joined(tag("span", fact) for fact in said), class_="facts")
+
+
+def _stage(articulated: ArticulatedObject) -> Html:
+    """Returns the 3D view and what stands beside it; everything is disabled until the script has it."""
+    canvas = tag("canvas", tabindex=0, role="img", aria_label="3D view: arrow keys turn, + and − zoom, Home resets")
+    lines_over = tag("svg", class_="overlay", aria_hidden="true", hidden=True)
+    label = tag("div", class_="label", hidden=True)
+    view = tag("div", canvas, lines_over, label, class_="view")
+    noscript = tag("noscript", tag("p", "The 3D view needs JavaScript; the pictures below do not.", class_="note"))
+    note = tag("p", id="view-note", class_="note", role="status")
+    said = tag("p", _HINT, id="chosen", data_empty=_HINT, aria_live="polite")
+    return tag("section", tag("div", view, said, note, noscript), _panel(articulated), id="stage", aria_label="3D view")
+
+
+def _panel(articulated: ArticulatedObject) -> Html:
+    joints = articulated.moving_joints
+    actions = (("open", "Open all"), ("close", "Close all"), ("play", "Play"))
+    buttons = [tag("button", word, type="button", data_action=action, disabled=True) for action, word in actions]
+    rows = [_slider(index, joint) for index, joint in enumerate(joints)]
+    moving = [tag("div", *buttons, class_="actions"), tag("div", *rows, class_="joints")] if joints else []
+    switches = [_switch(*given) for given in _SWITCHES]
+    return tag("div", *moving, tag("div", *switches, class_="switches"), class_="panel")
+
+
+def _slider(index: int, joint: Joint) -> Html:
+    low, high = (opening(joint.type, value) for value in (joint.limits.lower, joint.limits.upper))
+    name = f"joint-{index}"
+    slider = tag(
+        "input", type="range", id=name, min=0, max=1000, value=0, data_joint=index, disabled=True, autocomplete="off"
+    )
+    limits = tag("span", f"of {high}", class_="limit", title=f"from {low} to {high}")
+    words = tag("div", tag("label", joint.child, for_=name), tag("span", tag("output", low, for_=name), " ", limits))
+    return tag("div", words, slider, class_=f"joint {joint.type.value}")
+
+
+def _switch(key: str, word: str, on: bool) -> Html:
+    box = tag("input", type="checkbox", data_switch=key, checked=on, disabled=True, autocomplete="off")
+    return tag("label", box, " ", word)
+
+
+def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
+    return [
+        section("Joints", joints_table(report, completion), name="joints"),
+        section("What was missing", lacks_table(report)),
+        section("What was added", added_table(report)),
+        section("What was skipped", skipped_table(report)),
+        section("Functional graph", _graph(completion), _legend(), name="graph"),
+        section("How it was read", lines([*report.frame.assumed, *report.input.notes])),
+        section("Time", tag("p", timing_words(report))),
+    ]
+
+
+def _graph(completion: GraphCompletion) -> Html:
+    count = len(completion.completed.nodes)
+    size = (880, 420 if count < 24 else 560)
+    drawing = drawing_svg(draw_graph(completion.completed, size, names=count < _NAMED))
+    return tag("div", Html(drawing), class_="scroll graph", tabindex=0, role="region", aria_label="Functional graph")
+
+
+def _legend() -> Html:
+    words = ("contact", "hinge", "rail", "attached")
+    return tag("p", joined(tag("span", word, class_=f"edge {word}") for word in words), class_="legend")

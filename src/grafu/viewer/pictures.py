@@ -1,0 +1,84 @@
+"""The still pictures of a model's page: as it came, closed and open; small files, drawn on the CPU.
+
+They are clear around the model, so that they stand on light and on dark paper.
+"""
+
+from dataclasses import dataclass
+from io import BytesIO
+from typing import final
+
+import numpy as np
+from PIL import Image
+
+from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
+from grafu.asset.edit import as_static_object
+from grafu.asset.part import Asset
+from grafu.export.camera import three_quarter_view
+from grafu.export.exposure import PictureStyle
+from grafu.export.picture import box_of, opened_values, posed_visuals, render
+from grafu.viewer.markup import Html, joined, tag
+from grafu.viewer.textures import data_uri
+
+SIZE = (320, 240)
+THUMBNAIL = (112, 84)
+MIME = "image/webp"
+_STYLE = PictureStyle(background="transparent")
+_QUALITY = 82
+
+
+@final
+@dataclass(frozen=True)
+class Stills:
+    """WebP files from one camera, `SIZE` in pixels: the input, and the result closed and open.
+
+    `closed` is empty where the closed result shows nothing that the input did not, but for hardware.
+    """
+
+    before: bytes
+    closed: bytes
+    opened: bytes
+
+
+def take_stills(asset: Asset, articulated: ArticulatedObject, size: tuple[int, int] = SIZE) -> Stills:
+    """Returns the pictures of a model before and after."""
+    before, closed = posed_visuals(as_static_object(asset)), posed_visuals(articulated)
+    opened = posed_visuals(articulated, opened_values(articulated))
+    camera = three_quarter_view(box_of([*before, *closed, *opened]), size[0] / size[1])
+
+    def taken(visuals: list[Visual]) -> bytes:
+        return _encoded(Image.fromarray(render(visuals, camera, size, _STYLE)))
+
+    return Stills(taken(before), b"" if _alike(asset, closed) else taken(closed), taken(opened))
+
+
+def _alike(asset: Asset, closed: list[Visual]) -> bool:
+    """Whether nothing but hardware was added, and no part was moved or cut."""
+    if any(visual.role is VisualRole.ADDED for visual in closed):
+        return False
+    kept = [visual for visual in closed if visual.role is VisualRole.PART]
+    return all(np.array_equal(asset.part(v.name).mesh.triangles, v.mesh.triangles) for v in kept)
+
+
+def thumbnail(stills: Stills, size: tuple[int, int] = THUMBNAIL) -> bytes:
+    """Returns the open picture, made small for a list."""
+    with Image.open(BytesIO(stills.opened)) as image:
+        return _encoded(image.convert("RGBA").resize(size, Image.Resampling.LANCZOS))
+
+
+def stills_row(stills: Stills, name: str) -> Html:
+    """Returns the pictures side by side, with captions."""
+    told = (("As it came", stills.before), ("Closed", stills.closed), ("Open", stills.opened))
+    shown = [(caption, data) for caption, data in told if data]
+    return tag("div", joined(_figure(caption, data, name) for caption, data in shown), class_="stills")
+
+
+def _figure(caption: str, data: bytes, name: str) -> Html:
+    uri, (width, height) = data_uri(data, MIME), SIZE
+    image = tag("img", src=uri, width=width, height=height, alt=f"{name}: {caption.lower()}")
+    return tag("figure", image, tag("figcaption", caption))
+
+
+def _encoded(image: Image.Image) -> bytes:
+    stream = BytesIO()
+    image.save(stream, "WEBP", quality=_QUALITY, method=2)
+    return stream.getvalue()

@@ -1,0 +1,85 @@
+// Joint values and the motion that they give every link; a joint behind a door waits until that is open.
+
+class Joints {
+  constructor(scene) {
+    this.joints = scene.joints;
+    this.links = scene.links;
+    this.stages = scene.stages;
+    this.values = this.joints.map((joint) => joint.lower);
+    this.watchers = [];
+    this.run = null;
+  }
+
+  onChange(watcher) {
+    this.watchers.push(watcher);
+  }
+
+  // Sets a joint to a value, radians or metres. What it waits for opens first; what waits for it closes first.
+  set(index, value) {
+    const joint = this.joints[index];
+    const kept = clamp(value, joint.lower, joint.upper);
+    if (kept > joint.lower) joint.after.forEach((other) => this.set(other, this.joints[other].upper));
+    if (kept < joint.upper) {
+      this.joints.forEach((other, k) => {
+        if (other.after.includes(index) && this.values[k] > other.lower) this.set(k, other.lower);
+      });
+    }
+    if (this.values[index] === kept) return;
+    this.values[index] = kept;
+    this.watchers.forEach((watcher) => watcher());
+  }
+
+  share(index) {
+    const { lower, upper } = this.joints[index];
+    return upper > lower ? (this.values[index] - lower) / (upper - lower) : 0;
+  }
+
+  setShare(index, share) {
+    const { lower, upper } = this.joints[index];
+    this.set(index, lower + share * (upper - lower));
+  }
+
+  // Returns the motion of every link from rest, in the order of the links, parents before children.
+  poses() {
+    const poses = [];
+    for (const link of this.links) {
+      const above = link.parent === null ? IDENTITY : poses[link.parent];
+      poses.push(link.joint === null ? above : product(above, this.motion(link.joint)));
+    }
+    return poses;
+  }
+
+  motion(index) {
+    const { type, axis } = this.joints[index], value = this.values[index];
+    return type === "revolute" ? turn(axis[0], axis[1], value) : shift(times(axis[1], value));
+  }
+
+  // Moves all joints, stage after stage, to open (true) or closed; `again` is called when that is done.
+  move(open, seconds, again = () => this.stop()) {
+    const stages = (open ? this.stages : [...this.stages].reverse()).filter((stage) =>
+      stage.some((k) => Math.abs(this.share(k) - (open ? 1 : 0)) > 1e-6));
+    this.run = { stages, open, seconds, again, at: 0, time: 0, from: null };
+  }
+
+  stop() {
+    this.run = null;
+  }
+
+  // Goes on with what moves by itself; `elapsed` is seconds. Returns whether something does.
+  step(elapsed) {
+    const run = this.run;
+    if (!run) return false;
+    const stage = run.stages[run.at];
+    if (!stage) {
+      run.again();
+      return this.run !== null;
+    }
+    run.from ??= stage.map((k) => this.share(k));
+    run.time += elapsed;
+    const t = run.seconds > 0 ? clamp(run.time / run.seconds, 0, 1) : 1;
+    const soft = t * t * (3 - 2 * t);
+    stage.forEach((k, i) => this.setShare(k, run.from[i] + ((run.open ? 1 : 0) - run.from[i]) * soft));
+    if (t >= 1) Object.assign(run, { at: run.at + 1, time: 0, from: null });
+    return true;
+  }
+}

@@ -1,0 +1,140 @@
+// The page of one model: brings data, picture, gestures and controls together.
+
+async function startModel() {
+  const stage = document.getElementById("stage");
+  if (!stage) return;
+  try {
+    const scene = await loadScene();
+    const images = await Promise.all(scene.textures.map(loadImage));
+    window.grafu = new ModelView(stage, scene, images);
+    stage.classList.add("ready");
+  } catch (error) {
+    stage.classList.add("without");
+    document.getElementById("view-note").textContent =
+      `This browser cannot show the model in 3D (${error.message || error}): the pictures below show it closed and open.`;
+  }
+}
+
+class ModelView {
+  constructor(stage, scene, images) {
+    this.scene = scene;
+    this.canvas = stage.querySelector("canvas");
+    this.label = stage.querySelector(".label");
+    this.said = document.getElementById("chosen");
+    this.camera = new OrbitCamera(scene.reach);
+    this.joints = new Joints(scene);
+    this.view = new View(scene);
+    this.renderer = new Renderer(this.canvas, scene, images);
+    this.overlay = new Overlay(stage.querySelector("svg.overlay"), scene);
+    const changed = () => this.redraw();
+    this.controls = new Controls(document, this.joints, this.view, {
+      changed,
+      focused: (joint) => this.focus(joint),
+    });
+    this.gestures = new Gestures(this.canvas, this.camera, {
+      changed,
+      pointed: (place) => this.point(place),
+      clicked: (place) => this.choose(place),
+    });
+    this.frames = 0;
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
+    document.querySelectorAll("[data-part]").forEach((button) =>
+      button.addEventListener("click", () => this.chooseItem(this.itemNamed(button.dataset.part), true)));
+    this.theme();
+    this.resize();
+  }
+
+  theme() {
+    this.view.shadow = matchMedia("(prefers-color-scheme: dark)").matches ? 0.7 : 0.42;
+    this.redraw();
+  }
+
+  resize() {
+    const fine = Math.min(devicePixelRatio || 1, 2), { clientWidth: w, clientHeight: h } = this.canvas;
+    if (!w || !h) return;
+    Object.assign(this.canvas, { width: Math.round(w * fine), height: Math.round(h * fine) });
+    this.camera.resize(w / h);
+    this.draw();
+  }
+
+  redraw() {
+    if (this.waiting || !this.renderer) return;
+    this.waiting = requestAnimationFrame((time) => {
+      this.waiting = 0;
+      this.tick(time);
+    });
+  }
+
+  tick(time) {
+    const elapsed = this.moving ? Math.min((time - this.moving) / 1000, 0.25) : 0.016;
+    const goesOn = this.joints.step(elapsed);
+    this.moving = goesOn ? time : 0;
+    this.draw();
+    if (goesOn) this.redraw();
+  }
+
+  draw() {
+    const poses = this.joints.poses();
+    if (this.pointer) this.hover(this.renderer.pick(this.camera, poses, this.view, this.pointer.x, this.pointer.y));
+    this.renderer.draw(this.camera, poses, this.view);
+    this.overlay.draw(this.camera, this.view.joint, poses, [this.canvas.clientWidth, this.canvas.clientHeight]);
+    this.frames += 1;
+  }
+
+  point(place) {
+    this.pointer = place;
+    if (!place) this.hover(-1);
+    this.redraw();
+  }
+
+  hover(index) {
+    this.view.hovered = index;
+    this.label.hidden = index < 0;
+    if (index < 0) return;
+    this.label.textContent = this.scene.items[index].name;
+    const { x, y } = this.pointer, right = x > 0.6;
+    this.label.style.left = right ? "auto" : `${100 * x}%`;
+    this.label.style.right = right ? `${100 * (1 - x)}%` : "auto";
+    this.label.style.top = `${100 * y}%`;
+  }
+
+  choose(place) {
+    const found = place ? this.renderer.pick(this.camera, this.joints.poses(), this.view, place.x, place.y) : -1;
+    this.chooseItem(found === this.view.chosen ? -1 : found);
+  }
+
+  // Marks an item and says what it is and which joint moves it; its axes are drawn.
+  chooseItem(index, seen = false) {
+    this.view.chosen = index;
+    const item = this.scene.items[index], joint = item ? this.scene.links[item.link].joint : null;
+    this.focused = joint;
+    this.view.joint = joint;
+    this.said.textContent = item ? this.described(item, joint) : this.said.dataset.empty;
+    if (seen) this.canvas.scrollIntoView({ block: "nearest" });
+    this.redraw();
+  }
+
+  described(item, joint) {
+    const kind = item.role === "hardware" ? "hardware" : item.role === "added" ? `${item.label}, added` : item.label;
+    const moves = joint === null ? "stands still" : `moves with ${this.scene.joints[joint].part}`;
+    const was = item.source ? ` (“${item.source}” in the input)` : "";
+    return `${item.name}${was}: ${kind}, ${moves}`;
+  }
+
+  itemNamed(name) {
+    return this.scene.items.findIndex((item) => item.name === name);
+  }
+
+  focus(joint) {
+    this.view.joint = joint ?? this.focused ?? null;
+    this.redraw();
+  }
+
+  // For tests and for the curious: where a link stands, as 16 numbers, column by column.
+  pose(linkId) {
+    return this.joints.poses()[this.scene.links.findIndex((link) => link.id === linkId)];
+  }
+}
+
+startModel();

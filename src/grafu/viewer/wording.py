@@ -1,0 +1,131 @@
+"""A report in words: numbers as people read them, one line that says what came of a model. It makes no markup."""
+
+from collections import Counter
+from collections.abc import Iterable
+from math import acos, degrees
+
+from grafu.pipeline.deficiencies import DeficiencyKind
+from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
+from grafu.vocabulary import JointType, PartLabel
+
+_MECHANISMS = (DeficiencyKind.HINGE, DeficiencyKind.RAIL, DeficiencyKind.JOINT)
+_ADDED_FOR = {
+    DeficiencyKind.TOP: PartLabel.TOP_PANEL,
+    DeficiencyKind.BACK: PartLabel.BACK_PANEL,
+    DeficiencyKind.BOTTOM: PartLabel.BOTTOM_PANEL,
+}
+_STRAIGHT = 0.9999  # a direction this near to an axis is called by its name
+
+
+def opening(joint_type: JointType, value: float) -> str:
+    """Returns a joint value in the unit that people read: degrees or centimetres."""
+    return f"{degrees(value):.0f}°" if joint_type is JointType.REVOLUTE else f"{value * 100:.1f} cm"
+
+
+def counted(count: int, what: str) -> str:
+    """Returns `1 hinge`, `2 hinges`."""
+    plural = what if what.endswith("s") else f"{what[:-1]}ves" if what.endswith("lf") else f"{what}s"
+    return f"{count} {what if count == 1 else plural}"
+
+
+def listed(words: Iterable[str]) -> str:
+    """Returns `a`, `a and b`, `a, b and c`."""
+    known = list(words)
+    return " and ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
+
+
+def verdict(report: Report) -> str:
+    """Returns one line: what moves, what was missing, what was added, what was skipped."""
+    return " ".join([_moves(report), _lacked(report), _added(report), _skipped(report)])
+
+
+def still_lacking(report: Report) -> tuple[DeficiencyRecord, ...]:
+    """Returns those of the deficiencies that the result still has."""
+    return tuple(lack for lack in report.deficiencies if not _mended(lack, report))
+
+
+def direction_words(direction: Vector) -> str:
+    """Returns `+Z` for what runs along an axis, else three numbers."""
+    for axis, value in zip("XYZ", direction, strict=True):
+        if abs(value) > _STRAIGHT:
+            return f"{'+' if value > 0 else '−'}{axis}"
+    return "(" + ", ".join(f"{value:.2f}".replace("-", "−") for value in direction) + ")"
+
+
+def axis_words(axis: AxisRecord, joint_type: JointType) -> str:
+    """Returns a line in space: its direction, and for a hinge where it lies, centimetres."""
+    if joint_type is JointType.PRISMATIC:
+        return f"along {direction_words(axis.direction)}"
+    places = zip("xyz", axis.origin, axis.direction, strict=True)
+    across = [f"{name} {100 * value:.1f}".replace("-", "−") for name, value, along in places if abs(along) < _STRAIGHT]
+    return f"{direction_words(axis.direction)} at {', '.join(across)} cm"
+
+
+def moved_words(joint: JointRecord) -> str:
+    """Returns how far the built axis lies from the stated one: centimetres, degrees."""
+    a, b = joint.initial_axis, joint.rectified_axis
+    cosine = sum(x * y for x, y in zip(a.direction, b.direction, strict=True))
+    turned = degrees(acos(min(max(cosine, -1.0), 1.0)))
+    offset = [y - x for x, y in zip(a.origin, b.origin, strict=True)]
+    along = sum(x * y for x, y in zip(offset, b.direction, strict=True))
+    distance = sum((x - along * y) ** 2 for x, y in zip(offset, b.direction, strict=True)) ** 0.5
+    said = [f"{100 * distance:.1f} cm"] if joint.type is JointType.REVOLUTE else []
+    return ", ".join([*said, f"{turned:.1f}°"] if turned > 0.05 or not said else said)
+
+
+def size_words(size: Iterable[float]) -> str:
+    """Returns width, depth and height in centimetres."""
+    return " × ".join(f"{100 * side:.0f}" for side in size) + " cm"
+
+
+def _moves(report: Report) -> str:
+    kinds = Counter(joint.type for joint in report.joints)
+    turning, sliding = kinds[JointType.REVOLUTE], kinds[JointType.PRISMATIC]
+    said = [f"{counted(turning, 'part')} on hinges"] if turning else []
+    said += [f"{sliding} on rails" if turning else f"{counted(sliding, 'part')} on rails"] if sliding else []
+    if not said:
+        return "Nothing moves."
+    restricted = sum(joint.restricted for joint in report.joints)
+    return f"{listed(said)} {'moves' if turning + sliding == 1 else 'move'}" + (
+        f", {restricted} of them less than asked." if restricted else "."
+    )
+
+
+def _lacked(report: Report) -> str:
+    kinds = Counter(lack.kind for lack in report.deficiencies)
+    mechanisms = {lack.part for lack in report.deficiencies if lack.kind in _MECHANISMS}
+    what = "joints and hardware" if kinds[DeficiencyKind.JOINT] else "hardware"
+    said = [f"{what} for {counted(len(mechanisms), 'part')}"] if mechanisms else []
+    said += [_lacked_words(kind, count) for kind, count in kinds.items() if kind not in _MECHANISMS]
+    return f"Missing were {listed(said)}." if said else "Nothing was missing."
+
+
+def _lacked_words(kind: DeficiencyKind, count: int) -> str:
+    return f"the category of {counted(count, 'part')}" if kind is DeficiencyKind.LABEL else counted(count, kind.value)
+
+
+def _added(report: Report) -> str:
+    kinds = Counter(added.category for added in report.added)
+    hinges = sum(joint.count for joint in report.joints if joint.type is JointType.REVOLUTE)
+    rails = sum(joint.count for joint in report.joints) - hinges
+    said = [counted(count, what) for count, what in ((hinges, "hinge"), (rails, "rail")) if count]
+    said += [counted(count, kind.value) for kind, count in kinds.items()]
+    return f"Added: {listed(said)}." if said else "Nothing was added."
+
+
+def _skipped(report: Report) -> str:
+    return f"Skipped: {listed(skip.request for skip in report.skipped)}." if report.skipped else "Nothing was skipped."
+
+
+def _mended(lack: DeficiencyRecord, report: Report) -> bool:
+    joint = next((joint for joint in report.joints if joint.part == lack.part), None)
+    if lack.kind in _MECHANISMS:
+        return joint is not None
+    if lack.kind is DeficiencyKind.HANDLE:
+        return joint is not None and joint.grasp != "none"
+    if lack.kind is DeficiencyKind.LABEL:
+        part = next((part for part in report.parts if part.id == lack.part), None)
+        return part is not None and part.category is not PartLabel.UNKNOWN
+    if lack.kind is DeficiencyKind.DRAWER_BOX:
+        return any(a.link == lack.part and a.category is not PartLabel.HANDLE for a in report.added)
+    return any(added.category is _ADDED_FOR[lack.kind] for added in report.added)
