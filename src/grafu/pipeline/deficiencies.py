@@ -61,6 +61,7 @@ def find_deficiencies(asset: Asset, graph: FunctionalGraph, findings: Findings |
     top = findings.top if findings else missing_top(asset.parts)
     if top.missing:
         found.append(Deficiency(DeficiencyKind.TOP, "", top.why))
+    found += [Deficiency(DeficiencyKind.TOP, "", further.why) for further in top.others]
     return (*found, *(_of_boards(findings) if findings else ()))
 
 
