@@ -13,11 +13,11 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Asset
 from grafu.evaluation.measures import OPENS, joints_by_part
 from grafu.evaluation.moving_parts import MovingPart, usual_opening
-from grafu.geometry.arrays import Points, Scalars
+from grafu.evaluation.surface_distance import distances_up_to
+from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.point_distance import point_triangle_distances
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import transform_points
 from grafu.metrics.collision import TOLERANT
@@ -82,7 +82,9 @@ class _Case:
                     return "it comes off the body"
             return ""
         points = self._hinge_line()
-        both = (_distances(points, self._moving, near) <= near) & (_distances(points, self._static, near) <= near)
+        both = (distances_up_to(points, self._moving, near) <= near) & (
+            distances_up_to(points, self._static, near) <= near
+        )
         return "" if both.mean() >= HELD else "nothing holds it along its hinge line"
 
     def not_outwards(self) -> str:
@@ -124,17 +126,6 @@ class _Case:
         along = (self._moving.box.corners() - start) @ axis.direction
         values = np.linspace(along.min(), along.max(), _LINE_POINTS + 2)[1:-1]
         return start + values[:, None] * axis.direction
-
-
-def _distances(points: Points, mesh: TriangleMesh, near: float) -> Scalars:
-    """Returns the distance of each point from a mesh; beyond `near` any larger number stands for it."""
-    around = Box.around(points).grown(near)
-    corners = mesh.triangles
-    keep = np.all((corners.min(axis=1) <= around.high) & (corners.max(axis=1) >= around.low), axis=1)
-    triangles = corners[keep]
-    if not len(triangles):
-        return np.full(len(points), np.inf)
-    return np.asarray(point_triangle_distances(points, triangles).min(axis=1))
 
 
 def _outside(box: Box, points: Points) -> float:

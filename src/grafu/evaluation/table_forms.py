@@ -100,7 +100,7 @@ def _cells(table: Table, row: tuple[Cell, ...]) -> list[tuple[Cell, Column]]:
     return list(zip(row, table.columns, strict=True))
 
 
-def _number(value: float, column: Column) -> str:
+def _number(value: int | float, column: Column) -> str:
     if column.kind == "share":
         return f"{100 * value:.1f} %"
     if isinstance(value, int) or column.kind == "count":

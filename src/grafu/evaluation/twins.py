@@ -10,20 +10,20 @@ from itertools import combinations
 from typing import final
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from grafu.asset.edit import centred, scaled, yawed
 from grafu.asset.part import Asset
 from grafu.evaluation.moving_parts import MovingPart, counted_parts
+from grafu.evaluation.surface_distance import distances_up_to
 from grafu.geometry.arrays import Points
 from grafu.geometry.mesh import merge_meshes
-from grafu.geometry.sampling import sample_surface
+from grafu.geometry.sampling import sample_surfaces
 from grafu.metrics.motion import Motion
 
 ALIKE = 0.01  # relative: fingerprints that differ more are of other models
 SAME_BOX = 0.01  # of the largest side: a part's twin has its box within this
-_POINTS = 4000
-_SLACK, _NOISE = 1.3, 0.002  # of what two samples of one surface differ by, and of the largest side
+ON = 0.005  # of the same: what is farther lies on another surface
+_POINTS = 30  # on each part
 
 
 @final
@@ -69,16 +69,16 @@ def alike_pairs(fingerprints: Mapping[str, Sequence[float]]) -> tuple[tuple[str,
 def compare_twins(first: Asset, second: Asset) -> Twins:
     """Returns whether two assets are one geometry, in any quarter turn and at any scale, and the motions to exchange.
 
-    Every point of either surface must lie on the other, but for what two samples of one surface differ by. A part's
-    twin is the part that counts with the same box.
+    Points on every part of each must lie on the other's surface, whatever its parts. A part's twin is the part that
+    counts with the same box.
     """
     first_home = centred(first)
-    points = _surface(first_home)
+    points, unit = _samples(first_home), first.unit
     for turns in range(4):
-        turned = centred(yawed(scaled(second, first.unit / second.unit), turns * np.pi / 2))
-        if np.allclose(turned.box.size, first_home.box.size, atol=ALIKE * first.unit) and _cover(
-            points, _surface(turned), first.unit
-        ):
+        turned = centred(yawed(scaled(second, unit / second.unit), turns * np.pi / 2))
+        if not np.allclose(turned.box.size, first_home.box.size, atol=ALIKE * unit):
+            continue
+        if _covers(points, turned, unit) and _covers(_samples(turned), first_home, unit):
             return _exchanged(first, first_home, second, turned)
     return NOT_TWINS
 
@@ -87,21 +87,17 @@ def _agree(a: Sequence[float], b: Sequence[float]) -> bool:
     return bool(np.allclose(a, b, rtol=ALIKE, atol=ALIKE * 0.1))
 
 
-def _surface(asset: Asset) -> tuple[Points, Points]:
-    """Returns two samples of the whole surface, drawn apart."""
-    mesh = merge_meshes([part.mesh for part in asset.parts])
-    return sample_surface(mesh, _POINTS, 1).points, sample_surface(mesh, _POINTS, 2).points
+def _covers(points: Points, asset: Asset, unit: float) -> bool:
+    """Whether all points lie on the surface of an asset."""
+    mesh, near = merge_meshes([part.mesh for part in asset.parts]), ON * unit
+    clusters = np.array_split(points, max(1, len(points) // _POINTS))  # of one part each: a small region
+    return all(bool((distances_up_to(cluster, mesh, near) <= near).all()) for cluster in clusters)
 
 
-def _cover(a: tuple[Points, Points], b: tuple[Points, Points], unit: float) -> bool:
-    """Whether two surfaces, each sampled twice, are as near to each other as each is to itself."""
-
-    def apart(ones: Points, others: Points) -> np.ndarray:
-        return np.asarray(cKDTree(others).query(ones)[0])
-
-    own = max(float(apart(*a).mean()), float(apart(*b).mean()))
-    allowed = _SLACK * own + _NOISE * unit
-    return max(float(apart(a[0], b[0]).mean()), float(apart(b[0], a[0]).mean())) <= allowed
+def _samples(asset: Asset) -> Points:
+    """Returns points on each part, as many on a knob as on a panel."""
+    meshes = [part.mesh for part in asset.parts if len(part.mesh.faces)]
+    return np.concatenate([cloud.points for cloud in sample_surfaces(meshes, _POINTS)])
 
 
 def _exchanged(first: Asset, first_home: Asset, second: Asset, turned: Asset) -> Twins:

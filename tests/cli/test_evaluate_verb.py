@@ -1,0 +1,106 @@
+"""`grafu evaluate` from a folder of models to tables: what is done is kept, what fails is said, bytes do not change."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from folders import contents
+from grafu.cli.main import main
+from small_assets import write_pnm
+
+FEW = ["--methods", "annotation,rule", "--tables", "motion,masking,static,models", "--seeds", "1", "--jobs", "1"]
+
+
+def command(data: Path, out: Path, *more: str) -> list[str]:
+    return ["evaluate", "--data", str(data), "--out", str(out), *FEW, *more]
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("data")
+    write_pnm(folder / "first")
+    write_pnm(folder / "second")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def done(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("results") / "out"
+    assert main(command(data, out)) == 0
+    return out
+
+
+def figures(out: Path, method: str) -> dict[str, object]:
+    rows = json.loads((out / "tables" / "motion.json").read_text())["rows"]
+    return next(row for row in rows if (row["method"], row["over"]) == (method, "objects"))
+
+
+def test_the_tables_of_a_cabinet_that_works(done: Path) -> None:
+    for method in ("annotation", "rule"):
+        found = figures(done, method)
+        assert (found["objects"], found["parts"]) == (2, 4)
+        assert found["aligned"]["value"] == 1.0
+        assert found["works_fixed"]["value"] == 1.0
+    index = (done / "tables" / "index.md").read_text()
+    assert "grafu evaluate --data" in index
+    assert "Models of one geometry: first and second." in index
+    assert {p.suffix for p in (done / "tables").iterdir()} == {".md", ".csv", ".json", ".tex"}
+
+
+def test_stopped_in_the_middle_the_same_command_gives_the_same_tables(data: Path, done: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    rows = (done / "rows.jsonl").read_bytes()
+    (out / "rows.jsonl").write_bytes(rows[: 2 * len(rows) // 3])  # a kill leaves half a line
+    assert main(command(data, out)) == 0
+    said = {name: text.replace(str(out).encode(), b"") for name, text in contents(out / "tables").items()}
+    expected = {name: text.replace(str(done).encode(), b"") for name, text in contents(done / "tables").items()}
+    assert said == expected
+
+
+def test_what_is_done_is_not_done_again(data: Path, done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("grafu.cli.evaluate_run.run_all", lambda *_: pytest.fail("there was nothing left to do"))
+    before = contents(done / "tables")
+    assert main(command(data, done)) == 0
+    assert contents(done / "tables") == before
+
+
+def test_a_model_that_fails_is_said_and_stops_no_other(
+    data: Path, done: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder, out = tmp_path / "data", tmp_path / "out"
+    for name in ("first", "second"):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).symlink_to(data / name)
+    (folder / "broken").mkdir()
+    (folder / "broken" / "mobility.urdf").write_text("<robot")
+    out.mkdir()
+    (out / "rows.jsonl").write_bytes((done / "rows.jsonl").read_bytes())
+    assert main(command(folder, out, "--tables", "motion")) == 1
+    said = capfd.readouterr().err
+    assert "broken" in said
+    assert "Traceback" not in said
+    assert figures(out, "annotation")["works_fixed"]["value"] == 1.0
+    assert "broken" in (out / "tables" / "index.md").read_text()
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [
+        (["--methods", "magic"], "a method must be one of"),
+        (["--methods", "particulate"], "particulate:DIR"),
+        (["--tables", "motion,poem"], "a table must be one of"),
+        (["--methods", "annotation", "--tables", "masking"], "needs the method network or rule"),
+        (["--methods", "rule,rule"], "each once"),
+        (["--data", "nowhere"], "does not exist"),
+    ],
+)
+def test_bad_options_end_in_one_line(
+    data: Path, tmp_path: Path, more: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(command(data, tmp_path / "out", *more)) == 2
+    said = capsys.readouterr().err
+    assert says in said
+    assert said.count("\n") == 1
+    assert not (tmp_path / "out").exists()
