@@ -79,7 +79,8 @@ def _labelled(asset: Asset, foreign: ForeignMotions, match: Match, joints: dict[
 
 
 def _annotated(joint: ForeignJoint, part: Part, source: str) -> AnnotatedJoint:
-    return AnnotatedJoint(part.id, joint.type, joint.axis, joint.lower, joint.upper, joint.limited, source)
+    low, high = sorted((joint.lower, joint.upper))
+    return AnnotatedJoint(part.id, joint.type, joint.axis, low, high, joint.limited, source)
 
 
 def _notes(foreign: ForeignMotions, match: Match, mains: dict[str, Part | None]) -> list[str]:

@@ -26,7 +26,8 @@ _WHOLE = 0.6  # what share of the best overlap as a whole a frame must reach to 
 _SOUND = 1e-9  # a residual that is rounding
 _GAIN = 0.9  # what must be left of a residual for another round to be worth it
 _ALIKE = (1.2, 0.005)  # frames fit alike whose residuals are within this factor and this addition of the best
-_SURER = 0.15  # by how much a less likely frame's joints must look better than a likelier one's
+_SURER = 0.05  # by how much a less likely frame's joints must look better than a likelier one's
+_PLAUSIBLE = 0.1  # how odd joints may look and still be as they should: doors of corner cabinets, sliding doors
 _DOUBT = 0.05  # doubts that differ by less are none
 
 
@@ -136,17 +137,28 @@ def refined(comparison: Comparison, guess: FrameGuess, agreed: Agreement) -> tup
 
 
 def _with_joint_frame(asset: Asset, foreign: ForeignMotions, guess: FrameGuess, agreed: Agreement) -> Match:
-    """Returns the match with the frame in which the joints look most like furniture's; likelier ones are preferred."""
-    up = asset.frame.up.removeprefix("+")
-    ordered = sorted(foreign.joint_frames, key=lambda frame: frame.name != f"up_dir {up}")
+    """Returns the match with the frame in which the joints look like furniture's: the likeliest that will do."""
+    ordered = sorted(foreign.joint_frames, key=lambda frame: not _keeps_up(frame, guess))
     matches = [Match(guess, frame, agreed.part_of, agreed.residual, agreed.overlap) for frame in ordered]
     if len(matches) == 1 or not foreign.joints:
         return matches[0]
-    odd = [_mean_strangeness(asset, foreign, match) for match in matches]
-    return next(match for match, value in zip(matches, odd, strict=True) if value <= min(odd) + _SURER)
+    odd = [_strangenesses(asset, foreign, match) for match in matches]
+    most = min(float(np.mean(values)) for values in odd) + _SURER
+    return next(
+        match
+        for match, values in zip(matches, odd, strict=True)
+        if max(values) <= _PLAUSIBLE or float(np.mean(values)) <= most
+    )
 
 
-def _mean_strangeness(asset: Asset, foreign: ForeignMotions, match: Match) -> float:
+def _keeps_up(frame: JointFrame, guess: FrameGuess) -> bool:
+    """Whether a frame's own Z is the object's: joints are stated with Z up, if who ran the method said what is up."""
+    T = np.asarray(guess.T_object_foreign) @ np.asarray(frame.T_parts_joints)
+    return bool(T[2, 2] > 0.9 * np.linalg.norm(T[:3, 2]))
+
+
+def _strangenesses(asset: Asset, foreign: ForeignMotions, match: Match) -> list[float]:
+    """Returns how odd each joint looks that moves a part; 0 where there is none."""
     values = []
     for joint in foreign.joints:
         covered = covered_parts(asset, foreign, match, joint.part)
@@ -154,7 +166,7 @@ def _mean_strangeness(asset: Asset, foreign: ForeignMotions, match: Match) -> fl
             box = Box.around(np.vstack([part.box.corners() for part in covered]))
             placed = match.placed(joint, box)
             values.append(strangeness(placed.type, placed.axis, placed.lower, placed.upper, box))
-    return float(np.mean(values)) if values else 0.0
+    return values or [0.0]
 
 
 def _doubts(asset: Asset, foreign: ForeignMotions, match: Match) -> int:
@@ -165,7 +177,7 @@ def _doubts(asset: Asset, foreign: ForeignMotions, match: Match) -> int:
         if name is not None and part.label is not PartLabel.UNKNOWN
     ]
     labels = float(np.mean(wrong)) if wrong else 0.0
-    return round((labels + _mean_strangeness(asset, foreign, match)) / _DOUBT)
+    return round((labels + float(np.mean(_strangenesses(asset, foreign, match)))) / _DOUBT)
 
 
 def covered_parts(asset: Asset, foreign: ForeignMotions, match: Match, body: str) -> tuple[Part, ...]:

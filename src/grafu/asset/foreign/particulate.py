@@ -18,7 +18,7 @@ from grafu.asset.mesh_files import check_faces, read_bytes
 from grafu.asset.obj_parser import parse_obj
 from grafu.asset.options import Limits, LoadOptions
 from grafu.asset.triangulate import triangulate
-from grafu.errors import UnreadableAsset
+from grafu.errors import AssetError, UnreadableAsset
 from grafu.geometry.arrays import Mat3, Mat4, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -94,7 +94,10 @@ def read_particulate(path: Path, options: LoadOptions = LoadOptions()) -> Foreig
     notes: list[str] = []
     joints = tuple(joint for k in filled for joint in _joints(k, arrays, notes))
     frames = tuple(JointFrame(f"up_dir {up}", invert(normalisation(mesh.box, up))) for up in UP_ROTATIONS)
-    return ForeignMotions("particulate", str(path), parts, joints, frames, notes=tuple(notes))
+    try:
+        return ForeignMotions("particulate", str(path), parts, joints, frames, notes=tuple(notes))
+    except AssetError as error:
+        raise UnreadableAsset(str(error)) from None
 
 
 def _arrays(path: Path, limits: Limits) -> Arrays:

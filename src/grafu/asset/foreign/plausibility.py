@@ -13,7 +13,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.vocabulary import JointType
 
-_SIDEWAYS = 0.6  # how much of setting off to the front it is to set off sideways: sliding doors, corner cabinets
+_SIDEWAYS = 0.8  # how much of setting off to the front it is to set off sideways: sliding doors, corner cabinets
 _A_LITTLE = 1e-3  # radians or metres: how far a joint is moved to see where the part sets off
 
 

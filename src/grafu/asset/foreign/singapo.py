@@ -18,7 +18,7 @@ from grafu.asset.labels import label_of
 from grafu.asset.mesh_files import read_bytes, read_mesh_file
 from grafu.asset.options import Limits, LoadOptions
 from grafu.errors import AssetError, UnreadableAsset
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Scalars
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -95,7 +95,7 @@ def _object(node: Json, key: str, where: str) -> Json:
     return value
 
 
-def _vector(data: Json, key: str, count: int, where: str) -> Vec3:
+def _vector(data: Json, key: str, count: int, where: str) -> Scalars:
     values = data.get(key)
     numbers = isinstance(values, list) and all(
         isinstance(v, int | float) and not isinstance(v, bool) and abs(v) < 1e12 for v in values
