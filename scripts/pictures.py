@@ -8,7 +8,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from pictures_additions import SHEETS
+import pictures_additions
+import pictures_pages
 from PIL import Image
 
 from grafu.asset.edit import as_static_object
@@ -22,6 +23,7 @@ from grafu.templates.gallery import builtin_gallery
 ROOT = Path(__file__).parent.parent
 COLOURS = 256  # a palette is a third of the bytes, and nobody sees it on plain wood
 BEFORE_AFTER = "before_after"
+SHEETS = {**pictures_additions.SHEETS, **pictures_pages.SHEETS}
 
 
 def main() -> int:

@@ -1,12 +1,16 @@
 """The page of a model as a file: it parses, needs no network, escapes names, and holds what the report holds."""
 
 import re
+from importlib.resources import files
 
 import numpy as np
 from made_models import ATTACK, BLUE, GLASS
 from page_reader import PageReader, buffer_of, normals_of, scene_of, triangles_of
 
+from grafu.articulation.articulated_object import ArticulatedObject, Link
 from grafu.export.shading import corner_normals
+from grafu.viewer.model_page import model_page
+from grafu.viewer.pictures import Stills
 from grafu.viewer.report_tables import plain_rows
 
 ADDRESS = re.compile(r"""(?:https?:)?//[a-z0-9.-]+\.[a-z]{2,}|url\(|@import|\bimport\(|fetch\(""", re.IGNORECASE)
@@ -118,3 +122,22 @@ def test_the_page_says_what_the_report_says(page, made):
 
 def test_cells_are_escaped():
     assert "<b>" not in plain_rows(("a",), [("<b>",)], "<b>")
+
+
+def test_scripts_and_styles_stay_under_300_lines():
+    folder = files("grafu.viewer") / "templates"
+    lengths = {path.name: len(path.read_text(encoding="utf-8").splitlines()) for path in folder.iterdir()}
+
+    assert len(lengths) > 10
+    assert max(lengths.values()) < 300
+
+
+def test_a_model_that_does_not_move_has_a_page(made):
+    still = ArticulatedObject("still", "base", (Link("base", ()),))
+    report = made.report.model_copy(update={"joints": (), "added": ()})
+    stills = Stills(b"", b"", b"")
+
+    read = PageReader(model_page(made.result.asset, still, made.result.completion, report, stills))
+
+    assert read.all("input", type="range") == []
+    assert scene_of(read)["items"] == []

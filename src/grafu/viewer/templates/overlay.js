@@ -14,15 +14,14 @@ class Overlay {
 
   // Draws the axes of a joint, or none (null); `size` is the picture's width and height in pixels.
   draw(camera, index, poses, [width, height]) {
-    this.svg.toggleAttribute("hidden", index === null);
-    if (index === null) return;
+    const link = this.scene.links.findIndex((l) => index !== null && l.joint === index), seen = this.middle(link);
+    this.svg.toggleAttribute("hidden", !seen);
+    if (!seen) return;
     const joint = this.scene.joints[index], matrix = camera.matrix();
-    const link = this.scene.links.findIndex((l) => l.joint === index);
     const above = poses[this.scene.links[link].parent];
-    const middle = this.middle(link);
     const drawn = (line) => {
-      const [p, d] = line, near = add(p, times(d, dot(minus(middle.center, p), d)));
-      const from = joint.type === "prismatic" ? middle.center : near, half = 0.62 * middle.size;
+      const [p, d] = line, near = add(p, times(d, dot(minus(seen.center, p), d)));
+      const from = joint.type === "prismatic" ? seen.center : near, half = 0.62 * seen.size;
       return [times(d, joint.type === "prismatic" ? 0 : -half), times(d, half)].map((by) => {
         const moved = mapped(above, add(from, by)), clip = mapped(matrix, moved);
         return [(0.5 + clip[0] / clip[3] / 2) * width, (0.5 - clip[1] / clip[3] / 2) * height];
@@ -36,9 +35,10 @@ class Overlay {
     head.setAttribute("points", arrow(ends));
   }
 
-  // Returns the middle of a link's parts at rest and their greatest extent.
+  // Returns the middle of a link's parts at rest and their greatest extent, or null where there is nothing to see.
   middle(link) {
     const boxes = this.scene.items.filter((item) => item.link === link && item.box).map((item) => item.box);
+    if (!boxes.length) return null;
     const low = [0, 1, 2].map((k) => Math.min(...boxes.map((box) => box[0][k])));
     const high = [0, 1, 2].map((k) => Math.max(...boxes.map((box) => box[1][k])));
     return { center: times(add(low, high), 0.5), size: Math.max(...minus(high, low)) };

@@ -1,0 +1,84 @@
+"""Reports in words."""
+
+from math import pi
+
+import pytest
+
+from grafu.pipeline.deficiencies import DeficiencyKind
+from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord
+from grafu.viewer.certainty import certainty_words
+from grafu.viewer.wording import (
+    axis_words,
+    counted,
+    direction_words,
+    listed,
+    moved_words,
+    opening,
+    still_lacking,
+    verdict,
+)
+from grafu.vocabulary import JointType
+
+
+def test_the_verdict_says_all_four_things(made):
+    said = verdict(made.report)
+
+    assert said.startswith("1 part on hinges and 1 on rails move.")
+    assert "Missing were hardware for 2 parts" in said
+    assert "Added: 2 hinges, 2 rails and 1 handle." in said
+    assert said.endswith("Nothing was skipped.")
+
+
+def test_a_report_of_nothing_says_so(made):
+    empty = made.report.model_copy(update={"joints": (), "added": (), "skipped": (), "deficiencies": ()})
+
+    assert verdict(empty) == "Nothing moves. Nothing was missing. Nothing was added. Nothing was skipped."
+
+
+def test_what_was_built_is_no_longer_lacking(made):
+    lacks = tuple(
+        DeficiencyRecord(kind=kind, part=made.report.joints[0].part, detail="") for kind in (DeficiencyKind.HINGE,)
+    )
+    top = DeficiencyRecord(kind=DeficiencyKind.TOP, part="", detail="")
+    report = made.report.model_copy(update={"deficiencies": (*lacks, top), "added": ()})
+
+    assert still_lacking(report) == (top,)
+    assert still_lacking(report.model_copy(update={"joints": ()})) == (*lacks, top)
+
+
+def test_numbers_are_read_in_degrees_and_centimetres():
+    assert opening(JointType.REVOLUTE, pi / 2) == "90°"
+    assert opening(JointType.PRISMATIC, 0.1234) == "12.3 cm"
+    assert (counted(1, "hinge"), counted(3, "shelf"), counted(2, "rail")) == ("1 hinge", "3 shelves", "2 rails")
+    assert (listed([]), listed(["a"]), listed(["a", "b", "c"])) == ("", "a", "a, b and c")
+
+
+@pytest.mark.parametrize(
+    ("direction", "said"),
+    [((0.0, 0.0, 1.0), "+Z"), ((0.0, -1.0, 0.0), "−Y"), ((0.6, 0.0, 0.8), "(0.60, 0.00, 0.80)")],
+)
+def test_directions_have_names(direction, said):
+    assert direction_words(direction) == said
+
+
+def test_an_axis_says_where_it_lies(made):
+    axis = AxisRecord(origin=(-0.25, 0.1, 5.0), direction=(0.0, 0.0, 1.0))
+    joint = next(j for j in made.report.joints if j.type is JointType.REVOLUTE)
+    moved = joint.model_copy(
+        update={
+            "initial_axis": axis,
+            "rectified_axis": AxisRecord(origin=(-0.22, 0.14, 7.0), direction=(0.0, 0.0, 1.0)),
+        }
+    )
+
+    assert axis_words(axis, JointType.REVOLUTE) == "+Z at x −25.0, y 10.0 cm"
+    assert axis_words(axis, JointType.PRISMATIC) == "along +Z"
+    assert moved_words(moved) == "5.0 cm"
+
+
+def test_decisions_are_said_as_sides(made):
+    completion = made.result.completion
+    words = {joint.part: certainty_words(completion, joint.part) for joint in made.report.joints}
+
+    assert any(line.startswith("pinned ") for lines in words.values() for line in lines)
+    assert any(line.startswith("slides to the front") for lines in words.values() for line in lines)
