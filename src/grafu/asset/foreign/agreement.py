@@ -4,6 +4,7 @@ Bodies are compared, not parts: what a prediction moves as one, and all that it 
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import numpy as np
@@ -86,9 +87,13 @@ class Comparison:
             overlaps.append(intersection_over_union(mine, theirs, _SLACK * self.asset.unit) if mine else 0.0)
         return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
 
-    def body_boxes(self, part_of: tuple[str | None, ...], T_object_foreign: Mat4) -> list[tuple[Box, Box]]:
-        """Returns for each predicted body that covers parts their box, and the body's in this frame."""
-        pairs = ((self._box_of(body, part_of), self._foreign_box(body, T_object_foreign)) for body in self._bodies)
+    def matched_boxes(self, agreed: Agreement, T_object_foreign: Mat4) -> list[tuple[Box, Box]]:
+        """Returns boxes of the asset with those of the prediction in this frame: of parts in order, else of bodies."""
+        if self._order:
+            return self._ordered_boxes(T_object_foreign)
+        pairs = (
+            (self._box_of(body, agreed.part_of), self._foreign_box(body, T_object_foreign)) for body in self._bodies
+        )
         return [(mine, theirs) for mine, theirs in pairs if mine is not None]
 
     @property
@@ -104,20 +109,26 @@ class Comparison:
         moves = self.foreign.body_of[theirs.name] is not None
         return mine.label is not PartLabel.UNKNOWN and label_disagrees(mine.label, theirs.label, moves)
 
+    @cached_property
+    def _order(self) -> dict[int, ForeignPart]:
+        """The predicted part for each of the asset's parts by its number; empty where the format has no order."""
+        slots = {part.slot: part for part in self.foreign.parts if part.slot is not None}
+        ordered = len(slots) == len(self.foreign.parts)
+        return {k: slots[k] for k in range(len(self._boxes)) if k in slots} if ordered else {}
+
+    def _ordered_boxes(self, T: Mat4) -> list[tuple[Box, Box]]:
+        pairs = ((self._boxes[k], part.mesh.box.corners()) for k, part in self._order.items())
+        return [(mine, Box.around(transform_points(T, corners))) for mine, corners in pairs]
+
     def _in_order(self, T: Mat4) -> Agreement | None:
         """Returns what comes of taking predicted parts for the asset's in order, or None where that fits nothing."""
-        slots = {part.slot: part for part in self.foreign.parts}
-        if None in slots:
-            return None
-        mine = [(box, slots[k]) for k, box in enumerate(self._boxes) if k in slots]
-        theirs = [Box.around(transform_points(T, part.mesh.box.corners())) for _, part in mine]
-        pairs = [(a, b) for (a, _), b in zip(mine, theirs, strict=True)]
+        pairs = self._ordered_boxes(T)
         residual = float(np.mean([_faces_apart(a, b) for a, b in pairs])) / self.asset.unit if pairs else 1.0
         if residual > _REGRESSED:
             return None
         slack = _SLACK * self.asset.unit
         overlap = float(np.mean([intersection_over_union(a, b, slack) for a, b in pairs]))
-        part_of = tuple(slots[k].name if k in slots else None for k in range(len(self._boxes)))
+        part_of = tuple(self._order[k].name if k in self._order else None for k in range(len(self._boxes)))
         return Agreement(part_of, residual, max(overlap, LEAST_OVERLAP))
 
     def _covering(self, T: Mat4) -> tuple[str, ...]:

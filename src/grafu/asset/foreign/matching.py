@@ -127,7 +127,7 @@ def refined(comparison: Comparison, guess: FrameGuess, agreed: Agreement) -> tup
     A door that one of the two draws ajar spoils the whole box, but not those of the other bodies.
     """
     while not guess.known and agreed.residual > _SOUND:
-        pairs = comparison.body_boxes(agreed.part_of, guess.T_object_foreign)
+        pairs = comparison.matched_boxes(agreed, guess.T_object_foreign)
         better = replace(guess, T_object_foreign=drawn_together(pairs) @ guess.T_object_foreign)
         again = comparison.agreement(better.T_object_foreign)
         if again.residual > _GAIN * agreed.residual:
