@@ -163,3 +163,12 @@ def test_an_axis_on_the_other_border_is_not_aligned() -> None:
     assert right.found.type is JointType.REVOLUTE
     assert not right.aligned
     assert Axis(vec3(0.5, -0.271, 0.0), vec3(0.0, 0.0, 1.0)).angle_to(right.found.axis) < 1e-9
+
+
+def test_touches_are_counted_on_request() -> None:
+    asset = cabinet()
+    raw, truth = raw_object(asset, plan_from_annotation(asset)), counted_parts(asset)
+    with_touch, without = (measure_parts(raw, truth, asset.unit, with_touch=wanted) for wanted in (True, False))
+    assert {m.touch for m in without} == {None}
+    assert all(m.touch is not None for m in with_touch)
+    assert tuple(replace(m, touch=None) for m in with_touch) == without
