@@ -20,6 +20,7 @@ def code_below(page: str, heading: str) -> list[str]:
         ("synthetic.md", "Synthetic furniture", ""),
         ("additions.md", "From Python", "top_panel rectangle\nhandle_door knob-round\nshelf panel shelf\n"),
         ("dataset.md", "Pairs", ""),
+        ("predictions.md", "From Python", "singapo True singapo\n"),
         ("dataset.md", "FurFun folders", "()\n"),  # what is written is read without a word
     ],
 )

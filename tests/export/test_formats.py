@@ -8,8 +8,14 @@ from grafu.export.formats import FORMATS, export, exporter_for
 
 
 def test_every_format_of_the_table_exports(cabinet):
-    for name in FORMATS:
-        assert f"model.{name}" in exporter_for(name)(cabinet).names
+    written = {name: exporter_for(name)(cabinet).names[0] for name in FORMATS}
+
+    assert written == {
+        "glb": "model.glb",
+        "urdf": "model.urdf",
+        "particulate": "eval/pred.npz",
+        "singapo": "object.json",
+    }
 
 
 def test_formats_are_exported_together(cabinet):
@@ -17,7 +23,7 @@ def test_formats_are_exported_together(cabinet):
 
 
 def test_an_unknown_format_names_the_known_ones(cabinet):
-    with pytest.raises(ExportError, match=r"unknown format `fbx`: known formats are glb, urdf"):
+    with pytest.raises(ExportError, match=r"unknown format `fbx`: known formats are glb, urdf, particulate, singapo"):
         export(cabinet, ["glb", "fbx"])
 
 

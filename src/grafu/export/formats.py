@@ -10,7 +10,14 @@ from grafu.export.files import ExportFiles
 
 Exporter = Callable[[ArticulatedObject], ExportFiles]
 
-FORMATS = MappingProxyType({"glb": ("grafu.export.glb", "export_glb"), "urdf": ("grafu.export.urdf", "export_urdf")})
+FORMATS = MappingProxyType(
+    {
+        "glb": ("grafu.export.glb", "export_glb"),
+        "urdf": ("grafu.export.urdf", "export_urdf"),
+        "particulate": ("grafu.export.particulate", "export_particulate"),
+        "singapo": ("grafu.export.singapo", "export_singapo"),
+    }
+)
 
 
 def exporter_for(name: str) -> Exporter:
