@@ -132,6 +132,38 @@ def test_keys_turn_and_reset_the_view(shown):
     assert shown.run("[grafu.camera.azimuth, grafu.camera.distance]") == pytest.approx(start)
 
 
+def test_two_fingers_zoom(shown):
+    x, y = shown.run(
+        "(({x, y, width, height}) => [x + width / 2, y + height / 2])(grafu.canvas.getBoundingClientRect())"
+    )
+    before = shown.run("grafu.camera.distance")
+    for kind, reach in (("touchStart", 30), ("touchMove", 60), ("touchMove", 90), ("touchEnd", None)):
+        points = [{"x": x - reach, "y": y, "id": 1}, {"x": x + reach, "y": y, "id": 2}] if reach else []
+        shown.ask("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+
+    assert shown.run("grafu.camera.distance") < 0.7 * before
+    assert shown.run("grafu.gestures.pointers.size") == 0
+    assert shown.complaints() == []
+
+
+def test_the_wheel_scrolls_the_page_until_the_view_is_clicked(shown):
+    def turned():
+        before = shown.run("grafu.camera.distance")
+        shown.run(
+            "grafu.canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: -100, cancelable: true, bubbles: true}))"
+        )
+        return shown.run("grafu.camera.distance") / before
+
+    assert turned() == 1
+    shown.run("grafu.canvas.focus()")
+    assert turned() < 1
+
+
+def test_a_lost_graphics_card_is_said(shown):
+    shown.run("grafu.renderer.gl.getExtension('WEBGL_lose_context').loseContext()")
+    shown.wait_for("document.getElementById('stage').className === 'without'")
+
+
 def test_a_name_that_is_markup_is_never_run(shown):
     assert shown.run("window.hurt ?? null") is None
 

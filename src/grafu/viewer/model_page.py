@@ -3,7 +3,7 @@
 A header with the verdict, a 3D view with a slider per joint, pictures, the functional graph, and the report as tables.
 """
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.asset.part import Asset
 from grafu.export.graph_picture import draw_graph, drawing_svg
 from grafu.graph.completion import GraphCompletion
@@ -24,7 +24,7 @@ _NAMED = 28  # nodes whose names have room below them; of more the name shows un
 _HINT = (
     "Select a part to see its name and its axis. Drag to turn; two fingers or Shift to move; click, then wheel to zoom."
 )
-_SWITCHES = (("hardware", "Hardware", True), ("added", "Added parts", True), ("categories", "Category colours", False))
+_ROLES = ((VisualRole.HARDWARE, "hardware", "Hardware"), (VisualRole.ADDED, "added", "Added parts"))
 
 
 def model_page(
@@ -71,7 +71,9 @@ def _panel(articulated: ArticulatedObject) -> Html:
     buttons = [tag("button", word, type="button", data_action=action, disabled=True) for action, word in actions]
     rows = [_slider(index, joint) for index, joint in enumerate(joints)]
     moving = [tag("div", *buttons, class_="actions"), tag("div", *rows, class_="joints")] if joints else []
-    switches = [_switch(*given) for given in _SWITCHES]
+    roles = {visual.role for link in articulated.links for visual in link.visuals}
+    switches = [_switch(key, word, on=True) for role, key, word in _ROLES if role in roles]
+    switches.append(_switch("categories", "Category colours", on=False))
     return tag("div", *moving, tag("div", *switches, class_="switches"), class_="panel")
 
 

@@ -11,6 +11,7 @@ from grafu.viewer.wording import axis_words, counted, listed, moved_words, openi
 from grafu.vocabulary import JointType
 
 _SHOWN = 6  # ids in a cell; more of them are counted
+_LEAST = 5e-4  # a share that is not written as 0.0 %
 
 
 def plain_rows(columns: Sequence[str], rows: Sequence[Sequence[str]], label: str) -> Html:
@@ -99,8 +100,9 @@ def _notes(joint: JointRecord) -> list[str]:
 
 def _clearance(cut: ClearanceRecord) -> str:
     """Returns what was taken away: as a depth where material was pressed back, else as a share."""
+    share = f", {cut.share:.1%} of it" if cut.share >= _LEAST else ", a trace"
     amount = {"trimmed": f" by {1000 * cut.amount:.1f} mm", "joined": "", "closed": ""}
-    return f"{cut.part} {cut.kind}{amount.get(cut.kind, f', {cut.share:.1%} of it')}: {cut.why}"
+    return f"{cut.part} {cut.kind}{amount.get(cut.kind, share)}: {cut.why}"
 
 
 def _ids(parts: Sequence[str]) -> str:

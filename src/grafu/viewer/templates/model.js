@@ -9,10 +9,14 @@ async function startModel() {
     window.grafu = new ModelView(stage, scene, images);
     stage.classList.add("ready");
   } catch (error) {
-    stage.classList.add("without");
-    document.getElementById("view-note").textContent =
-      `This browser cannot show the model in 3D (${error.message || error}): the pictures below show it closed and open.`;
+    goWithout(stage, error.message || error);
   }
+}
+
+function goWithout(stage, why) {
+  stage.className = "without";
+  document.getElementById("view-note").textContent =
+    `This browser cannot show the model in 3D (${why}): the pictures below show it as it came and open.`;
 }
 
 class ModelView {
@@ -41,6 +45,7 @@ class ModelView {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
     document.querySelectorAll("[data-part]").forEach((button) =>
       button.addEventListener("click", () => this.chooseItem(this.itemNamed(button.dataset.part), true)));
+    this.canvas.addEventListener("webglcontextlost", () => goWithout(stage, "the graphics card went away"));
     this.theme();
     this.resize();
   }
