@@ -172,3 +172,19 @@ def test_touches_are_counted_on_request() -> None:
     assert {m.touch for m in without} == {None}
     assert all(m.touch is not None for m in with_touch)
     assert tuple(replace(m, touch=None) for m in with_touch) == without
+
+
+def test_hinges_that_a_door_was_drawn_with_are_its_hardware() -> None:
+    asset = cabinet()
+    knuckle = board("knuckle", PartLabel.MISC, (-0.5, -0.26, 0.2), (-0.45, -0.2, 0.3))
+    drawn = knuckle.part.surfaces[0]
+
+    def drawn_with(name: str) -> dict[str, PartMeasure]:
+        surfaces = (replace(drawn, name=name),)
+        parts = (replace(p, surfaces=p.surfaces + surfaces) if p.id == DOOR else p for p in asset.parts)
+        changed = replace(asset, parts=tuple(parts))
+        return measured(changed, plan_from_annotation(changed))
+
+    assert drawn_with("hinge-12")[DOOR].collision == measured(asset, plan_from_annotation(asset))[DOOR].collision
+    assert drawn_with("Door Hinges 3")[DOOR].collision == drawn_with("hinge-12")[DOOR].collision
+    assert drawn_with("hinge_panel-12")[DOOR].collision == pytest.approx(0.44, abs=0.02)  # until it is out of the side

@@ -5,7 +5,7 @@ Wheels, casters, knobs and buttons that the input lets turn are `misc` and stay 
 """
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -192,7 +192,7 @@ def _static(body: Body, carrier: str | None, annotated: bool, notes: list[str]) 
 
 
 def _part(draft: _Draft, part_id: str, by_body: dict[str, str]) -> Part:
-    surfaces = tuple(s for v in draft.visuals for s in v.surfaces)
+    surfaces = tuple(replace(s, name=v.name) for v in draft.visuals for s in v.surfaces)
     files = sorted({v.file for v in draft.visuals if v.file})
     source = PartSource(draft.name, ", ".join(files), draft.visuals[0].link)
     carrier = by_body.get(draft.carrier) if draft.carrier is not None else None

@@ -45,7 +45,7 @@ def _without_degenerate(surfaces: tuple[Surface, ...]) -> tuple[tuple[Surface, .
             continue
         dropped += int((~good).sum())
         mesh = TriangleMesh(surface.mesh.vertices, surface.mesh.faces[good])
-        kept.append(Surface(mesh, surface.material, surface.uv, surface.normals, surface.colors))
+        kept.append(replace(surface, mesh=mesh))
     return tuple(s for s in kept if not s.is_empty), dropped
 
 

@@ -1,16 +1,19 @@
 """Motions as they were stated, on the meshes as they are: no hardware, no clearance, no limit found by sweeping.
 
-What is measured on it is what a method's axes are worth before anything is mended.
+What is measured on it is what a method's axes are worth before anything is mended. Hinges and slides that a door or
+drawer was drawn with are its hardware: they may lie in the carcass, and hold it.
 """
 
+import re
 from dataclasses import replace
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.asset.part import Asset, Part
 from grafu.evaluation.moving_parts import box_of, usual_opening
 from grafu.realization.plan import JointRequest, RealizationPlan
 
 ROOT = "body"
+_HARDWARE = frozenset({"hinge", "rail", "slide", "slider", "runner"})
 
 
 def raw_object(asset: Asset, plan: RealizationPlan) -> ArticulatedObject:
@@ -64,7 +67,23 @@ def _link(asset: Asset, request: JointRequest, members: tuple[str, ...]) -> Link
     if request.drawn_at > 0:
         T = Joint("", request.type, "", "", request.axis, JointLimits(0.0, 0.0)).motion(-request.drawn_at)
         parts = [replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces)) for part in parts]
-    return Link(request.moving, tuple(_visual(part) for part in parts))
+    return Link(request.moving, tuple(visual for part in parts for visual in _with_hardware(part)))
+
+
+def _with_hardware(part: Part) -> tuple[Visual, ...]:
+    """Returns a moving part without the hardware that it was drawn with, and that apart."""
+    hardware = tuple(s for s in part.surfaces if _is_hardware(s.name))
+    rest = tuple(s for s in part.surfaces if not _is_hardware(s.name))
+    if not hardware or not rest:
+        return (_visual(part),)
+    drawn = Visual(f"hinge_{part.id}_drawn", hardware, VisualRole.HARDWARE, part.label)
+    return (Visual(part.id, rest, label=part.label), drawn)
+
+
+def _is_hardware(name: str) -> bool:
+    """Whether the last word of a name, numbers left out, is that of a hinge or a slide."""
+    words = re.findall("[a-z]+", name.lower())
+    return bool(words) and words[-1].removesuffix("s") in _HARDWARE
 
 
 def _visual(part: Part) -> Visual:

@@ -50,7 +50,7 @@ class Surface(ArrayValue):
     """A mesh with one material; per-vertex attributes are optional.
 
     `uv` follows OBJ and OpenGL (origin bottom left); `normals` are unit vectors in the object frame; `colors` is
-    8-bit RGBA.
+    8-bit RGBA. `name` is what the input calls it, empty where it says nothing.
 
     Raises:
         ValueError: if an attribute's length is not the number of vertices.
@@ -61,6 +61,7 @@ class Surface(ArrayValue):
     uv: Float[np.ndarray, "n 2"] | None = None
     normals: Points | None = None
     colors: UInt8[np.ndarray, "n 4"] | None = None
+    name: str = ""
 
     def __post_init__(self) -> None:
         for name, dtype in (("uv", np.float64), ("normals", np.float64), ("colors", np.uint8)):
@@ -82,4 +83,4 @@ class Surface(ArrayValue):
         if normals is not None:
             mapped = normals @ np.linalg.inv(T[:3, :3])
             normals = mapped / np.maximum(np.linalg.norm(mapped, axis=1, keepdims=True), 1e-300)
-        return Surface(self.mesh.transformed(T), self.material, self.uv, normals, self.colors)
+        return Surface(self.mesh.transformed(T), self.material, self.uv, normals, self.colors, self.name)
