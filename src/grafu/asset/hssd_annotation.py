@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, final
+from typing import Any, TypeGuard, final
 
 import numpy as np
 
@@ -160,13 +160,13 @@ def _runs(file: _Json, pid: str, entry: dict[str, Any]) -> list[TriangleRun]:
         raise file.damaged(f"part {pid} names mesh {mesh!r}")
     if ranges is None:
         return [TriangleRun(mesh)]
-    pairs = [[r, r + 1] if _is_count(r) else r for r in ranges] if isinstance(ranges, list) else [None]
+    pairs: list[Any] = [[r, r + 1] if _is_count(r) else r for r in ranges] if isinstance(ranges, list) else [None]
     if not all(isinstance(p, list) and len(p) == 2 and all(map(_is_count, p)) and p[0] <= p[1] for p in pairs):
         raise file.damaged(f"part {pid} has a triangle range that is not [first, last)")
     return [TriangleRun(mesh, first, last) for first, last in pairs]
 
 
-def _is_count(value: Any) -> bool:
+def _is_count(value: Any) -> TypeGuard[int]:
     return isinstance(value, int) and not isinstance(value, bool) and value >= 0
 
 
