@@ -13,16 +13,19 @@ from hypothesis import strategies as st
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.frames import quarter_turns
 from grafu.asset.foreign.particulate import UP_ROTATIONS, normalisation, read_particulate
+from grafu.asset.part import AnnotatedJoint
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.files import write_files
 from grafu.export.particulate import ParticulateConfig, export_particulate
 from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.pipeline.foreign import read_foreign
 from grafu.synth.articulated import articulated_of
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, PartLabel
 from predictions import cabinet, require_same_joints, way
+from sketches import Sketched, board, drawer, sketch
 
 CABINET = cabinet()
 OBJECT = articulated_of(CABINET)
@@ -233,3 +236,22 @@ def test_damage_anywhere_is_read_or_refused_in_one_line(
 def test_a_mirror_image_cannot_be_written() -> None:
     with pytest.raises(ExportError, match="no mirror image"):
         ParticulateConfig("Z", np.diag([-1.0, 1.0, 1.0, 1.0]))
+
+
+@pytest.mark.parametrize("up", UP_ROTATIONS)
+def test_drawers_may_come_out_on_both_sides(up: str, tmp_path: Path) -> None:
+    before, behind = (
+        drawer("before", (-0.46, -0.4, 0.1), (0.46, -0.02, 0.9)),
+        drawer("behind", (-0.46, 0.02, 0.1), (0.46, 0.4, 0.9)),
+    )
+    out = AnnotatedJoint("behind", JointType.PRISMATIC, Axis(vec3(0.0, 0.4, 0.5), vec3(0.0, 1.0, 0.0)), 0.0, 0.3)
+    desk = sketch(
+        board("left", PartLabel.SIDE_PANEL, (-0.5, -0.4, 0.0), (-0.47, 0.4, 1.0)),
+        board("right", PartLabel.SIDE_PANEL, (0.47, -0.4, 0.0), (0.5, 0.4, 1.0)),
+        board("top", PartLabel.TOP_PANEL, (-0.5, -0.42, 1.0), (0.5, 0.42, 1.02)),
+        before,
+        Sketched(behind.part, out),
+    )
+    write_files(export_particulate(articulated_of(desk), ParticulateConfig(up)), tmp_path / "run")  # type: ignore[arg-type]
+
+    require_same_joints(attach_motions(desk, read_foreign(tmp_path / "run")), desk)

@@ -1,7 +1,7 @@
 """How little a stated joint looks like one of furniture, where its frame must be guessed. It mends no joint.
 
 In the object frame the front is -Y: drawers slide out there, doors swing out there, lids lift; what sets off
-sideways is a little odd.
+sideways is a little odd, and so is what comes out behind.
 """
 
 import numpy as np
@@ -13,12 +13,12 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.vocabulary import JointType
 
-_SIDEWAYS = 0.8  # how much of setting off to the front it is to set off sideways: sliding doors, corner cabinets
+_SIDEWAYS = 0.8  # how much of setting off to the front it is to set off sideways, or out behind
 _A_LITTLE = 1e-3  # radians or metres: how far a joint is moved to see where the part sets off
 
 
-def strangeness(kind: JointType, axis: Axis, lower: float, upper: float, box: Box) -> float:
-    """Returns from 0 (as expected) to 1 how odd a joint is for a part with this box, all in the object frame.
+def strangeness(kind: JointType, axis: Axis, lower: float, upper: float, box: Box, whole: Box) -> float:
+    """Returns from 0 (as expected) to 1 how odd a joint is for a part with this box of an object with that box.
 
     Half of it is where the part sets off to; of a hinge the other half is how far its axis runs from the part, or
     how much across the part's plane.
@@ -26,7 +26,8 @@ def strangeness(kind: JointType, axis: Axis, lower: float, upper: float, box: Bo
     sense = 1.0 if abs(upper) >= abs(lower) else -1.0
     x, y, z = _sets_off(kind, axis, sense * _A_LITTLE, box.center).tolist()
     lifts = z if kind is JointType.REVOLUTE and box.thin_axis == 2 else -1.0
-    backwards = (1.0 - max(-y, lifts, _SIDEWAYS * abs(x))) / 2
+    out_behind = _SIDEWAYS * y if box.center[1] > whole.center[1] else -1.0
+    backwards = (1.0 - max(-y, lifts, _SIDEWAYS * abs(x), out_behind)) / 2
     if kind is not JointType.REVOLUTE:
         return backwards
     across = abs(float(axis.direction[box.thin_axis]))
