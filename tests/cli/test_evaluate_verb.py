@@ -48,6 +48,17 @@ def test_the_tables_of_a_cabinet_that_works(done: Path) -> None:
     assert {p.suffix for p in (done / "tables").iterdir()} == {".md", ".csv", ".json", ".tex"}
 
 
+def test_the_page_of_a_run_holds_every_table_and_model(done: Path) -> None:
+    page = (done / "index.html").read_text()
+
+    for words in ("Motion correctness, collision and connectivity", "Every model, worst first", "first", "second"):
+        assert words in page
+    assert "rule: work as built" in page
+    assert "100.0 % to 100.0 %" in page  # the interval of a figure
+    assert "http://" not in page.replace("http://www.w3.org/", "")
+    assert "https://" not in page
+
+
 def test_stopped_in_the_middle_the_same_command_gives_the_same_tables(data: Path, done: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     out.mkdir()

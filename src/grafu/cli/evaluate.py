@@ -11,7 +11,8 @@ _METHODS = "annotation,rule,network"
 
 _DESCRIPTION = """\
 Has each method make each model, measures every part that counts, and writes tables to DIR/tables as Markdown, CSV,
-JSON and LaTeX, with index.md that says how each figure was measured. What is done stands in DIR/rows.jsonl: stopped or
+JSON and LaTeX, with index.md that says how each figure was measured, and DIR/index.html to sort and look at. What is
+done stands in DIR/rows.jsonl: stopped or
 killed, the same command goes on.
 
 data:    a folder of models whose joints are annotated (PartNet-Mobility, HSSD with S2O annotations, URDF, the authors'

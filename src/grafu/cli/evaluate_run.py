@@ -6,9 +6,11 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
+from grafu.cli.evaluation_page import evaluation_page
 from grafu.cli.messages import complain
 from grafu.cli.pool import CRASHED, run_all
 from grafu.cli.progress import with_progress
+from grafu.cli.run_page import RUN_PAGE
 from grafu.cli.tables import plain_table, wide_console
 from grafu.evaluation.bootstrap import Figure
 from grafu.evaluation.dataset import find_models
@@ -23,6 +25,7 @@ from grafu.evaluation.table import Table
 from grafu.evaluation.table_forms import shown
 from grafu.evaluation.tasks import Task, key_of
 from grafu.export.files import ExportFiles, write_files
+from grafu.export.whole_file import write_whole
 
 EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 _SHOWN = ("aligned", "reasonable", "collision", "collision_fixed", "connected_fixed", "works", "works_fixed")
@@ -51,6 +54,8 @@ def run_evaluation(options: argparse.Namespace) -> int:
     results = collect((*first, *pairs), rows)
     files = ExportFiles(output_files(plan, results, _command(options)))
     write_files(files, options.out / "tables", overwrite=True)
+    title = f"Evaluation on {plan.data}"
+    write_whole(evaluation_page(title, build_tables(plan, results)), options.out / RUN_PAGE)
     _say(plan, results, options.out)
     return EXIT_FAILED if results.failures else EXIT_DONE
 
@@ -87,7 +92,7 @@ def _say(plan: EvaluationPlan, results: Results, out: Path) -> None:
         _print_motion(motion)
     for failure in results.failures:
         complain(f"{failure.model}: {failure.what}: {failure.error}")
-    print(f"written to {out / 'tables' / 'index.md'}")
+    print(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")
 
 
 def _print_motion(table: Table) -> None:

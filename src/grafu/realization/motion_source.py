@@ -111,4 +111,4 @@ def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float)
 
 def _shared(a: Box, b: Box) -> float:
     """Returns the volume that two boxes share."""
-    return float(np.prod(np.maximum(-a.axis_gaps(b), 0.0)))
+    return float(np.prod(np.maximum(np.minimum(a.high, b.high) - np.maximum(a.low, b.low), 0.0)))
