@@ -5,7 +5,7 @@ gets its joint; what it cuts into is left out of account, and the report says in
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.geometry.axis import Axis
@@ -42,12 +42,17 @@ class Built:
 
 
 def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
-    """Returns the joint as built, or why it could not be."""
+    """Returns the joint as built, or why it could not be; a chosen opening may be wider than doors have by default."""
+    opening = request.choice.opening
+    if opening is not None:
+        config = replace(config, door_opening=max(config.door_opening, opening))
     return _BUILDERS[request.type](request, scene, gallery, config)
 
 
 def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
     search = door_search(request, scene, config)
+    if not search.has_pins:
+        return Skipped(request.moving, SkipReason.NO_ROOM, f"what stands around it allows no {request.choice}")
     clearances: tuple[Clearance, ...] = ()
     share = search.best().free / search.wanted
     if share < 1.0:
@@ -123,12 +128,16 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     if free < 0.3:
         detail = "it cannot move freely about any candidate axis, not even with the clearance allowed"
         return Skipped(request.moving, SkipReason.BLOCKED, detail)
-    detail = "no mechanism finds a hold on both sides without cutting into parts"
+    what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
+    detail = f"no {what} finds a hold on both sides without cutting into parts"
     return Skipped(request.moving, SkipReason.NO_ROOM, detail)
 
 
 def _built(request: JointRequest, found: _Found, wanted: float) -> Built:
     placement, scene, clearances = found
+    most = request.choice.opening
+    if most is not None:
+        placement, wanted = replace(placement, upper=min(placement.upper, most)), min(wanted, most)
     way = Way(placement.axis, request.type, placement.upper)
     with_joint = scene.with_joint(request.moving, way, placement.dynamic, placement.static)
     return Built(request, placement, with_joint, clearances, wanted)

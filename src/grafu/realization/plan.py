@@ -1,10 +1,59 @@
-"""What realization is asked to build: joints with initial axes. It cannot tell who asked."""
+"""What realization is asked to build: joints with initial axes, and choices about them. It cannot tell who asked."""
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import final
 
 from grafu.geometry.axis import Axis
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, MechanismClass
+
+PIVOT = "pivot"
+"""The template of a door that is carried by discs at its ends; it is of no gallery."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class JointChoice:
+    """What is decided about one joint; what is left as it is here, the search decides.
+
+    `mechanism` and `template` narrow it to one class or template (an id; `PIVOT` for discs at the ends), `scale`
+    multiplies the size of hinges, `count` is their number (0: by the door's height), `flipped` hangs the door on its
+    opposite border, `opening` is the widest opening (radians or metres), `mount` the part that should carry the joint.
+
+    Raises:
+        ValueError: if `scale` is not in [0.25, 4], `count` not in 0..12, or `opening` not above 0.
+    """
+
+    mechanism: MechanismClass | None = None
+    template: str = ""
+    scale: float = 1.0
+    count: int = 0
+    flipped: bool = False
+    opening: float | None = None
+    mount: str = ""
+
+    def __post_init__(self) -> None:
+        if not 0.25 <= self.scale <= 4.0:
+            raise ValueError(f"`JointChoice.scale` must be in 0.25..4: got {self.scale}")
+        if not 0 <= self.count <= 12:
+            raise ValueError(f"`JointChoice.count` must be in 0..12: got {self.count}")
+        if self.opening is not None and not (isfinite(self.opening) and self.opening > 0):
+            raise ValueError(f"`JointChoice.opening` must be above 0: got {self.opening}")
+        if self.template == PIVOT and self.mechanism is not None:
+            raise ValueError(f"pivots are of no class: got {self.mechanism}")
+
+    def __str__(self) -> str:
+        words = (f"class {self.mechanism}" if self.mechanism else "", self.template, "flipped" * self.flipped)
+        sizes = (f"{self.count} of them" if self.count else "", f"scale {self.scale:g}" if self.scale != 1.0 else "")
+        return ", ".join(word for word in (*words, *sizes) if word)
+
+    def takes(self, template: str) -> bool:
+        """Whether hardware of this template may be built."""
+        return self.template in ("", template)
+
+
+AUTOMATIC = JointChoice()
+"""Nothing is decided: the search is free."""
 
 
 @final
@@ -16,7 +65,7 @@ class JointRequest:
     opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts
     that should carry it, best first; empty leaves the choice to the geometry. `riders` move with the part (handles).
     `source` says where the motion came from. `drawn_at` is the joint value at which the input draws the part: where it
-    is not 0 the part is drawn ajar, and is closed before anything is built.
+    is not 0 the part is drawn ajar, and is closed before anything is built. `choice` narrows the search for hardware.
     """
 
     moving: str
@@ -27,6 +76,7 @@ class JointRequest:
     mounts: tuple[str, ...] = ()
     riders: tuple[str, ...] = ()
     drawn_at: float = 0.0
+    choice: JointChoice = AUTOMATIC
 
     def __post_init__(self) -> None:
         if self.type is JointType.FIXED:

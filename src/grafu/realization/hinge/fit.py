@@ -54,12 +54,18 @@ def hinge_heights(length: float, count: int) -> np.ndarray:
     return (np.arange(1, count + 1) / (count + 1) - 0.5) * length
 
 
-def hinge_size(model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int) -> HingeSize | None:
-    """Returns the size at which a model fits a pin; None where its leaves would be no wider than its barrel."""
+def hinge_size(
+    model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int, scale: float = 1.0
+) -> HingeSize | None:
+    """Returns the size at which a model fits a pin; None where its leaves would be no wider than its barrel.
+
+    `scale` multiplies what suits the door; the pin's radius has it already, and hinges still must find room.
+    """
     radius = pin.radius
-    length = min(model.natural.length, _LENGTH_SHARE * frame.length, 0.8 * frame.length / (count + 1))
-    leaf = min(model.natural.leaf, pin.leaf_room)
-    thickness = min(model.natural.thickness, 0.6 * radius)
+    wanted = scale * min(model.natural.length, _LENGTH_SHARE * frame.length)
+    length = min(wanted, 0.8 * frame.length / (count + 1))
+    leaf = min(scale * model.natural.leaf, pin.leaf_room)
+    thickness = min(scale * model.natural.thickness, 0.6 * radius)
     if leaf < 1.5 * radius + 2e-4 or length < 2 * radius:
         return None
     return HingeSize(length, leaf, thickness, radius)

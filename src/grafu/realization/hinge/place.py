@@ -12,18 +12,18 @@ from typing import final
 
 from grafu.articulation.articulated_object import Visual
 from grafu.realization.hinge.candidates import PinCandidate
-from grafu.realization.hinge.fit import fit_hinge, hinge_count, hinge_heights, hinge_size
+from grafu.realization.hinge.fit import fit_hinge, hinge_heights, hinge_size
 from grafu.realization.hinge.hardware import InstalledHinge, Site, install, judged_hinge
 from grafu.realization.hinge.pivot import pivot_ends
 from grafu.realization.hinge.search import DoorSearch, JudgedPin
 from grafu.realization.limits import in_the_way, motion_about
 from grafu.realization.placement import Placement, nearest_part
+from grafu.realization.plan import PIVOT
 from grafu.templates.template import Gallery, HingeModel
 from grafu.vocabulary import JointType
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _LEAST_SHARE = 0.3  # an opening below this share of the wanted one is no motion
-PIVOT = "pivot"
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
 _STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
@@ -106,10 +106,10 @@ def _tries(search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
 
 def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
     """Yields the placements of the templates of the pin's class whose hinges all fit."""
-    count = hinge_count(search.frame.length)
+    count, choice = search.count, search.request.choice
     for model in gallery.hinges_of(judged.pin.mechanism):
-        size = hinge_size(model, search.frame, judged.pin, count)
-        if size is None:
+        size = hinge_size(model, search.frame, judged.pin, count, choice.scale)
+        if size is None or not choice.takes(model.id):
             continue
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
         if upper < _LEAST_SHARE * search.wanted:
@@ -176,7 +176,7 @@ def _installed(
     model: HingeModel, pin: PinCandidate, site: Site, count: int, search: DoorSearch
 ) -> Iterator[InstalledHinge | None]:
     """Yields one hinge per height, each shifted along the pin where its place is taken; None where it finds none."""
-    size = hinge_size(model, search.frame, pin, count)
+    size = hinge_size(model, search.frame, pin, count, search.request.choice.scale)
     if size is None:
         return
     taken: list[float] = []

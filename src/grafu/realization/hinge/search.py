@@ -21,15 +21,16 @@ from grafu.realization.hinge.candidates import (
     ruled_pins,
     turns_about_itself,
 )
-from grafu.realization.hinge.fit import SMALLEST, barrel_radius
+from grafu.realization.hinge.fit import SMALLEST, barrel_radius, hinge_count
 from grafu.realization.hinge.neighbours import Neighbour, neighbours_of
 from grafu.realization.hinge.survey import survey
 from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, sweep, swept_box, widest_free
-from grafu.realization.plan import JointRequest
+from grafu.realization.plan import PIVOT, JointRequest
 from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType
 
 _SLIM = 0.5  # barrel radius of a slim hinge, a share of what suits the door
+_LOOSER = 4.0  # seams and steps for a class that is forced: support blocks bridge what remains
 _NEARLY = 0.05  # a pin that leaves this share of the wanted opening blocked is still as good as free
 
 
@@ -115,7 +116,7 @@ class DoorSearch:
         if turns_about_itself(self.frame, self.request.axis):
             return []
         tol = replace(self._tolerances, radius=max(_SLIM * self._tolerances.radius, SMALLEST))
-        pins = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
+        pins = self._ruled_pins(tol)
         return self._judged([replace(pin, preference=MAKESHIFT) if pin.let_in else pin for pin in pins])
 
     @property
@@ -126,17 +127,48 @@ class DoorSearch:
         judged = (self._judge(pin) for pin in self._allowed)
         return next((j.axis for j in judged if j.is_clear), self.request.axis)
 
+    @property
+    def count(self) -> int:
+        """How many hinges the door is to have."""
+        return self.request.choice.count or hinge_count(self.frame.length)
+
+    @property
+    def has_pins(self) -> bool:
+        """Whether any pin is left to try; a choice can leave none."""
+        return next(self.in_order(), None) is not None
+
     @cached_property
     def _allowed(self) -> list[PinCandidate]:
-        tol = self._tolerances
-        return ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
+        return self._ruled_pins(self._tolerances)
+
+    def _ruled_pins(self, tol: Tolerances) -> list[PinCandidate]:
+        """Returns the pins of the classes that the surroundings allow; of a forced class, over wider seams at need."""
+        forced = self.request.choice.mechanism
+        pins = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
+        if forced is None:
+            return pins
+        wider = replace(tol, contact=_LOOSER * tol.contact, flush=_LOOSER * tol.flush)
+        of_class = [pin for pin in pins if pin.mechanism is forced]
+        more = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * wider.contact), wider)
+        return of_class or [pin for pin in more if pin.mechanism is forced]
 
     @property
     def _tolerances(self) -> Tolerances:
         unit = self.scene.unit
-        return Tolerances(self.config.contact * unit, self.config.flush * unit, barrel_radius(self.frame))
+        radius = barrel_radius(self.frame) * self.request.choice.scale
+        return Tolerances(self.config.contact * unit, self.config.flush * unit, radius)
 
     def in_order(self) -> Iterator[JudgedPin]:
+        """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
+        return (judged for judged in self._all_in_order() if self._is_left(judged.pin))
+
+    def _is_left(self, pin: PinCandidate) -> bool:
+        choice = self.request.choice
+        if pin.is_pivot:
+            return choice.mechanism is None and choice.takes(PIVOT) and not choice.count
+        return choice.mechanism in (None, pin.mechanism) and choice.template != PIVOT
+
+    def _all_in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins: those of a hinge class that leave the door free, then slim ones, then everything by rank.
 
         What is no board turns about the axis that was asked for, if anything can carry it there.

@@ -33,7 +33,10 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     if region is None:
         return None
     walls = find_walls(search.frame, region, search.static_rays, 0.25 * search.scene.unit)
+    choice = search.request.choice
     for model in gallery.rails:
+        if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
+            continue
         for spot in rail_spots(model, region, walls, search.config.rail_share):
             placed = _with_hardware(model, spot, region, search)
             if placed is not None:
