@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from types import MappingProxyType
+from typing import Any
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.errors import ExportError
@@ -16,20 +17,24 @@ FORMATS = MappingProxyType(
         "urdf": ("grafu.export.urdf", "export_urdf"),
         "particulate": ("grafu.export.particulate", "export_particulate"),
         "singapo": ("grafu.export.singapo", "export_singapo"),
+        "blend": ("grafu.export.blend.exporter", "export_blend"),
     }
 )
+_NEEDS = MappingProxyType({"blend": ("grafu.export.blend.exporter", "find_interpreter")})
+"""What finds, or else refuses, what an optional format cannot do without."""
 
 
 def exporter_for(name: str) -> Exporter:
     """Returns the exporter of a format, with its default configuration.
 
     Raises:
-        ExportError: if the format is not in the table.
+        ExportError: if the format is not in the table, or what it needs is not installed.
     """
     if name.lower() not in FORMATS:
         raise ExportError(f"unknown format `{name}`: known formats are {', '.join(FORMATS)}")
-    module, function = FORMATS[name.lower()]
-    exporter: Exporter = getattr(import_module(module), function)
+    if name.lower() in _NEEDS:
+        _found(*_NEEDS[name.lower()])()
+    exporter: Exporter = _found(*FORMATS[name.lower()])
     return exporter
 
 
@@ -44,3 +49,8 @@ def export(articulated: ArticulatedObject, formats: Sequence[str]) -> ExportFile
     for exporter in exporters:
         files = files.joined(exporter(articulated))
     return files
+
+
+def _found(module: str, function: str) -> Callable[..., Any]:
+    found: Callable[..., Any] = getattr(import_module(module), function)
+    return found

@@ -1,0 +1,126 @@
+"""Joints in Blender: an empty with limits and one property that opens it, a driver on the link, keys, muting.
+
+Everything here takes Blender's own objects; they are told apart by their custom properties (`layout`).
+"""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Joint
+from grafu.export.blend.cycle import Key
+from grafu.export.blend.layout import AFTER, CHILD, ID, KIND, LOWER, OPEN, PARENT, TYPE, UPPER, Kind
+from grafu.geometry.arrays import Vec3
+from grafu.vocabulary import JointType
+
+Empty = Any
+"""A `bpy.types.Object`; Blender's own types are made when it runs."""
+_PATH = f'["{OPEN}"]'
+
+
+def describe_joint(empty: Empty, joint: Joint) -> None:
+    """Writes what a joint is into the properties of its empty; a fixed joint has no `open`."""
+    empty[KIND], empty[ID], empty[TYPE] = Kind.JOINT.value, joint.id, joint.type.value
+    empty[PARENT], empty[CHILD], empty[AFTER] = joint.parent, joint.child, json.dumps(list(joint.after))
+    empty[LOWER], empty[UPPER] = float(joint.limits.lower), float(joint.limits.upper)
+    unit = "ANGLE" if joint.type is JointType.REVOLUTE else "DISTANCE"
+    for name in (LOWER, UPPER):
+        empty.id_properties_ui(name).update(min=0.0, subtype=unit, description=f"The joint's {name} limit")
+    if joint.type is not JointType.FIXED:
+        empty[OPEN] = 0.0
+        about = "How far the joint is open: 0 closed, 1 at its limit"
+        empty.id_properties_ui(OPEN).update(min=0.0, max=1.0, default=0.0, subtype="FACTOR", description=about)
+
+
+def turn_to_axis(empty: Empty, direction: Vec3) -> None:
+    """Turns an empty so that its local Z is a direction (unit vector, its parent's frame)."""
+    empty.rotation_mode = "QUATERNION"
+    empty.rotation_quaternion = _from_up(np.asarray(direction, dtype=np.float64))
+
+
+def drive_link(link: Empty, empty: Empty, joint: Joint) -> None:
+    """Lets a joint's empty drive its link's: turned about, or shifted along, the axis by what `open` stands for.
+
+    The link's own axes stay parallel to the object frame at rest, whatever way the joint's empty points.
+    """
+    direction = [float(v) for v in joint.axis.direction]
+    if joint.type is JointType.REVOLUTE:
+        link.rotation_mode = "AXIS_ANGLE"
+        link.rotation_axis_angle = (0.0, *direction)
+        _drive(link, ("rotation_axis_angle", 0), empty, 1.0)
+    elif joint.type is JointType.PRISMATIC:
+        for index in np.flatnonzero(direction):
+            _drive(link, ("location", int(index)), empty, direction[index])
+
+
+def key_joint(empty: Empty, keys: tuple[Key, ...]) -> None:
+    """Writes keys (frames, shares of the opening) for `open`, soft at both ends of every move."""
+    for frame, share in keys:
+        empty[OPEN] = share
+        empty.keyframe_insert(_PATH, frame=frame)
+    empty[OPEN] = keys[0][1]
+    for curve in open_curves(empty):
+        for point in curve.keyframe_points:
+            point.interpolation = "BEZIER"
+            point.handle_left_type = point.handle_right_type = "AUTO_CLAMPED"  # never beyond a key, flat at the ends
+        curve.update()
+
+
+def set_open(empty: Empty, share: float) -> None:
+    """Opens a joint to a share of its range (0 closed, 1 at its limit); an animation undoes it at the next frame.
+
+    Raises:
+        ValueError: if the empty is no moving joint's, or the share is not in 0..1.
+    """
+    if empty.get(KIND) != Kind.JOINT or OPEN not in empty:
+        raise ValueError(f"`empty` must be a moving joint's: got `{empty.name}`")
+    if not 0.0 <= share <= 1.0:
+        raise ValueError(f"`share` must be in 0..1: got {share}")
+    empty[OPEN] = float(share)
+    empty.update_tag()
+
+
+def mute_joint(empty: Empty, mute: bool = True) -> None:
+    """Mutes the animation of a joint, so that `open` is free, or lets it run again."""
+    for curve in open_curves(empty):
+        curve.mute = mute
+
+
+def open_curves(empty: Empty) -> list[Any]:
+    """Returns the F-curves that animate `open`: at most one, unless somebody added more."""
+    data = empty.animation_data
+    if data is None or data.action is None:
+        return []
+    return [curve for curve in _curves(data) if curve.data_path == _PATH]
+
+
+def _curves(data: Any) -> list[Any]:
+    """Returns the F-curves of an animation; Blender 5.0 keeps them in layers, older ones in the action itself."""
+    if hasattr(data.action, "fcurves"):
+        return list(data.action.fcurves)
+    strips = [strip for layer in data.action.layers for strip in layer.strips]
+    bags = [strip.channelbag(data.action_slot) for strip in strips if data.action_slot is not None]
+    return [curve for bag in bags if bag is not None for curve in bag.fcurves]
+
+
+def _drive(link: Empty, channel: tuple[str, int], empty: Empty, factor: float) -> None:
+    driver = link.driver_add(*channel).driver
+    driver.type = "SCRIPTED"
+    for name in (LOWER, UPPER, OPEN):
+        variable = driver.variables.new()
+        variable.name = f"{name}_value"
+        variable.type = "SINGLE_PROP"
+        variable.targets[0].id = empty
+        variable.targets[0].data_path = f'["{name}"]'
+    opening = "lower_value + (upper_value - lower_value) * clamp(open_value)"
+    driver.expression = opening if factor == 1.0 else f"({opening}) * {factor!r}"
+
+
+def _from_up(direction: np.ndarray) -> tuple[float, float, float, float]:
+    """Returns the quaternion (wxyz) of the shortest turn from +Z to a unit vector; about X where they are opposite."""
+    w, x, y = 1.0 + direction[2], -direction[1], direction[0]
+    length = float(np.sqrt(w * w + x * x + y * y))
+    if length < 1e-6:
+        return (0.0, 1.0, 0.0, 0.0)
+    return (float(w / length), float(x / length), float(y / length), 0.0)

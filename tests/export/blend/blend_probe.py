@@ -1,0 +1,121 @@
+"""Reads a .blend in a Blender of its own and writes down what is there: `python blend_probe.py FILE OUT`.
+
+It knows nothing of the writer but the custom properties that the documentation names.
+"""
+
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+FRAMES = (0, 12, 25, 37, 50, 75, 100)
+
+
+def probe(interpreter: str, data: bytes, folder: Path) -> dict:
+    """Returns what a fresh Blender finds in a .blend."""
+    source, target = folder / "probed.blend", folder / "found.pickle"
+    source.write_bytes(data)
+    command = [interpreter, str(Path(__file__)), str(source), str(target)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    return pickle.loads(target.read_bytes())
+
+
+def _read(path: str) -> dict:
+    import bpy
+
+    bpy.ops.wm.open_mainfile(filepath=path)
+    scene = bpy.context.scene
+    return {
+        "version": bpy.app.version,
+        "scene": (scene.frame_start, scene.frame_end, scene.unit_settings.system, scene.unit_settings.scale_length),
+        "collections": {c.name: [child.name for child in c.children] for c in bpy.data.collections},
+        "objects": {o.name: _object(o) for o in bpy.data.objects},
+        "materials": {m.name: _material(m) for m in bpy.data.materials},
+        "images": {i.name: _image(i) for i in bpy.data.images},
+        "frames": {frame: _posed_at(bpy, scene, frame) for frame in FRAMES},
+        "alone": _each_alone(bpy, scene),
+    }
+
+
+def _object(o) -> dict:
+    found = {
+        "type": o.type,
+        "parent": o.parent.name if o.parent else None,
+        "collections": [c.name for c in o.users_collection],
+        "properties": {name: o[name] for name in o.keys()},  # noqa: SIM118  # Blender's objects are no mappings
+        "rest": np.array(o.matrix_world),
+    }
+    if o.type == "MESH":
+        mesh = o.data
+        checked = mesh.copy()
+        corners = [mesh.loops[i].vertex_index for p in mesh.polygons for i in p.loop_indices]
+        found |= {
+            "materials": [m.name for m in mesh.materials],
+            "look": [p.material_index for p in mesh.polygons],
+            "triangles": np.array([mesh.vertices[i].co[:] for i in corners]).reshape(-1, 3, 3),
+            "normals": np.array([n.vector[:] for n in mesh.corner_normals]).reshape(-1, 3),
+            "uv": {layer.name: np.array([d.uv[:] for d in layer.data]) for layer in mesh.uv_layers},
+            "colors": {a.name: (a.domain, np.array([d.color[:] for d in a.data])) for a in mesh.color_attributes},
+            "mended": checked.validate(),
+        }
+    return found
+
+
+def _material(m) -> dict:
+    shader = next(n for n in m.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    values = {
+        s.name: np.array(s.default_value).tolist() for s in shader.inputs if s.type in ("RGBA", "VALUE", "VECTOR")
+    }
+    return {
+        "values": values,
+        "linked": {s.name: s.links[0].from_node.type for s in shader.inputs if s.is_linked},
+        "images": sorted(n.image.name for n in m.node_tree.nodes if n.type == "TEX_IMAGE"),
+        "groups": {n.node_tree.name: n.inputs[0].is_linked for n in m.node_tree.nodes if n.type == "GROUP"},
+        "culled": m.use_backface_culling,
+        "method": m.surface_render_method,
+    }
+
+
+def _image(i) -> dict:
+    return {"data": bytes(i.packed_file.data), "size": tuple(i.size), "space": i.colorspace_settings.name}
+
+
+def _posed_at(bpy, scene, frame: int) -> dict:
+    scene.frame_set(frame)
+    return _poses(bpy)
+
+
+def _poses(bpy) -> dict:
+    graph = bpy.context.evaluated_depsgraph_get()
+    return {o.name: np.array(o.evaluated_get(graph).matrix_world) for o in bpy.data.objects}
+
+
+def _curves(action, slot) -> list:
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    return [c for layer in action.layers for strip in layer.strips for c in strip.channelbag(slot).fcurves]
+
+
+def _each_alone(bpy, scene) -> dict:
+    """The poses with the animation muted and one joint at 0.4 of its range, at a frame where all would be open."""
+    joints = [o for o in bpy.data.objects if o.get("grafu") == "joint" and "open" in o]
+    for joint in joints:
+        for curve in _curves(joint.animation_data.action, joint.animation_data.action_slot):
+            curve.mute = True
+    found = {}
+    for joint in joints:
+        for other in joints:
+            other["open"] = 0.4 if other is joint else 0.0
+            other.update_tag()
+        scene.frame_set(50)
+        found[joint["id"]] = (joint["open"], _poses(bpy))
+    return found
+
+
+if __name__ == "__main__":
+    Path(sys.argv[2]).write_bytes(pickle.dumps(_read(sys.argv[1])))
+    os._exit(0)

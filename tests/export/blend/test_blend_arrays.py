@@ -1,0 +1,91 @@
+"""Meshes, keys and names as Blender will get them, without Blender."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from small_cabinet import GLASS, PAINT, STEEL, board
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.export.blend.cycle import cycle_keys
+from grafu.export.blend.layout import fitted_name
+from grafu.export.blend.mesh_arrays import mesh_arrays
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import TriangleMesh
+from grafu.vocabulary import JointType
+
+HERE = vec3(1.0, 2.0, 3.0)
+
+
+@given(st.lists(st.tuples(*[st.integers(0, 5)] * 3), max_size=30))
+def test_no_two_faces_share_all_corners_and_none_moves(faces):
+    points = np.random.default_rng(0).uniform(size=(6, 3))
+    mesh = TriangleMesh(points, np.array(faces, dtype=np.int64).reshape(-1, 3))
+    whole = [face for face in faces if len(set(face)) == 3]
+
+    arrays = mesh_arrays(Visual("v", (Surface(mesh),)), HERE)
+
+    assert len({tuple(sorted(face)) for face in arrays.faces.tolist()}) == len(whole)
+    assert np.allclose(arrays.vertices[arrays.faces] + HERE, points[np.array(whole, int).reshape(-1, 3)])
+    assert np.allclose(np.linalg.norm(arrays.normals, axis=1), 1.0)
+
+
+def test_surfaces_are_joined_and_each_look_is_named_once():
+    boards = [board(k, 0, 0, k + 1, 1, 1) for k in range(3)]
+    uv, colors = np.full((8, 2), 0.5), np.full((8, 4), 51, np.uint8)
+    surfaces = (Surface(boards[0], PAINT), Surface(boards[1], GLASS, uv, colors=colors), Surface(boards[2], PAINT))
+
+    arrays = mesh_arrays(Visual("v", surfaces), vec3(0.0, 0.0, 0.0))
+
+    assert [(look.material, look.textured, look.colored) for look in arrays.looks] == [
+        (PAINT, False, False),
+        (GLASS, True, True),
+    ]
+    assert arrays.look.tolist() == [0] * 12 + [1] * 12 + [0] * 12
+    assert np.allclose(arrays.uv, np.repeat([[0.0], [0.5], [0.0]], 36, axis=0))
+    assert np.allclose(arrays.colors, np.repeat([[1.0], [0.2], [1.0]], 8, axis=0))
+
+
+def test_wild_texture_coordinates_are_tamed():
+    uv = np.full((8, 2), np.inf)
+    uv[3] = np.nan
+
+    arrays = mesh_arrays(Visual("v", (Surface(board(0, 0, 0, 1, 1, 1), STEEL, uv),)), HERE)
+
+    assert np.isfinite(arrays.uv).all()
+
+
+def in_stages(count: int) -> ArticulatedObject:
+    """Joints each of which waits for the last."""
+    axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
+    links = tuple(Link(f"l{k}", ()) for k in range(count + 1))
+    joints = tuple(
+        Joint(f"j{k}", JointType.REVOLUTE, "l0", f"l{k + 1}", axis, JointLimits(0.0, 1.0), (f"j{k - 1}",) if k else ())
+        for k in range(count)
+    )
+    return ArticulatedObject("stages", "l0", links, joints)
+
+
+@given(st.one_of(st.integers(0, 12), st.integers(45, 60)))
+def test_all_is_open_at_the_middle_and_nothing_moves_before_what_it_waits_for(count):
+    keys = cycle_keys(in_stages(count))
+
+    assert len(keys) == count
+    for k in range(count):
+        frames, shares = zip(*keys[f"j{k}"], strict=True)
+        assert (frames[0], shares[0], frames[-1], shares[-1]) == (0.0, 0.0, 100.0, 0.0)
+        assert list(frames) == sorted(set(frames))
+        assert np.interp(50.0, frames, shares) == 1.0
+        if k:
+            waited = keys[f"j{k - 1}"]
+            moving = [frame for frame in np.linspace(0, 100, 201) if 0 < np.interp(frame, frames, shares) < 1]
+            assert np.allclose(np.interp(moving, *zip(*waited, strict=True)), 1.0)
+
+
+@given(st.text(), st.integers(0, 20))
+def test_names_fit_into_blender(name, room):
+    fitted = fitted_name(name, room)
+
+    assert 0 < len(fitted.encode()) <= 63 - room
+    assert fitted.isprintable()
