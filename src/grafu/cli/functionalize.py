@@ -11,6 +11,7 @@ from grafu.cli.gallery import open_gallery, open_handles
 from grafu.cli.input_options import add_input_options, load_options, output_name, positive_count
 from grafu.cli.messages import complain
 from grafu.cli.motion_option import motion_choice
+from grafu.cli.settings_option import read_settings
 from grafu.errors import AssetError
 from grafu.pipeline.motion_source import MotionChoice
 
@@ -58,6 +59,13 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--no-page", action="store_true", help="leave out report.html of each model, and index.html of several"
     )
     parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
+    parser.add_argument(
+        "--settings",
+        type=Path,
+        metavar="FILE",
+        help="settings.json, as the Blender extension writes it: how the input is read, what is added, and what is "
+        "decided of single parts and joints; it takes the place of the options that say so",
+    )
     parser.add_argument("--overwrite", action="store_true", help="replace results that are there already")
     add_addition_options(parser)
     add_input_options(parser)
@@ -108,15 +116,17 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     for name in formats:
         exporter_for(name)
     open_gallery(options.templates)
+    settings = read_settings(options) if options.settings else None
     return JobOptions(
         out=options.out,
-        motion=options.motion,
-        load=load_options(options),
+        motion=MotionChoice(settings.motion) if settings else options.motion,
+        load=settings.reading.options if settings else load_options(options),
         formats=formats,
         templates=options.templates,
         trim=not options.no_trim,
         page=not options.no_page,
         additions=addition_config(options, open_handles(options.templates)),
+        settings=settings,
         overwrite=options.overwrite,
         debug=options.debug,
         alone=alone,

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import Functionalized
     from grafu.pipeline.report_schema import Report
+    from grafu.pipeline.settings import Settings
 
 MODEL_PAGE = "report.html"
 
@@ -28,7 +29,8 @@ MODEL_PAGE = "report.html"
 class JobOptions:
     """What all inputs of one call share; `alone` says that there is one only.
 
-    `templates` is a folder of the user's own, or None; `additions` says what may be added (None: all by default).
+    `templates` is a folder of the user's own, or None; `additions` says what may be added (None: all by default),
+    unless `settings` say it.
     """
 
     out: Path
@@ -39,6 +41,7 @@ class JobOptions:
     trim: bool = True
     page: bool = True
     additions: "AdditionConfig | None" = None
+    settings: "Settings | None" = None
     overwrite: bool = False
     debug: bool = False
     alone: bool = True
@@ -116,11 +119,14 @@ def _functionalize(job: Job) -> "tuple[Report, bytes]":
     clock = _Stopwatch()
     asset = load_asset(job.input, options.load)
     clock.lap("load")
+    own_handles = load_handles(options.templates) if options.templates else {}
     config = PipelineConfig(
         realization=RealizationConfig(trim=options.trim),
         additions=options.additions or AdditionConfig(),
-        own_handles=load_handles(options.templates) if options.templates else {},
+        own_handles=own_handles,
     )
+    if options.settings:
+        config = options.settings.pipeline(own_handles)
     motion = options.motion
     source = prediction_for(motion, job.name, options.alone) if motion.source.is_foreign else motion.source
     result = functionalize(asset, source, open_gallery(options.templates), config)

@@ -1,5 +1,6 @@
 """What may be added to furniture beside hinges and rails, and how it looks. It adds nothing."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import final
 
@@ -8,8 +9,34 @@ from grafu.realization.drawer_box.config import DrawerBoxConfig
 from grafu.realization.grip.config import GripConfig
 from grafu.realization.handle.config import GraspConfig, HandleConfig
 from grafu.realization.interior.config import InteriorConfig
-from grafu.realization.interior.request import NOTHING, PREDICTED, InteriorRequest
+from grafu.realization.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
 from grafu.realization.top.config import TopConfig
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HandleChoice:
+    """What one door or drawer is grasped by, whatever the others get.
+
+    `style` is a handle template, a recessed grip (`grip`, `groove`, `edge`, `hole`), `none`, or empty for the style of
+    the others; `count` and `offset` are those of `HandleConfig`, `length` metres (0: as it suits). Handles of the input
+    stay beside it unless it `replaces` them.
+
+    Raises:
+        ValueError: if the count is not in 0..4, or the length is negative.
+    """
+
+    style: str = ""
+    count: int = 0
+    offset: tuple[float, float] = (0.0, 0.0)
+    length: float = 0.0
+    replaces: bool = True
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.count <= 4:
+            raise ValueError(f"`HandleChoice.count` must be in 0..4: got {self.count}")
+        if not self.length >= 0:
+            raise ValueError(f"`HandleChoice.length` must not be negative: got {self.length}")
 
 
 @final
@@ -29,6 +56,12 @@ class AdditionConfig:
     interior_sizes: InteriorConfig = InteriorConfig()
     grasp: GraspConfig = GraspConfig()
     """What counts as room for fingers: such fronts need nothing."""
+    fronts: Mapping[str, HandleChoice] = field(default_factory=dict)
+    """By the id of a door or drawer, what it is grasped by instead."""
+    compartments: Mapping[int, CompartmentChoice] = field(default_factory=dict)
+    """By number, what a compartment gets instead."""
+    rejected: frozenset[str] = frozenset()
+    """Ids of added parts that are left out again."""
 
 
 NO_ADDITIONS = AdditionConfig(top=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING)

@@ -38,21 +38,27 @@ def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPl
     top = missing_tops(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
     if config.top is None:
         top = replace(top, addition=None, others=())
-    above = top.additions
+    above = _kept(top.additions, config)
     grown = _with(asset, above)
     boxes = config.drawer_boxes
     drawers = complete_drawers(grown.parts, plan, *(() if boxes is None else (boxes,)), build=boxes is not None)
+    drawers = replace(drawers, additions=_kept(drawers.additions, config))
     grown, plan = _with(grown, drawers.additions), with_riders(plan, drawers)
     if config.carcass is None:
         carcass = CarcassCompletion(carcass_lacks(grown.parts, plan))
     else:
         carcass = complete_carcass(grown.parts, plan, config.carcass)
+    carcass = replace(carcass, additions=_kept(carcass.additions, config))
     skipped = [Skipped(r.part, SkipReason.NOT_ADDED, r.why) for r in carcass.refused]
     skipped += [Skipped(r.part, SkipReason.NOT_ADDED, f"no drawer box: {r.why}") for r in drawers.refused]
     if config.top is not None and top.missing and top.addition is None:
         skipped.append(Skipped(PartLabel.TOP_PANEL.value, SkipReason.NOT_ADDED, top.why))
     additions = (*above, *drawers.additions, *carcass.additions)
     return Body(_with(grown, carcass.additions), plan, top, carcass, drawers, additions, tuple(skipped))
+
+
+def _kept(additions: Sequence[Addition], config: AdditionConfig) -> tuple[Addition, ...]:
+    return tuple(addition for addition in additions if addition.part.id not in config.rejected)
 
 
 def _predicted_top(completion: GraphCompletion) -> Box | None:

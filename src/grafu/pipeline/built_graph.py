@@ -4,7 +4,7 @@ Where a part was built for a node that the network had added, what was decided a
 builds nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -30,13 +30,25 @@ def as_built(
     bare = without_nodes(completion.completed, completion.added)
     new = [addition.part for addition in additions]
     nodes = (*bare.nodes, *(PartNode(p.id, p.label, p.box) for p in new))
-    graph = with_edges(replace(bare, nodes=nodes), _edges(asset.parts, new, asset.unit, parsing))
+    graph = with_edges(
+        replace(bare, nodes=nodes), _edges([p for p in asset.parts if p.id in bare], new, asset.unit, parsing)
+    )
     names = _stands_for(completion, new)
     decisions = tuple(
         replace(d, part=names.get(d.part, d.part)) for d in completion.decisions if d.part in bare or d.part in names
     )
     refused = tuple(r for r in completion.refused if r.part in bare)
     return replace(completion, completed=graph, added=tuple(p.id for p in new), decisions=decisions, refused=refused)
+
+
+def without_removed(completion: GraphCompletion, removed: Collection[str]) -> GraphCompletion:
+    """Returns the completion without parts of the input that were replaced, and what was decided about them."""
+    if not removed:
+        return completion
+    given, completed = (without_nodes(graph, removed) for graph in (completion.input, completion.completed))
+    decisions = tuple(d for d in completion.decisions if d.part not in removed)
+    refused = tuple(r for r in completion.refused if r.part not in removed)
+    return replace(completion, input=given, completed=completed, decisions=decisions, refused=refused)
 
 
 def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, str]:

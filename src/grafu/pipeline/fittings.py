@@ -9,6 +9,7 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Vec3
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.addition_config import AdditionConfig
+from grafu.pipeline.front_choices import fit_fronts, without_replaced
 from grafu.realization.addition import Addition
 from grafu.realization.grip.carve import carve_grip
 from grafu.realization.grip.config import GripConfig
@@ -30,7 +31,8 @@ from grafu.vocabulary import PartLabel
 class Fittings:
     """What was added, which parts were carved, and how each mover can be grasped now.
 
-    `grasps` holds for each mover what was found before anything was added to it.
+    `grasps` holds for each mover what was found before anything was added to it. `removed` names the handles of the
+    input that were replaced. `unfurnished` is the scene before shelves and dividers (None: as it is).
     """
 
     scene: Scene
@@ -38,6 +40,8 @@ class Fittings:
     carved: tuple[Carved, ...] = ()
     grasps: Mapping[str, Grasp] = field(default_factory=dict)
     skipped: tuple[Skipped, ...] = ()
+    removed: frozenset[str] = frozenset()
+    unfurnished: Scene | None = None
 
 
 def add_fittings(
@@ -48,18 +52,30 @@ def add_fittings(
     Raises:
         TemplateError: if the config names a handle that there is not.
     """
+    scene, removed = without_replaced(scene, config.fronts)
     reliefs = Reliefs(scene)
     grasps = find_grasps(scene, config.grasp, reliefs)
-    handles, wanting = _handles(scene, grasps, completion, config, own, reliefs)
-    scene = handles.scene
+    free = {mover: grasp for mover, grasp in grasps.items() if mover not in config.fronts}
+    handles, wanting = _handles(scene, free, completion, config, own, reliefs)
+    scene, kept = _accepted(handles, config)
     carved, failed = _grips(scene, wanting, config.grips)
     scene = scene.replaced([one.part for one in carved])
     skipped = [Skipped(m, SkipReason.NOT_ADDED, f"nothing to grasp it by: {why}") for m, why in failed.items()]
-    inside = _interior(scene, completion, config)
+    fronts = fit_fronts(scene, config, _handle_hints(completion), own)
+    skipped += fronts.skipped
+    inside = _interior(fronts.scene, completion, config)
     skipped += [_unfurnished(one) for one in inside.refused]
-    parts = {addition.part.id: addition.part for addition in inside.additions}
-    scene = replace(scene, parts={**scene.parts, **parts})
-    return Fittings(scene, (*handles.additions, *inside.additions), carved, grasps, tuple(skipped))
+    panels = tuple(addition for addition in inside.additions if addition.part.id not in config.rejected)
+    scene = replace(fronts.scene, parts={**fronts.scene.parts, **{panel.part.id: panel.part for panel in panels}})
+    additions = (*kept, *fronts.additions, *panels)
+    return Fittings(scene, additions, (*carved, *fronts.carved), grasps, tuple(skipped), removed, fronts.scene)
+
+
+def _accepted(handles: Handles, config: AdditionConfig) -> tuple[Scene, tuple[Addition, ...]]:
+    """Returns the scene with the handles that were not rejected, and these."""
+    kept = tuple(addition for addition in handles.additions if addition.part.id not in config.rejected)
+    gone = {addition.part.id for addition in handles.additions} - {addition.part.id for addition in kept}
+    return handles.scene.without_riders(gone), kept
 
 
 def fitted_object(articulated: ArticulatedObject, fittings: Fittings) -> ArticulatedObject:
@@ -70,14 +86,16 @@ def fitted_object(articulated: ArticulatedObject, fittings: Fittings) -> Articul
         part = addition.part
         visual = Visual(part.id, part.surfaces, VisualRole.ADDED, part.label)
         riding.setdefault(part.rides_on or articulated.root, []).append(visual)
-    links = tuple(_fitted_link(link, carved, riding.get(link.id, [])) for link in articulated.links)
+    gone = fittings.removed
+    links = tuple(_fitted_link(link, carved, riding.get(link.id, []), gone) for link in articulated.links)
     return replace(articulated, links=links)
 
 
-def _fitted_link(link: Link, carved: Mapping[str, Part], more: list[Visual]) -> Link:
-    if not more and not any(v.name in carved for v in link.visuals):
+def _fitted_link(link: Link, carved: Mapping[str, Part], more: list[Visual], gone: frozenset[str]) -> Link:
+    if not more and not any(v.name in carved or v.name in gone for v in link.visuals):
         return link
-    kept = (replace(v, surfaces=carved[v.name].surfaces) if v.name in carved else v for v in link.visuals)
+    left = (v for v in link.visuals if v.name not in gone)
+    kept = (replace(v, surfaces=carved[v.name].surfaces) if v.name in carved else v for v in left)
     return Link(link.id, (*kept, *more))
 
 
@@ -117,9 +135,10 @@ def _grips(
 def _interior(scene: Scene, completion: GraphCompletion, config: AdditionConfig) -> Furnished:
     request = config.interior
     hints = _panel_hints(completion) if request.kind is InteriorKind.PREDICTED else []
-    if request.kind is InteriorKind.NONE or (request.kind is InteriorKind.PREDICTED and not hints):
+    is_nothing = request.kind is InteriorKind.NONE or (request.kind is InteriorKind.PREDICTED and not hints)
+    if is_nothing and not config.compartments:
         return Furnished()
-    return furnish_scene(scene, request, config.interior_sizes, hints)
+    return furnish_scene(scene, request, config.interior_sizes, hints, config.compartments)
 
 
 def _handle_hints(completion: GraphCompletion) -> dict[str, Vec3]:

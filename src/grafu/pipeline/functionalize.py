@@ -1,7 +1,7 @@
 """The paper's pipeline as one function: graph, completion, plan, what is missing, joints. It touches no files."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from time import perf_counter
 from typing import TypeVar, final
@@ -19,18 +19,20 @@ from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.annotation import complete_by_annotation
 from grafu.pipeline.body_additions import Body, complete_body
-from grafu.pipeline.built_graph import as_built
+from grafu.pipeline.built_graph import as_built, without_removed
 from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
 from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.realization.addition import Addition
 from grafu.realization.config import RealizationConfig
+from grafu.realization.joint_choice import with_choices
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
-from grafu.realization.plan import RealizationPlan
+from grafu.realization.plan import JointChoice, RealizationPlan
 from grafu.realization.realize import realize
 from grafu.realization.report import RealizationReport
 from grafu.templates.handle import HandleTemplate
 from grafu.templates.template import Gallery
+from grafu.vocabulary import PartLabel
 
 T = TypeVar("T")
 
@@ -45,6 +47,10 @@ class PipelineConfig:
     additions: AdditionConfig = field(default_factory=AdditionConfig)
     own_handles: Mapping[str, HandleTemplate] = field(default_factory=dict)
     """The user's handle templates by id."""
+    labels: Mapping[str, PartLabel] = field(default_factory=dict)
+    """By the id of a part, its category where the user corrects the input's."""
+    joints: Mapping[str, JointChoice] = field(default_factory=dict)
+    """By the id of a moving part, what is decided about its joint."""
 
 
 @final
@@ -122,11 +128,13 @@ def functionalize(
     that cannot be made to move is no error: the report says which, and why.
 
     Raises:
+        OptionError: if what is chosen for a part or joint does not exist.
         WeightsError: if the network is asked for and its weights are not there.
         AssetError: if a prediction is of another object.
         OptionError: if a foreign source is named, but no motions of its are attached to the asset.
     """
     clock = _Clock()
+    asset = corrected(asset, config.labels)
     if isinstance(source, ForeignMotions):
         foreign = source
         asset = clock.timed("match", lambda: attach_motions(asset, foreign))
@@ -140,6 +148,7 @@ def functionalize(
     graph = clock.timed("parse", lambda: parse_graph(asset, config.parsing))  # contacts only
     completion = clock.timed("complete", lambda: motion.complete(asset, graph))  # who moves, and how
     plan = clock.timed("plan", lambda: motion.plan(asset, completion))  # initial axes
+    plan = with_choices(plan, config.joints, asset, gallery)
     body = clock.timed("body", lambda: complete_body(asset, completion, plan, config.additions))  # top, drawer boxes
     realized = clock.timed("realize", lambda: realize(body.plan, body.asset, gallery, config.realization))  # joints
     fittings = clock.timed(
@@ -148,7 +157,9 @@ def functionalize(
     return Functionalized(
         asset,
         chosen,
-        as_built(completion, asset, (*body.additions, *fittings.additions), config.parsing),
+        as_built(
+            without_removed(completion, fittings.removed), asset, (*body.additions, *fittings.additions), config.parsing
+        ),
         body.plan,
         fitted_object(realized.object, fittings),
         realized.report,
@@ -156,6 +167,19 @@ def functionalize(
         fittings,
         tuple(clock.laps),
     )
+
+
+def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
+    """Returns the asset with the user's categories.
+
+    Raises:
+        OptionError: if a part does not exist.
+    """
+    unknown = sorted(set(labels) - {part.id for part in asset.parts})
+    if unknown:
+        raise OptionError(f"categories must be of parts: {asset.name} has no {', '.join(unknown)}")
+    parts = (replace(p, label=labels[p.id], labelled_by="user") if p.id in labels else p for p in asset.parts)
+    return replace(asset, parts=tuple(parts)) if labels else asset
 
 
 def choose_source(asset: Asset, source: MotionSource) -> MotionSource:

@@ -1,9 +1,11 @@
 """From what a run made to its report: what was read, assumed, missing, built, added and skipped. It writes no file."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from grafu.articulation.articulated_object import Joint
 from grafu.asset.part import Part
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.pipeline.deficiencies import Findings, find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
@@ -31,7 +33,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     findings = Findings(
         result.body.top, result.body.carcass.lacks, result.body.drawers.verdicts, result.fittings.grasps
     )
-    lacks = find_deficiencies(result.asset, result.completion.completed, findings)
+    lacks = find_deficiencies(result.asset, _with_removed(result), findings)
     timings = {**dict(result.timings), **(other_timings or {})}
     return Report(
         version=__version__,
@@ -50,11 +52,19 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     )
 
 
+def _with_removed(result: Functionalized) -> FunctionalGraph:
+    """Returns the completed graph, with the nodes of handles that were replaced: what was lacking was so before."""
+    graph = result.completion.completed
+    gone = tuple(PartNode(p.id, p.label, p.box) for p in result.asset.parts if p.id in result.fittings.removed)
+    return replace(graph, nodes=(*graph.nodes, *gone)) if gone else graph
+
+
 def _part_records(result: Functionalized) -> tuple[PartRecord, ...]:
     link_of = {visual.name: link.id for link in result.object.links for visual in link.visuals}
     category_of = {node.id: node.label for node in result.completion.completed.nodes}
+    link_of |= dict.fromkeys(result.fittings.removed, "")
     return tuple(
-        _part_record(part, category_of[part.id], link_of.get(part.id, result.object.root))
+        _part_record(part, category_of.get(part.id, part.label), link_of.get(part.id, result.object.root))
         for part in result.asset.parts
     )
 

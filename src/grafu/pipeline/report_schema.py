@@ -69,7 +69,7 @@ class PartRecord(ReportRecord):
     labelled_by: str = Field(
         description="what the category rests on: name, joint, annotation, user, prediction, added, none"
     )
-    link: str = Field(description="the link of model.urdf that holds it")
+    link: str = Field(description="the link of model.urdf that holds it; empty: it was replaced")
 
 
 class DeficiencyRecord(ReportRecord):

@@ -4,7 +4,7 @@ A scene is never changed: replacing a part or adding hardware returns a new scen
 on the meshes that stayed the same.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import final
@@ -133,6 +133,16 @@ class Scene:
     def replaced(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some parts in a new shape."""
         return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
+
+    def without_riders(self, gone: Collection[str]) -> "Scene":
+        """Returns the scene without some parts that ride on movers."""
+        if not gone:
+            return self
+        movers = {
+            name: Mover(mover.id, tuple(m for m in mover.members if m not in gone))
+            for name, mover in self.movers.items()
+        }
+        return replace(self, parts={k: p for k, p in self.parts.items() if k not in gone}, movers=movers)
 
     def with_joint(self, mover_id: str, way: Way, dynamic: Iterable[Visual], static: Iterable[Visual]) -> "Scene":
         """Returns the scene with a mover's way, and hardware added to it and to the static body."""

@@ -85,6 +85,10 @@ class HandleConfig:
     """Confidence below which an edge does for a handle only where no other front of the model has or gets one."""
     poses: int = 25
     """Poses from closed to wide open in which a handle must be clear."""
+    count: int = 0
+    """How many handles a front gets, at equal parts of its longer side; 0: one, or two on wide drawers."""
+    offset: tuple[float, float] = (0.0, 0.0)
+    """By how much handles are moved from their usual places, metres: to the front's right, and up."""
 
     def __post_init__(self) -> None:
         for name in ("inset", "reach_height", "tall", "short", "wide", "high", "most"):
@@ -93,6 +97,8 @@ class HandleConfig:
         for name in ("length", "margin", "weak"):
             if not getattr(self, name) >= 0:
                 raise ValueError(f"`HandleConfig.{name}` must not be negative: got {getattr(self, name)}")
+        if not 0 <= self.count <= 4:
+            raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")
         if self.poses < 2:
             raise ValueError(f"`HandleConfig.poses` must be at least 2: got {self.poses}")
 

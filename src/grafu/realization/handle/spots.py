@@ -62,6 +62,17 @@ def spots_on(
 
     `hint` is where a handle was predicted, in the object frame.
     """
+    usual = _by_habit(relief, extent, siblings, hint, config)
+    if not config.count and config.offset == (0.0, 0.0):
+        yield from usual
+        return
+    for spot in usual:
+        yield from _as_chosen(relief, extent, spot, config)
+
+
+def _by_habit(
+    relief: Relief, extent: Extent, siblings: Sequence[Sibling], hint: Vec3 | None, config: HandleConfig
+) -> Iterator[Spot]:
     side = relief.front.held
     if hint is not None:
         yield from _hinted(relief, extent, hint, side, config)
@@ -71,6 +82,25 @@ def spots_on(
         yield from _on_door(relief, extent, siblings, side, config)
     else:
         yield from _on_flap(relief, extent, side, config)
+
+
+def _as_chosen(relief: Relief, extent: Extent, spot: Spot, config: HandleConfig) -> Iterator[Spot]:
+    """Yields a usual spot with as many handles as are chosen, side by side along the front's longer side, moved."""
+    places = np.array(spot.places)
+    if config.count:
+        along = 0 if relief.outline.size[0] >= relief.outline.size[2] else 1
+        low, side = float(relief.outline.low[2 * along]), float(relief.outline.size[2 * along])
+        level = spot.above in ("top", "bottom")
+        if (
+            config.count > 1
+            and config.count * (extent.along if level is (along == 0) else extent.across) > _BOTH * side
+        ):
+            return
+        places = np.repeat(places.mean(axis=0)[None], config.count, axis=0)
+        if config.count > 1:
+            places[:, along] = low + (np.arange(config.count) + 0.5) / config.count * side
+    places = places + np.array(config.offset)
+    yield from _fitting(relief, extent, [(float(u), float(v)) for u, v in places], spot.above, spot.why, config)
 
 
 def _hinted(relief: Relief, extent: Extent, hint: Vec3, side: Side | None, config: HandleConfig) -> Iterator[Spot]:

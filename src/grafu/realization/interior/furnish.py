@@ -3,7 +3,7 @@
 A panel that finds no place is refused with the reason; what stands is never changed. It finds no compartments.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -28,7 +28,7 @@ from grafu.realization.interior.config import InteriorConfig, Sizes
 from grafu.realization.interior.hints import placed_hints
 from grafu.realization.interior.occupied import is_drawer
 from grafu.realization.interior.panels import BEYOND, Place, Walls, cut_panel, moved_to
-from grafu.realization.interior.request import InteriorKind, InteriorRequest, PanelHint
+from grafu.realization.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest, PanelHint
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -71,29 +71,45 @@ def furnish(
     scene: Scene,
     config: InteriorConfig = InteriorConfig(),
     hints: Sequence[PanelHint] = (),
+    chosen: Mapping[int, CompartmentChoice] = NO_CHOICES,
 ) -> Furnished:
     """Returns shelves and dividers for the compartments of a scene whose joints are built.
 
-    `hints` are what the completed graph expects; only `predicted` requests use them.
+    `hints` are what the completed graph expects; only `predicted` requests use them. `chosen` holds by number (from 0)
+    the compartments that get something of their own instead.
     """
-    if request.kind is InteriorKind.NONE:
+    if request.kind is InteriorKind.NONE and not chosen:
         return Furnished()
     if not compartments:
         return Furnished((), (Unfurnished(None, None, why_inapplicable(scene)),))
     sizes = config.sizes(scene.unit)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
+    wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
+    refused += [Unfurnished(k, None, f"there are {len(compartments)}") for k in chosen if k >= len(compartments)]
     if all(arrangement == Arrangement() for arrangement in wanted):
         return Furnished((), tuple(refused))
     clearing, walls = clearing_of(scene), _walls(compartments, scene, sizes)
     panels: list[_Panel] = []
     for number, arrangement in enumerate(wanted):
-        maker = _Maker(number, compartments[number], walls, clearing, sizes, config)
+        own = _own_sizes(chosen.get(number), sizes)
+        maker = _Maker(number, compartments[number], walls, clearing, own, config)
         for outcome in maker.panels(arrangement):
             if isinstance(outcome, _Panel):
                 panels.append(outcome)
             else:
                 refused.append(outcome)
     return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+
+
+def _own(choice: CompartmentChoice | None, arrangement: Arrangement) -> Arrangement:
+    return arrangement if choice is None else Arrangement(choice.shelves, choice.dividers)
+
+
+def _own_sizes(choice: CompartmentChoice | None, sizes: Sizes) -> Sizes:
+    if choice is None:
+        return sizes
+    thickness = sizes.thickness if choice.thickness is None else choice.thickness
+    return replace(sizes, thickness=thickness, inset=sizes.inset if choice.inset is None else choice.inset)
 
 
 def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> Walls:
@@ -120,6 +136,8 @@ def _arranged(
     hints: Sequence[PanelHint],
 ) -> tuple[list[Arrangement], list[Unfurnished]]:
     """Returns what each compartment is to get, and what none can."""
+    if request.kind is InteriorKind.NONE:
+        return [Arrangement()] * len(compartments), []
     if request.kind is InteriorKind.AUTO:
         return [by_size(compartment, sizes, config.most_panels) for compartment in compartments], []
     if request.kind is InteriorKind.PREDICTED:

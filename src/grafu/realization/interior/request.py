@@ -1,8 +1,10 @@
 """What interiors are asked for, and how the command spells it: none, auto, predicted, or `shelves=2,dividers=1`."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 from typing import final
 
 from grafu.geometry.box import Box
@@ -51,6 +53,28 @@ class InteriorRequest:
 NOTHING = InteriorRequest(InteriorKind.NONE)
 AUTO = InteriorRequest(InteriorKind.AUTO)
 PREDICTED = InteriorRequest(InteriorKind.PREDICTED)
+NO_CHOICES: Mapping[int, "CompartmentChoice"] = MappingProxyType({})
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class CompartmentChoice:
+    """What one compartment is to get, whatever is asked for the others; sizes are metres (None: as everywhere).
+
+    Raises:
+        ValueError: if a count is not in 0..20, or a size is not positive.
+    """
+
+    shelves: int = 0
+    dividers: int = 0
+    thickness: float | None = None
+    inset: float | None = None
+
+    def __post_init__(self) -> None:
+        if not (0 <= self.shelves <= MOST and 0 <= self.dividers <= MOST):
+            raise ValueError(f"`CompartmentChoice` must count 0 to {MOST}: got {self.shelves}, {self.dividers}")
+        if (self.thickness is not None and not self.thickness > 0) or not (self.inset or 0.0) >= 0:
+            raise ValueError(f"`CompartmentChoice` needs sizes above 0: got {self.thickness}, {self.inset}")
 
 
 @final

@@ -4,7 +4,7 @@ One frame serves the whole piece. Where most walls follow the axes, rooms askew 
 axes, or not at all.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from grafu.articulation.articulated_object import Visual
@@ -13,10 +13,10 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.heading import heading_of
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points
-from grafu.realization.interior.compartments import find_compartments
+from grafu.realization.interior.compartments import Compartment, find_compartments
 from grafu.realization.interior.config import InteriorConfig
 from grafu.realization.interior.furnish import Furnished, furnish
-from grafu.realization.interior.request import InteriorRequest, PanelHint
+from grafu.realization.interior.request import NO_CHOICES, CompartmentChoice, InteriorRequest, PanelHint
 from grafu.realization.scene import Scene
 from grafu.vocabulary import JointType
 
@@ -26,20 +26,33 @@ def furnish_scene(
     request: InteriorRequest,
     config: InteriorConfig = InteriorConfig(),
     hints: Sequence[PanelHint] = (),
+    chosen: Mapping[int, CompartmentChoice] = NO_CHOICES,
 ) -> Furnished:
     """Returns shelves and dividers for all compartments of a scene whose joints are built, however it stands turned.
 
-    `hints` are what the completed graph expects; only `predicted` requests use them.
+    `hints` are what the completed graph expects; only `predicted` requests use them. `chosen` holds by number, in the
+    order of `compartments_of`, those that get something of their own.
     """
-    angle = heading_of(part.mesh for part in scene.static_parts)
-    if not angle:
-        return furnish(find_compartments(scene, config), request, scene, config, hints)
-    T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle))
-    straight = _turned(scene, T)
+    T, straight = _straight(scene)
+    if straight is scene:
+        return furnish(find_compartments(scene, config), request, scene, config, hints, chosen)
     expected = [replace(h, box=Box.around(transform_points(T, h.box.corners()))) for h in hints]
-    found = furnish(find_compartments(straight, config), request, straight, config, expected)
+    found = furnish(find_compartments(straight, config), request, straight, config, expected, chosen)
     back = invert(T)
     return replace(found, additions=tuple(replace(a, part=_part(a.part, back)) for a in found.additions))
+
+
+def compartments_of(scene: Scene, config: InteriorConfig = InteriorConfig()) -> tuple[tuple[Compartment, ...], Mat4]:
+    """Returns the compartments of a scene in the frame that its walls follow, and the motion back into the object's."""
+    T, straight = _straight(scene)
+    return find_compartments(straight, config), invert(T)
+
+
+def _straight(scene: Scene) -> tuple[Mat4, Scene]:
+    """Returns the turn into the frame that the walls follow, and the scene in it (itself where it stands straight)."""
+    angle = heading_of(part.mesh for part in scene.static_parts)
+    T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle))
+    return T, _turned(scene, T) if angle else scene
 
 
 def _turned(scene: Scene, T: Mat4) -> Scene:

@@ -1,0 +1,41 @@
+"""The option `--settings`: a file of settings instead of the options that say the same. It runs nothing."""
+
+import argparse
+import json
+from typing import TYPE_CHECKING
+
+from grafu.cli.addition_options import add_addition_options
+from grafu.cli.input_options import add_input_options
+from grafu.errors import OptionError
+from grafu.pipeline.motion_source import MotionChoice
+
+if TYPE_CHECKING:
+    from grafu.pipeline.settings import Settings
+
+
+def read_settings(options: argparse.Namespace) -> "Settings":
+    """Returns the settings in the file `options.settings`.
+
+    Raises:
+        OptionError: if the file cannot be read or is wrong, or another option says what it says.
+    """
+    from grafu.pipeline.settings import settings_from_json
+
+    _require_alone(options)
+    try:
+        data = json.loads(options.settings.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise OptionError(f"`--settings` must be a JSON file: {options.settings}: {error}") from None
+    return settings_from_json(data)
+
+
+def _require_alone(options: argparse.Namespace) -> None:
+    """Raises OptionError if an option is given that the settings hold."""
+    parser = argparse.ArgumentParser()
+    add_addition_options(parser)
+    add_input_options(parser)
+    usual = {**vars(parser.parse_args([])), "motion": MotionChoice(), "no_trim": False}
+    for name, value in usual.items():
+        if getattr(options, name) != value:
+            spelled = "--" + name.replace("_", "-")
+            raise OptionError(f"`--settings` and `{spelled}` exclude each other: leave one of them out")

@@ -1,0 +1,93 @@
+"""Doors and drawers grasped as somebody chose: handles replaced, added, carved or left out. It chooses nothing."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import final
+
+from grafu.geometry.arrays import Vec3
+from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
+from grafu.realization.addition import Addition
+from grafu.realization.grip.carve import carve_grip
+from grafu.realization.grip.config import GripConfig, GripKind
+from grafu.realization.grip.outcome import Carved
+from grafu.realization.handle.config import HandleConfig
+from grafu.realization.handle.grasp import Grasp
+from grafu.realization.handle.place import add_handles
+from grafu.realization.report import Skipped, SkipReason
+from grafu.realization.scene import Scene
+from grafu.templates.handle import HandleTemplate
+from grafu.vocabulary import PartLabel
+
+NO_HANDLE = "none"
+ANY_GRIP = "grip"
+
+
+@final
+@dataclass(frozen=True)
+class Fronts:
+    """The scene with what was chosen, what was added and carved, and what was not, and why."""
+
+    scene: Scene
+    additions: tuple[Addition, ...] = ()
+    carved: tuple[Carved, ...] = ()
+    skipped: tuple[Skipped, ...] = ()
+
+
+def without_replaced(scene: Scene, fronts: Mapping[str, HandleChoice]) -> tuple[Scene, frozenset[str]]:
+    """Returns the scene without the handles that are replaced by what was chosen, and their ids."""
+    gone = frozenset(
+        member
+        for mover, choice in fronts.items()
+        if choice.replaces and mover in scene.movers
+        for member in scene.movers[mover].members
+        if member != mover and scene.parts[member].label is PartLabel.HANDLE
+    )
+    return scene.without_riders(gone), gone
+
+
+def fit_fronts(
+    scene: Scene, config: AdditionConfig, hints: Mapping[str, Vec3], own: Mapping[str, HandleTemplate]
+) -> Fronts:
+    """Returns the scene with the handles and grips that were chosen front by front.
+
+    Raises:
+        TemplateError: if a choice names a handle that there is not.
+    """
+    done = Fronts(scene)
+    for mover, choice in config.fronts.items():
+        if mover in scene.movers and choice.style != NO_HANDLE:
+            done = _fitted(done, mover, choice, config, hints, own)
+    return done
+
+
+def _fitted(
+    done: Fronts,
+    mover: str,
+    choice: HandleChoice,
+    config: AdditionConfig,
+    hints: Mapping[str, Vec3],
+    own: Mapping[str, HandleTemplate],
+) -> Fronts:
+    if choice.style == ANY_GRIP or choice.style in tuple(GripKind):
+        return _carved(done, mover, choice, config.grips or GripConfig())
+    general = config.handles or HandleConfig()
+    sizes = replace(general, count=choice.count, offset=choice.offset, length=choice.length or general.length)
+    wanted = replace(sizes, style=choice.style or general.style)
+    missing = {mover: Grasp(mover, "none", 1.0, "a handle was chosen")}
+    found = add_handles(done.scene, missing, wanted, hints, own)
+    chosen = tuple(replace(addition, why="it was chosen") for addition in found.additions)
+    skipped = tuple(_skipped(mover, refused.why) for refused in found.refused)
+    return Fronts(found.scene, (*done.additions, *chosen), done.carved, (*done.skipped, *skipped))
+
+
+def _carved(done: Fronts, mover: str, choice: HandleChoice, config: GripConfig) -> Fronts:
+    if choice.style != ANY_GRIP:
+        config = replace(config, kind=GripKind(choice.style))
+    made = carve_grip(done.scene, mover, config)
+    if isinstance(made, Carved):
+        return replace(done, scene=done.scene.replaced([made.part]), carved=(*done.carved, made))
+    return replace(done, skipped=(*done.skipped, _skipped(mover, f"no grip: {made.reason} ({made.detail})")))
+
+
+def _skipped(mover: str, why: str) -> Skipped:
+    return Skipped(mover, SkipReason.NOT_ADDED, f"what it was to be grasped by: {why}")

@@ -1,0 +1,148 @@
+"""All that somebody chose for one model, as one value and as JSON (`grafu.settings/1`) that gives the same again.
+
+The command reads it (`--settings`), the Blender extension keeps it in its scene. It runs nothing.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any, final
+
+from pydantic import TypeAdapter, ValidationError
+
+from grafu.asset.options import Labelling, LoadOptions
+from grafu.errors import AssetError, OptionError
+from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
+from grafu.pipeline.functionalize import PipelineConfig
+from grafu.pipeline.motion_source import MotionSource
+from grafu.realization.config import RealizationConfig
+from grafu.realization.interior.request import CompartmentChoice
+from grafu.realization.plan import AUTOMATIC, JointChoice
+from grafu.templates.handle import HandleTemplate
+from grafu.vocabulary import PartLabel
+
+SCHEMA = "grafu.settings/1"
+
+
+@final
+@dataclass(frozen=True)
+class Reading:
+    """How the input is read; see `LoadOptions`."""
+
+    up: str | None = None
+    front: str | None = None
+    scale: float | None = None
+    height: float | None = None
+    labels: Labelling = "input"
+
+    @property
+    def options(self) -> LoadOptions:
+        """The reader's options.
+
+        Raises:
+            AssetError: if a direction is not an axis or a size is not positive.
+        """
+        return LoadOptions(self.up, self.front, self.scale, self.height, self.labels)
+
+
+@final
+@dataclass(frozen=True)
+class Settings:
+    """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
+
+    `labels` goes by the ids of parts, `joints` by those of moving parts. A motion source that reads another system's
+    file is no setting: it needs the file.
+    """
+
+    motion: MotionSource = MotionSource.AUTO
+    reading: Reading = Reading()
+    trim: bool = True
+    labels: Mapping[str, PartLabel] = field(default_factory=dict)
+    joints: Mapping[str, JointChoice] = field(default_factory=dict)
+    additions: AdditionConfig = field(default_factory=AdditionConfig)
+
+    def __post_init__(self) -> None:
+        if self.motion.is_foreign:
+            raise ValueError(f"the motion source {self.motion} reads a file, which settings do not name")
+
+    def pipeline(self, own_handles: Mapping[str, HandleTemplate] | None = None) -> PipelineConfig:
+        """Returns the configuration of `functionalize` that these settings stand for."""
+        return PipelineConfig(
+            realization=RealizationConfig(trim=self.trim),
+            additions=self.additions,
+            own_handles=own_handles or {},
+            labels=self.labels,
+            joints=self.joints,
+        )
+
+    def with_label(self, part: str, label: PartLabel) -> "Settings":
+        """Returns the settings in which a part has this category."""
+        return replace(self, labels={**self.labels, part: label})
+
+    def with_joint(self, part: str, choice: JointChoice) -> "Settings":
+        """Returns the settings with this choice for a moving part; one that decides nothing is forgotten."""
+        joints = {**self.joints, part: choice}
+        return replace(self, joints={name: kept for name, kept in joints.items() if kept != AUTOMATIC})
+
+    def with_front(self, part: str, choice: HandleChoice | None) -> "Settings":
+        """Returns the settings with this choice of a handle for a door or drawer; None: as the others."""
+        fronts: dict[str, HandleChoice] = {k: v for k, v in self.additions.fronts.items() if k != part}
+        if choice is not None:
+            fronts[part] = choice
+        return replace(self, additions=replace(self.additions, fronts=fronts))
+
+    def with_compartment(self, number: int, choice: CompartmentChoice | None) -> "Settings":
+        """Returns the settings with this choice for a compartment; None: as the others."""
+        found = {k: v for k, v in self.additions.compartments.items() if k != number}
+        if choice is not None:
+            found[number] = choice
+        return replace(self, additions=replace(self.additions, compartments=found))
+
+    def with_addition(self, part: str, *, accepted: bool) -> "Settings":
+        """Returns the settings in which an added part is left out, or not any more."""
+        rejected = self.additions.rejected - {part} if accepted else self.additions.rejected | {part}
+        return replace(self, additions=replace(self.additions, rejected=rejected))
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns plain JSON values, every setting written out: what later versions do by default changes nothing."""
+        return {"schema": SCHEMA, **_adapter().dump_python(self, mode="json")}
+
+
+def settings_from_json(data: object) -> Settings:
+    """Returns the settings that JSON values state; what is left out is as by default.
+
+    Raises:
+        OptionError: if the form is another, a setting is unknown, or a value is out of range.
+    """
+    if not isinstance(data, dict) or data.get("schema") != SCHEMA:
+        found = data.get("schema") if isinstance(data, dict) else type(data).__name__
+        raise OptionError(f"settings must be a JSON object with `schema` {SCHEMA}: got {found!r}")
+    given = {name: value for name, value in data.items() if name != "schema"}
+    try:
+        settings = _adapter().validate_python(given)
+        _require_known(given, _adapter().dump_python(settings, mode="json"))
+        _ = settings.reading.options
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(step) for step in first["loc"]) or "motion"
+        raise OptionError(f"the setting `{where}` is wrong: {first['msg']}") from None
+    except AssetError as error:
+        raise OptionError(f"the setting `reading` is wrong: {error}") from None
+    return settings
+
+
+@cache
+def _adapter() -> Any:
+    """Returns pydantic's reader and writer of settings; beartype cannot check its type."""
+    return TypeAdapter(Settings)
+
+
+def _require_known(given: object, known: object, where: str = "") -> None:
+    """Raises OptionError if something was given that is no setting: pydantic passes it over in plain dataclasses."""
+    if not (isinstance(given, dict) and isinstance(known, dict)):
+        return
+    for name, value in given.items():
+        path = f"{where}.{name}" if where else str(name)
+        if str(name) not in {str(key) for key in known}:
+            raise OptionError(f"there is no setting `{path}`")
+        _require_known(value, known[name] if name in known else known[str(name)], path)
