@@ -51,18 +51,23 @@ def _object(o) -> dict:
     }
     if o.type == "MESH":
         mesh = o.data
-        checked = mesh.copy()
-        corners = [mesh.loops[i].vertex_index for p in mesh.polygons for i in p.loop_indices]
+        corners = _numbers(mesh.loops, "vertex_index", 1, np.int32).ravel()
         found |= {
             "materials": [m.name for m in mesh.materials],
-            "look": [p.material_index for p in mesh.polygons],
-            "triangles": np.array([mesh.vertices[i].co[:] for i in corners]).reshape(-1, 3, 3),
-            "normals": np.array([n.vector[:] for n in mesh.corner_normals]).reshape(-1, 3),
-            "uv": {layer.name: np.array([d.uv[:] for d in layer.data]) for layer in mesh.uv_layers},
-            "colors": {a.name: (a.domain, np.array([d.color[:] for d in a.data])) for a in mesh.color_attributes},
-            "mended": checked.validate(),
+            "look": _numbers(mesh.polygons, "material_index", 1, np.int32).ravel().tolist(),
+            "triangles": _numbers(mesh.vertices, "co", 3)[corners].reshape(-1, 3, 3),
+            "normals": _numbers(mesh.corner_normals, "vector", 3),
+            "uv": {layer.name: _numbers(layer.data, "uv", 2) for layer in mesh.uv_layers},
+            "colors": {a.name: (a.domain, _numbers(a.data, "color", 4)) for a in mesh.color_attributes},
+            "mended": mesh.copy().validate(),
         }
     return found
+
+
+def _numbers(collection, name: str, width: int, dtype=np.float32) -> np.ndarray:
+    values = np.zeros(len(collection) * width, dtype)
+    collection.foreach_get(name, values)
+    return values.reshape(-1, width)
 
 
 def _material(m) -> dict:

@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 
 import grafu.export.blend.exporter as exporter
+import grafu.export.blend.process as process
 from grafu.cli.main import main
 from grafu.errors import ExportError
 from grafu.export.blend.exporter import INTERPRETER_VARIABLE, export_blend, find_interpreter
+from grafu.export.blend.process import blender_process
 from grafu.export.formats import exporter_for
 
 
@@ -25,6 +27,19 @@ def fake_python(folder: Path, script: str) -> str:
     path.write_text(f"#!/bin/sh\n{script}\n")
     path.chmod(0o700)
     return str(path)
+
+
+@pytest.fixture
+def blenders(monkeypatch, tmp_path):
+    """Names a script as the Python with Blender; what it started is stopped in the end."""
+
+    def name(script: str) -> str:
+        path = fake_python(tmp_path, script)
+        monkeypatch.setenv(INTERPRETER_VARIABLE, path)
+        return path
+
+    yield name
+    blender_process(str(tmp_path / "python")).stop()
 
 
 def test_without_blender_one_line_says_what_to_install(without_blender, cabinet):
@@ -48,10 +63,10 @@ def test_asking_for_the_exporter_imports_no_blender():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-def test_an_interpreter_can_be_named(monkeypatch, tmp_path):
-    monkeypatch.setenv(INTERPRETER_VARIABLE, fake_python(tmp_path, "exit 0"))
+def test_an_interpreter_can_be_named(blenders):
+    path = blenders("exit 0")
 
-    assert find_interpreter() == str(tmp_path / "python")
+    assert find_interpreter() == path
     assert exporter_for("blend") is export_blend
 
 
@@ -62,22 +77,47 @@ def test_a_named_interpreter_must_be_there(monkeypatch, tmp_path):
         find_interpreter()
 
 
-def test_what_blender_says_last_is_passed_on(monkeypatch, tmp_path, cabinet):
-    monkeypatch.setenv(INTERPRETER_VARIABLE, fake_python(tmp_path, "echo noise >&2; echo 'no display' >&2; exit 3"))
+def test_what_blender_says_last_is_passed_on(blenders, cabinet):
+    blenders("echo noise >&2; echo 'no display' >&2; exit 3")
 
     with pytest.raises(ExportError, match=r"exit 3.*no display$"):
         export_blend(cabinet)
 
 
-def test_a_blender_that_writes_nothing_is_no_success(monkeypatch, tmp_path, cabinet):
-    monkeypatch.setenv(INTERPRETER_VARIABLE, fake_python(tmp_path, "exit 0"))
+@pytest.mark.parametrize("script", ["exit 0", "read line; echo written", "read line; echo Blender 5.0"])
+def test_a_blender_that_writes_nothing_is_no_success(blenders, cabinet, script):
+    blenders(script)
 
     with pytest.raises(ExportError, match=r"exit 0.*it said nothing"):
         export_blend(cabinet)
 
 
-def test_a_blender_that_hangs_is_stopped_and_leaves_nothing(monkeypatch, tmp_path, cabinet):
-    monkeypatch.setenv(INTERPRETER_VARIABLE, fake_python(tmp_path, "exec sleep 60"))
+WRITES = 'while IFS="	" read -r source target; do echo $$ > "$target"; echo written; done'
+
+
+def test_one_blender_writes_several_models(blenders, cabinet):
+    blenders(WRITES)
+
+    assert export_blend(cabinet)["model.blend"] == export_blend(cabinet)["model.blend"]  # its process id
+
+
+def test_after_some_models_a_fresh_blender_takes_over(blenders, cabinet, monkeypatch):
+    blenders(WRITES)
+    monkeypatch.setattr(process, "MODELS", 1)
+
+    assert export_blend(cabinet)["model.blend"] != export_blend(cabinet)["model.blend"]
+
+
+def test_after_a_failure_the_next_model_is_written(blenders, cabinet):
+    blenders(f'if test -e "$0.failed"; then {WRITES}; else touch "$0.failed"; exit 1; fi')
+
+    with pytest.raises(ExportError, match="exit 1"):
+        export_blend(cabinet)
+    assert export_blend(cabinet).names == ("model.blend",)
+
+
+def test_a_blender_that_hangs_is_stopped_and_leaves_nothing(blenders, monkeypatch, tmp_path, cabinet):
+    blenders("exec sleep 60")
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
     monkeypatch.setattr(exporter, "SECONDS", 0.3)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from blend_reading import NEAR, assert_posed, objects_of, visuals_of
 from small_cabinet import GLASS, STEEL, WOOD, board, png
 
 from grafu.articulation.articulated_object import (
@@ -15,40 +16,11 @@ from grafu.articulation.articulated_object import (
     Visual,
     VisualRole,
 )
-from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import all_open
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.transform import transform_points
 from grafu.vocabulary import JointType, PartLabel
-
-NEAR = 1e-5  # metres: what single precision leaves of an object of some metres
-
-
-def objects_of(found, *kinds):
-    """The objects of some kinds by their own ids."""
-    objects = {name: o for name, o in found["objects"].items() if o["properties"].get("grafu") in kinds}
-    return {o["properties"]["id"]: (name, o) for name, o in objects.items()}
-
-
-def visuals_of(found):
-    return objects_of(found, "part", "added", "hardware")
-
-
-def posed_triangles(found, poses, name):
-    blender_name, o = visuals_of(found)[name]
-    return transform_points(poses[blender_name], o["triangles"].reshape(-1, 3)).reshape(-1, 3, 3)
-
-
-def assert_posed(found, poses, articulated, values):
-    """Every part stands where the joints' own arithmetic puts it."""
-    motions = link_poses(articulated, values)
-    for link in articulated.links:
-        for visual in link.visuals:
-            rest = visual.mesh.triangles
-            expected = transform_points(motions[link.id], rest.reshape(-1, 3)).reshape(rest.shape)
-            assert np.allclose(posed_triangles(found, poses, visual.name), expected, atol=NEAR), visual.name
 
 
 def test_every_part_and_piece_of_hardware_is_one_mesh(reopened_cabinet, cabinet):

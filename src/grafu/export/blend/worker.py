@@ -1,6 +1,7 @@
-"""The process that writes one `.blend`: `python -m grafu.export.blend.worker OBJECT OUT` (`transport` packs OBJECT).
+"""The process that writes `.blend` files, `python -m grafu.export.blend.worker`: one for each line that it is given.
 
-It ends without Blender's own goodbye, which has been seen to hang.
+A line is two paths, apart by a tab: an object as `transport` packs it, and where its file goes. It ends with its
+input, and without Blender's own goodbye, which has been seen to hang.
 """
 
 import os
@@ -11,6 +12,7 @@ import bpy
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.export.blend.objects import build_object, set_scene
+from grafu.export.blend.process import ANSWER
 from grafu.export.blend.transport import unpacked
 
 
@@ -28,8 +30,20 @@ def write_blend(articulated: ArticulatedObject, path: Path) -> None:
     bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
 
 
+def _serve() -> None:
+    answers = os.dup(sys.stdout.fileno())
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what Blender prints is no answer
+    for line in sys.stdin.buffer:
+        source, target = map(Path, os.fsdecode(line.rstrip(b"\n")).split("\t"))
+        write_blend(unpacked(source.read_bytes()), target)
+        os.write(answers, ANSWER)
+
+
 if __name__ == "__main__":
-    source, target = map(Path, sys.argv[1:])
-    write_blend(unpacked(source.read_bytes()), target)
-    sys.stdout.flush()
-    os._exit(0)
+    code = 1
+    try:
+        _serve()
+        code = 0
+    except BaseException as error:  # whatever it is, its one line is what the asker can read
+        print(f"{type(error).__name__}: {error}", file=sys.stderr, flush=True)
+    os._exit(code)

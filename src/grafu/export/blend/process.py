@@ -1,0 +1,112 @@
+"""A Blender process that stays while this one writes several models: starting it takes longer than most models.
+
+It knows nothing of what it is asked to write. Whatever goes wrong ends the process; the next model gets a new one.
+"""
+
+import atexit
+import subprocess
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryFile
+from threading import Event, Lock, Timer
+from typing import final
+
+from grafu.errors import ExportError
+
+ANSWER = b"written\n"
+MODELS = 100  # then a fresh process: Blender keeps some memory of every model
+_SAID = 300  # characters of Blender's own last words
+
+
+@cache
+def blender_process(interpreter: str) -> "BlenderProcess":
+    """Returns the one process of an interpreter; it starts when it is first asked, and ends with this one."""
+    process = BlenderProcess([interpreter, "-m", "grafu.export.blend.worker"])
+    atexit.register(process.stop)
+    return process
+
+
+@final
+class BlenderProcess:
+    """Starts `command` when needed; to each pair of paths that it is given it answers `ANSWER` when all is written."""
+
+    def __init__(self, command: list[str]) -> None:
+        self._command = command
+        self._lock = Lock()
+        self._running: subprocess.Popen[bytes] | None = None
+        self._errors = TemporaryFile()  # noqa: SIM115  # it lives as long as this
+        self._written = 0
+
+    def write(self, source: Path, target: Path, seconds: float) -> None:
+        """Has the object in `source` written to `target`, within so many seconds.
+
+        Raises:
+            ExportError: if Blender cannot be run, fails, or takes longer.
+        """
+        with self._lock:
+            if self._written == MODELS:
+                self._end()
+            answer, late = self._ask(f"{source}\t{target}\n".encode(), seconds)
+            if answer == ANSWER and target.is_file():
+                self._written += 1
+                return
+            code = self._end()
+        if late:
+            raise ExportError(f"Blender did not end within {seconds:g} s and was stopped: no model.blend")
+        raise ExportError(f"Blender could not write model.blend (exit {code}): {self._last_words()}")
+
+    def stop(self) -> None:
+        """Ends the process, if one runs."""
+        with self._lock:
+            self._end()
+
+    def _ask(self, question: bytes, seconds: float) -> tuple[bytes, bool]:
+        """Returns the answer, empty where none came, and whether the time ran out."""
+        running = self._running or self._start()
+        assert running.stdin is not None
+        assert running.stdout is not None
+        late = Event()
+
+        def end() -> None:
+            late.set()
+            running.kill()
+
+        watch = Timer(seconds, end)
+        watch.daemon = True
+        watch.start()
+        try:
+            running.stdin.write(question)
+            running.stdin.flush()
+            answer = running.stdout.readline()
+        except OSError:  # it is gone already
+            answer = b""
+        watch.cancel()
+        return answer, late.is_set()
+
+    def _start(self) -> "subprocess.Popen[bytes]":
+        self._errors.seek(0)
+        self._errors.truncate()
+        pipe = subprocess.PIPE
+        try:
+            self._running = subprocess.Popen(self._command, stdin=pipe, stdout=pipe, stderr=self._errors)
+        except OSError as error:
+            raise ExportError(f"cannot run `{self._command[0]}`: {error.strerror}; no model.blend") from error
+        self._written = 0
+        return self._running
+
+    def _end(self) -> int | None:
+        """Closes the process's input, at which it ends, or else ends it; returns its exit code."""
+        running, self._running = self._running, None
+        if running is None:
+            return None
+        try:
+            running.communicate(timeout=2.0)
+        except (subprocess.TimeoutExpired, OSError):
+            running.kill()
+            running.communicate()
+        return running.returncode
+
+    def _last_words(self) -> str:
+        self._errors.seek(0)
+        lines = [line.strip() for line in self._errors.read().decode(errors="replace").splitlines() if line.strip()]
+        return lines[-1][-_SAID:] if lines else "it said nothing"

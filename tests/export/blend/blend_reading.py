@@ -1,0 +1,39 @@
+"""Questions that tests ask of what `blend_probe` found; told apart by the documented custom properties."""
+
+import numpy as np
+
+from grafu.articulation.kinematics import link_poses
+from grafu.geometry.transform import transform_points
+
+NEAR = 1e-5  # metres: what single precision leaves of an object of some metres
+
+
+def objects_of(found, *kinds):
+    """Returns the objects of some kinds, with Blender's names for them, by their own ids."""
+    objects = {name: o for name, o in found["objects"].items() if o["properties"].get("grafu") in kinds}
+    return {o["properties"]["id"]: (name, o) for name, o in objects.items()}
+
+
+def visuals_of(found):
+    return objects_of(found, "part", "added", "hardware")
+
+
+def posed_triangles(found, poses, name):
+    blender_name, o = visuals_of(found)[name]
+    return transform_points(poses[blender_name], o["triangles"].reshape(-1, 3)).reshape(-1, 3, 3)
+
+
+def whole_triangles(mesh):
+    """Returns the triangles of a mesh but those that name one vertex twice, which no file of ours keeps."""
+    faces = mesh.faces
+    return mesh.triangles[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+
+
+def assert_posed(found, poses, articulated, values):
+    """Every part stands where the joints' own arithmetic puts it."""
+    motions = link_poses(articulated, values)
+    for link in articulated.links:
+        for visual in link.visuals:
+            rest = whole_triangles(visual.mesh)
+            expected = transform_points(motions[link.id], rest.reshape(-1, 3)).reshape(rest.shape)
+            assert np.allclose(posed_triangles(found, poses, visual.name), expected, rtol=0.0, atol=NEAR), visual.name
