@@ -116,16 +116,21 @@ MOTIONS: dict[MotionSource, Motion] = {
 """A foreign source's row is the annotation's: its joints were attached to the asset before."""
 
 
+def _say_nothing(_: str) -> None:
+    """Hears of a stage and does nothing."""
+
+
 def functionalize(
     asset: Asset,
     source: MotionSource | ForeignMotions,
     gallery: Gallery,
     config: PipelineConfig = PipelineConfig(),
+    on_stage: Callable[[str], None] = _say_nothing,
 ) -> Functionalized:
     """Returns the asset as an object that works, and how it came about.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
-    that cannot be made to move is no error: the report says which, and why.
+    that cannot be made to move is no error: the report says which, and why. `on_stage` is told each stage as it begins.
 
     Raises:
         OptionError: if what is chosen for a part or joint does not exist.
@@ -133,7 +138,7 @@ def functionalize(
         AssetError: if a prediction is of another object.
         OptionError: if a foreign source is named, but no motions of its are attached to the asset.
     """
-    clock = _Clock()
+    clock = _Clock(on_stage)
     asset = corrected(asset, config.labels)
     if isinstance(source, ForeignMotions):
         foreign = source
@@ -199,10 +204,12 @@ def _require_attached(asset: Asset, source: MotionSource) -> None:
 class _Clock:
     """Seconds per stage, in order."""
 
-    def __init__(self) -> None:
+    def __init__(self, on_stage: Callable[[str], None]) -> None:
         self.laps: list[tuple[str, float]] = []
+        self._on_stage = on_stage
 
     def timed(self, name: str, stage: Callable[[], T]) -> T:
+        self._on_stage(name)
         started = perf_counter()
         result = stage()
         self.laps.append((name, perf_counter() - started))

@@ -1,0 +1,66 @@
+"""One run for a program that shows what comes back: `python -m grafu.pipeline.interactive INPUT SETTINGS FOLDER`.
+
+Into FOLDER go `object.packed` (`grafu.export.blend.transport`), `report.json`, `graph.json` and `interior.json`
+(the compartments). Every line on stdout is `stage NAME` as a stage begins, or `error WHY` at the end of a run that
+failed; the exit code is then 2. It writes nothing else, and can be killed at any time.
+"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from grafu.asset.load import load_asset
+from grafu.errors import FunctionalizationError
+from grafu.export.blend.transport import packed
+from grafu.geometry.transform import transform_points
+from grafu.graph.serialize import completion_to_json, dump_json
+from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import settings_from_json
+from grafu.realization.interior.turned import compartments_of
+from grafu.templates.gallery import builtin_gallery
+
+
+def run(source: Path, settings_file: Path, folder: Path) -> Functionalized:
+    """Functionalizes one input as the settings say and writes what the module's docstring lists.
+
+    Raises:
+        FunctionalizationError: if the input or a setting is at fault.
+    """
+    settings = settings_from_json(json.loads(settings_file.read_text(encoding="utf-8")))
+    _say("load")
+    asset = load_asset(source, settings.reading.options)
+    result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say)
+    _say("write")
+    (folder / "object.packed").write_bytes(packed(result.object))
+    for name, values in (
+        ("report", report_of(result).to_json()),
+        ("graph", completion_to_json(result.completion)),
+        ("interior", compartments_to_json(result)),
+    ):
+        (folder / f"{name}.json").write_text(dump_json(values), encoding="utf-8")
+    return result
+
+
+def compartments_to_json(result: Functionalized) -> dict[str, Any]:
+    """Returns the compartments by number, each with its corners (metres, object frame) and movers before it."""
+    scene = result.fittings.unfurnished
+    found, T = compartments_of(scene) if scene is not None else ((), np.eye(4))
+    corners = [np.round(transform_points(T, compartment.box.corners()), 6).tolist() for compartment in found]
+    boxes = zip(corners, found, strict=True)
+    return {"compartments": [{"corners": eight, "behind": list(one.behind)} for eight, one in boxes]}
+
+
+def _say(stage: str) -> None:
+    print("stage", stage, flush=True)
+
+
+if __name__ == "__main__":
+    try:
+        run(*map(Path, sys.argv[1:4]))
+    except FunctionalizationError as error:
+        print("error", " ".join(str(error).split()), flush=True)
+        sys.exit(2)
