@@ -3,6 +3,7 @@
 import numpy as np
 
 from grafu.articulation.kinematics import link_poses
+from grafu.export.blend.mesh_arrays import mesh_arrays
 from grafu.geometry.transform import transform_points
 
 NEAR = 1e-5  # metres: what single precision leaves of an object of some metres
@@ -23,17 +24,11 @@ def posed_triangles(found, poses, name):
     return transform_points(poses[blender_name], o["triangles"].reshape(-1, 3)).reshape(-1, 3, 3)
 
 
-def whole_triangles(mesh):
-    """Returns the triangles of a mesh but those that name one vertex twice, which no file of ours keeps."""
-    faces = mesh.faces
-    return mesh.triangles[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
-
-
 def assert_posed(found, poses, articulated, values):
-    """Every part stands where the joints' own arithmetic puts it."""
+    """Every part stands where the joints' own arithmetic puts it; that its faces are the input's is shown elsewhere."""
     motions = link_poses(articulated, values)
     for link in articulated.links:
         for visual in link.visuals:
-            rest = whole_triangles(visual.mesh)
-            expected = transform_points(motions[link.id], rest.reshape(-1, 3)).reshape(rest.shape)
+            arrays = mesh_arrays(visual, np.zeros(3))
+            expected = transform_points(motions[link.id], arrays.vertices)[arrays.faces]
             assert np.allclose(posed_triangles(found, poses, visual.name), expected, rtol=0.0, atol=NEAR), visual.name

@@ -1,6 +1,7 @@
 """Meshes, keys and names as Blender will get them, without Blender."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from small_cabinet import GLASS, PAINT, STEEL, board
@@ -18,17 +19,56 @@ from grafu.vocabulary import JointType
 HERE = vec3(1.0, 2.0, 3.0)
 
 
-@given(st.lists(st.tuples(*[st.integers(0, 5)] * 3), max_size=30))
-def test_no_two_faces_share_all_corners_and_none_moves(faces):
+NOWHERE = vec3(0.0, 0.0, 0.0)
+faces_of_six = st.lists(st.tuples(*[st.integers(0, 5)] * 3), max_size=30)
+
+
+@given(faces_of_six, faces_of_six)
+def test_every_face_of_each_look_is_there_once_in_its_place(faces, others):
     points = np.random.default_rng(0).uniform(size=(6, 3))
-    mesh = TriangleMesh(points, np.array(faces, dtype=np.int64).reshape(-1, 3))
-    whole = [face for face in faces if len(set(face)) == 3]
+    surfaces = [
+        Surface(TriangleMesh(points, np.array(some, dtype=np.int64).reshape(-1, 3)), material)
+        for some, material in ((faces, PAINT), (others, STEEL), (faces[:5], PAINT))
+    ]
+    expected = {
+        (frozenset(face), material)
+        for some, material in ((faces, PAINT), (others, STEEL))
+        for face in some
+        if len(set(face)) == 3
+    }
 
-    arrays = mesh_arrays(Visual("v", (Surface(mesh),)), HERE)
+    arrays = mesh_arrays(Visual("v", tuple(surfaces)), NOWHERE)
 
-    assert len({tuple(sorted(face)) for face in arrays.faces.tolist()}) == len(whole)
-    assert np.allclose(arrays.vertices[arrays.faces] + HERE, points[np.array(whole, int).reshape(-1, 3)])
+    number = {tuple(point): k for k, point in enumerate(points.tolist())}
+    corners = [[number[tuple(point)] for point in face] for face in arrays.vertices[arrays.faces].tolist()]
+    found = [(frozenset(face), arrays.looks[k].material) for face, k in zip(corners, arrays.look, strict=True)]
+    assert len(found) == len(expected)
+    assert set(found) == expected
+    assert len({tuple(sorted(face)) for face in arrays.faces.tolist()}) == len(found)  # no two share all corners
     assert np.allclose(np.linalg.norm(arrays.normals, axis=1), 1.0)
+
+
+@pytest.mark.parametrize("inside_first", [False, True])
+def test_of_faces_back_to_back_the_outer_ones_stay(inside_first):
+    box = board(0, 0, 0, 1, 2, 3)
+    sides = [box.faces[:, ::-1], box.faces] if inside_first else [box.faces, box.faces[:, ::-1]]
+    doubled = Surface(TriangleMesh(box.vertices, np.vstack(sides)), PAINT)
+
+    arrays = mesh_arrays(Visual("v", (doubled,)), HERE)
+
+    kept = TriangleMesh(np.array(arrays.vertices), np.array(arrays.faces))
+    assert len(kept.faces) == 12
+    assert np.all(np.einsum("nd,nd->n", kept.face_normals, kept.triangles.mean(axis=1) - kept.box.center) > 0)
+    assert np.allclose(arrays.normals, np.repeat(kept.face_normals, 3, axis=0))
+    assert [look.material for look in arrays.doubled] == [PAINT]
+
+
+def test_nothing_is_doubled_where_nothing_lies_back_to_back():
+    twice = Surface(board(0, 0, 0, 1, 1, 1), PAINT)
+
+    arrays = mesh_arrays(Visual("v", (twice, twice)), HERE)
+
+    assert (len(arrays.faces), arrays.doubled) == (12, frozenset())
 
 
 def test_surfaces_are_joined_and_each_look_is_named_once():
@@ -40,7 +80,7 @@ def test_surfaces_are_joined_and_each_look_is_named_once():
 
     assert [(look.material, look.textured, look.colored) for look in arrays.looks] == [
         (PAINT, False, False),
-        (GLASS, True, True),
+        (GLASS, False, True),  # it has no image
     ]
     assert arrays.look.tolist() == [0] * 12 + [1] * 12 + [0] * 12
     assert np.allclose(arrays.uv, np.repeat([[0.0], [0.5], [0.0]], 36, axis=0))

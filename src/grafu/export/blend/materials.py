@@ -15,9 +15,10 @@ _OCCLUSION_GROUP = "glTF Material Output"  # Blender has no occlusion; its glTF 
 
 @final
 class BlenderMaterials:
-    """Makes every distinct look and every distinct image once."""
+    """Makes every distinct look and every distinct image once; looks in `doubled` show from both sides."""
 
-    def __init__(self) -> None:
+    def __init__(self, doubled: frozenset[Look] = frozenset()) -> None:
+        self._doubled = doubled
         self._materials: dict[Look, Any] = {}
         self._images: dict[tuple[bytes, bool], Any] = {}
         self._files = NameBook()
@@ -26,6 +27,8 @@ class BlenderMaterials:
         """Returns Blender's material for a look."""
         if look not in self._materials:
             self._materials[look] = _MaterialNodes(look, self).material
+            if look in self._doubled:
+                self._materials[look].use_backface_culling = False
         return self._materials[look]
 
     def image_of(self, texture: Texture, is_color: bool) -> Any:

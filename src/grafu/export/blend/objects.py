@@ -28,8 +28,7 @@ from grafu.export.blend.layout import (
     fitted_name,
 )
 from grafu.export.blend.materials import BlenderMaterials
-from grafu.export.blend.mesh_arrays import MeshArrays, mesh_arrays
-from grafu.geometry.arrays import Vec3
+from grafu.export.blend.mesh_arrays import Look, MeshArrays, mesh_arrays
 
 _ARROW_SHARE = 0.15  # of the largest side: seen beside a door, and no longer than it
 _MARK_SHARE = 0.03
@@ -98,7 +97,13 @@ class _Builder:
     def __init__(self, articulated: ArticulatedObject, scene: Any) -> None:
         self._object = articulated
         self._origins = link_origins(articulated)
-        self._materials = BlenderMaterials()
+        self._arrays = {
+            (link.id, visual.name): mesh_arrays(visual, self._origins[link.id])
+            for link in articulated.links
+            for visual in link.visuals
+        }
+        doubled = frozenset[Look]().union(*(arrays.doubled for arrays in self._arrays.values()))
+        self._materials = BlenderMaterials(doubled)
         meshes = [link.mesh for link in articulated.links if len(link.mesh.faces)]
         self._side = max((float(np.max(mesh.box.size)) for mesh in meshes), default=1.0)
         self._built = BuiltObject(_collection(articulated.name, scene.collection))
@@ -131,15 +136,14 @@ class _Builder:
         drive_link(empty, holder, joint)
 
     def _add_visual(self, visual: Visual, link: str) -> None:
-        mesh = self._mesh(visual, self._origins[link])
+        mesh = self._mesh(visual, self._arrays[link, visual.name])
         made = bpy.data.objects.new(fitted_name(visual.name, 4), mesh)
         made[KIND], made[ID], made[LABEL] = visual.role.value, visual.name, visual.label.value
         made.parent = self._built.links[link]
         self._inner[COLLECTION_OF_ROLE[visual.role]].objects.link(made)
         self._built.visuals[visual.name] = made
 
-    def _mesh(self, visual: Visual, origin: Vec3) -> Any:
-        arrays = mesh_arrays(visual, origin)
+    def _mesh(self, visual: Visual, arrays: MeshArrays) -> Any:
         mesh = bpy.data.meshes.new(fitted_name(visual.name, 4))
         for look in arrays.looks:
             mesh.materials.append(self._materials.material_of(look))
