@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from grafu.articulation.articulated_object import Joint
+from grafu.articulation.articulated_object import Joint, JointLimits
 from grafu.export.blend.cycle import Key
 from grafu.export.blend.layout import AFTER, CHILD, ID, KIND, LOWER, OPEN, PARENT, TYPE, UPPER, Kind
 from grafu.geometry.arrays import Vec3
@@ -73,11 +73,21 @@ def set_open(empty: Empty, share: float) -> None:
     Raises:
         ValueError: if the empty is no moving joint's, or the share is not in 0..1.
     """
-    if empty.get(KIND) != Kind.JOINT or OPEN not in empty:
-        raise ValueError(f"`empty` must be a moving joint's: got `{empty.name}`")
+    _require_moving(empty)
     if not 0.0 <= share <= 1.0:
         raise ValueError(f"`share` must be in 0..1: got {share}")
     empty[OPEN] = float(share)
+    empty.update_tag()
+
+
+def set_limits(empty: Empty, limits: JointLimits) -> None:
+    """Gives a joint other limits (radians or metres).
+
+    Raises:
+        ValueError: if the empty is no moving joint's.
+    """
+    _require_moving(empty)
+    empty[LOWER], empty[UPPER] = float(limits.lower), float(limits.upper)
     empty.update_tag()
 
 
@@ -93,6 +103,11 @@ def open_curves(empty: Empty) -> list[Any]:
     if data is None or data.action is None:
         return []
     return [curve for curve in _curves(data) if curve.data_path == _PATH]
+
+
+def _require_moving(empty: Empty) -> None:
+    if empty.get(KIND) != Kind.JOINT or OPEN not in empty:
+        raise ValueError(f"`empty` must be a moving joint's: got `{empty.name}`")
 
 
 def _curves(data: Any) -> list[Any]:
