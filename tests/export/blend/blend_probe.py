@@ -48,6 +48,7 @@ def _object(o) -> dict:
         "collections": [c.name for c in o.users_collection],
         "properties": {name: o[name] for name in o.keys()},  # noqa: SIM118  # Blender's objects are no mappings
         "rest": np.array(o.matrix_world),
+        "overridable": "open" in o and o.is_property_overridable_library('["open"]'),
     }
     if o.type == "MESH":
         mesh = o.data
@@ -99,17 +100,18 @@ def _poses(bpy) -> dict:
     return {o.name: np.array(o.evaluated_get(graph).matrix_world) for o in bpy.data.objects}
 
 
-def _curves(action, slot) -> list:
-    if hasattr(action, "fcurves"):
-        return list(action.fcurves)
-    return [c for layer in action.layers for strip in layer.strips for c in strip.channelbag(slot).fcurves]
+def _curves(data) -> list:
+    if hasattr(data.action, "fcurves"):
+        return list(data.action.fcurves)
+    strips = [strip for layer in data.action.layers for strip in layer.strips]
+    return [curve for strip in strips for curve in strip.channelbag(data.action_slot).fcurves]
 
 
 def _each_alone(bpy, scene) -> dict:
     """The poses with the animation muted and one joint at 0.4 of its range, at a frame where all would be open."""
     joints = [o for o in bpy.data.objects if o.get("grafu") == "joint" and "open" in o]
     for joint in joints:
-        for curve in _curves(joint.animation_data.action, joint.animation_data.action_slot):
+        for curve in _curves(joint.animation_data):
             curve.mute = True
     found = {}
     for joint in joints:

@@ -59,6 +59,8 @@ def test_joints_say_what_they_are(reopened_cabinet):
     }
     assert (drawer["properties"]["type"], drawer["properties"]["upper"]) == ("prismatic", 0.28)
     assert json.loads(drawer["properties"]["after"]) == ["door_1_hinge"]
+    assert door["overridable"]  # where the file is linked into another
+    assert drawer["overridable"]
 
 
 def test_the_arrow_of_a_joint_is_its_axis(reopened_cabinet, cabinet):

@@ -31,6 +31,7 @@ def describe_joint(empty: Empty, joint: Joint) -> None:
         empty[OPEN] = 0.0
         about = "How far the joint is open: 0 closed, 1 at its limit"
         empty.id_properties_ui(OPEN).update(min=0.0, max=1.0, default=0.0, subtype="FACTOR", description=about)
+        empty.property_overridable_library_set(_PATH, True)  # it opens where the file is linked, too
 
 
 def turn_to_axis(empty: Empty, direction: Vec3) -> None:
