@@ -161,6 +161,46 @@ def test_the_network_overrules_the_carpenter() -> None:
     assert complete(cupboard(), said).completed.hinges == (Hinge("left", "door", 0, 1),)
 
 
+def told_of_the_door() -> Answers:
+    said = told()
+    said.kinds = {pair: kind for pair, kind in said.kinds.items() if "drawer" not in pair}
+    said.slides = {}
+    return said
+
+
+def wide_front(knob_at: tuple[float, float]) -> FunctionalGraph:
+    """Returns a cupboard whose front is 1 m wide and 0.5 m high, its knob at a place (x, z) on it."""
+    graph = cupboard("left", "right", "back", "top", "door", "knob")
+    x, z = knob_at
+    boxes = {
+        "door": Box(np.array([0.0, -0.02, 0.48]), np.array([1.0, 0.0, 0.98])),
+        "knob": Box(np.array([x - 0.05, -0.05, z - 0.01]), np.array([x + 0.05, -0.02, z + 0.01])),
+    }
+    bottom = PartNode("bottom", PartLabel.BOTTOM_PANEL, Box(np.array([0.02, 0.0, 0.46]), np.array([0.98, 0.48, 0.48])))
+    nodes = (replace(node, box=boxes.get(node.id, node.box)) for node in graph.nodes)
+    return replace(graph, nodes=(*nodes, bottom))
+
+
+@pytest.mark.parametrize(
+    ("knob_at", "border", "mount"),
+    [((0.5, 0.93), 2, "bottom"), ((0.5, 0.53), 3, "top"), ((0.9, 0.93), 0, "left"), ((0.5, 0.75), 0, "left")],
+)
+def test_a_plain_flap_is_one_whatever_is_said(knob_at: tuple[float, float], border: int, mount: str) -> None:
+    completion = complete(wide_front(knob_at), told_of_the_door())
+    hinge = completion.completed.hinges[0]
+
+    assert (hinge.border, hinge.parent) == (border, mount)
+    assert completion.decision("door", "border").choice == str(border)
+
+
+def test_an_upright_door_with_its_knob_above_is_no_flap() -> None:
+    graph = wide_front((0.5, 0.93))
+    upright = Box(np.array([0.0, -0.02, 0.0]), np.array([1.0, 0.0, 0.98]))
+    graph = replace(graph, nodes=tuple(replace(n, box=upright) if n.id == "door" else n for n in graph.nodes))
+
+    assert complete(graph, told_of_the_door()).completed.hinges[0].border == 0
+
+
 def test_an_unlikely_edge_is_taken_where_no_better_one_is() -> None:
     said = Answers(kinds={("door", "left"): {HINGE: 3.0}, ("drawer", "right"): {RAIL: 3.0}})
     completion = complete(cupboard(), said)

@@ -31,7 +31,7 @@ _REACH = 0.1
 _NEAR = 0.02
 # From here on a handle's offset (share of the half width or height) is meant, and a flap is wide.
 _CLEAR, _SLIGHT = 0.3, 0.12
-_WIDE, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.8, 2.2
+_WIDE, _PLAIN, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.5, 1.8, 2.2
 # A lone door with its handle in the middle of the top or bottom edge is a flap unless it is clearly upright.
 _EDGE, _UPRIGHT = 0.5, 0.7
 
@@ -84,6 +84,19 @@ def vote_border(door: PartNode, scene: Scene) -> Verdict[HingeBorder]:
         carriers = [score for _, score in _carriers(door, border, scene)]
         ballot.vote(border, 0.7 * max(carriers, default=0.0) if carriers else -2.0)
     return ballot.verdict()
+
+
+def plain_flap(door: PartNode, scene: Scene) -> HingeBorder | None:
+    """Returns the border of a door that can only be a flap, None of any other.
+
+    Half as wide again as high, and its handle in the middle of its upper or lower edge: nobody pulls a door there that
+    swings sideways.
+    """
+    if door.box.thin_axis == 2 or _aspect(door) < _PLAIN:
+        return None
+    offsets = _handle_offsets(door, scene)
+    aside, aloft = offsets.get(across_axis(door), 1.0), offsets.get(2, 0.0)
+    return _border(door, 2, aloft < 0) if abs(aside) <= _SLIGHT and abs(aloft) > _CLEAR else None
 
 
 def vote_mount(door: PartNode, border: HingeBorder, scene: Scene) -> Verdict[str] | None:

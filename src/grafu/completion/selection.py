@@ -9,7 +9,7 @@ import numpy as np
 from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.ballot import Verdict, verdict_of
 from grafu.completion.beliefs import softmax
-from grafu.completion.doors import vote_border, vote_front
+from grafu.completion.doors import plain_flap, vote_border, vote_front, vote_mount
 from grafu.completion.drawers import vote_way
 from grafu.completion.scene import Scene
 from grafu.completion.view import View
@@ -50,7 +50,8 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
 def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none.
 
-    `scene` is the same graph with its handles attached: where they sit says which face is the front.
+    The network decides, but for flaps that are plain to see. `scene` is the same graph with its handles attached: where
+    they sit says which face is the front.
     """
     if not len(view.supports):
         return RefusedMotion(door.id, _NO_SUPPORT)
@@ -62,8 +63,12 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     motions = view.beliefs.hinge[slot, slots] * _outward(door, view, scene)
     motion = np.einsum("k,kbs->bs", mounts, motions)
     border = verdict_of(BORDERS, motion.sum(axis=1))
+    flap = _plain_flap(door, border.choice, scene)
+    border = flap or border
     sign = verdict_of(SIGNS, motion[border.choice])
     mount = verdict_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
+    if flap is not None:
+        mount = _flap_mount(door, flap.choice, view, scene) or mount
     edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
     decisions = (
         decision_of(door.id, "border", border),
@@ -90,6 +95,21 @@ def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
         for group in groups
     )
     return rails, (decision_of(drawer.id, "slide", slide), *mounts)
+
+
+def _plain_flap(door: PartNode, said: HingeBorder, scene: Scene) -> Verdict[HingeBorder] | None:
+    """Returns the carpenter's border of a door that is plainly a flap where the network says another one, else None."""
+    flap = plain_flap(door, scene)
+    if flap is None or flap == said:
+        return None
+    verdict = vote_border(door, scene)
+    return verdict if verdict.choice == flap else None
+
+
+def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: Scene) -> Verdict[str] | None:
+    """Returns what a carpenter hangs a plain flap on; None where that is nothing that the input has."""
+    mount = vote_mount(door, flap, scene)
+    return mount if mount is not None and mount.choice in view.given else None
 
 
 def _outward(door: PartNode, view: View, scene: Scene) -> np.ndarray:
