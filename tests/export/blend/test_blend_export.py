@@ -125,3 +125,12 @@ def test_a_blender_that_hangs_is_stopped_and_leaves_nothing(blenders, monkeypatc
     with pytest.raises(ExportError, match="was stopped"):
         export_blend(cabinet)
     assert os.listdir(tmp_path) == ["python"]
+
+
+def test_the_command_writes_a_blender_file(interpreter, tmp_path):
+    sample = Path(__file__).parents[3] / "samples" / "sideboard.glb"
+    arguments = ["functionalize", str(sample), "--out", str(tmp_path), "--formats", "blend", "--no-page"]
+
+    assert main(arguments) == 0
+    assert sorted(os.listdir(tmp_path / "sideboard")) == ["graph.json", "model.blend", "report.json"]
+    assert (tmp_path / "sideboard" / "model.blend").read_bytes()[:4] in (b"BLEN", b"\x28\xb5\x2f\xfd")  # plain or zstd
