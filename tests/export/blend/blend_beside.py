@@ -10,10 +10,10 @@ import numpy as np
 
 from grafu.articulation.articulated_object import JointLimits
 from grafu.export.blend.joints import mute_joint, set_limits, set_open
-from grafu.export.blend.objects import build_object, remove_object
+from grafu.export.blend.objects import build_object, remove_object, save_object
 from grafu.export.blend.transport import unpacked
 
-KINDS = ("objects", "meshes", "materials", "images", "actions", "collections", "node_groups", "cameras")
+KINDS = ("objects", "meshes", "materials", "images", "actions", "collections", "node_groups", "scenes")
 
 
 def _counts() -> dict:
@@ -70,11 +70,14 @@ def _run(path: str) -> dict:
     with_one = _counts()
     remove_object(first.collection)
     after = _counts()
+    save_object(articulated, Path(path).with_name("saved.blend"))
+    saved = _counts()
     return found | {
         "before": before,
         "with_two": with_two,
         "with_one": with_one,
         "after": after,
+        "saved": saved,
         "muted": muted,
         "others": others,
         "unmuted": unmuted,

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from blend_probe import probe
+from blend_reading import assert_posed
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.kinematics import link_poses
@@ -21,7 +23,7 @@ def beside(interpreter, cabinet, tmp_path_factory):
     command = [interpreter, script, str(folder / "object.packed"), str(folder / "found.json")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr
-    return json.loads((folder / "found.json").read_text())
+    return json.loads((folder / "found.json").read_text()) | {"file": (folder / "saved.blend").read_bytes()}
 
 
 def assert_links(poses, articulated: ArticulatedObject, values) -> None:
@@ -60,3 +62,13 @@ def test_an_object_leaves_nothing_behind_and_takes_nothing_of_others(beside):
     assert len(beside["with_one"]["objects"]) == (len(beside["with_two"]["objects"]) - 1) // 2 + 2
     for kind, names in beside["before"].items():
         assert beside["after"][kind] == sorted(names + kept.get(kind, [])), kind
+
+
+def test_an_object_is_saved_alone_and_what_was_there_stays(beside, interpreter, cabinet, tmp_path):
+    assert beside["saved"] == beside["after"]
+
+    found = probe(interpreter, beside["file"], tmp_path)
+
+    assert found["scene"] == (0, 100, "METRIC", 1.0)
+    assert len(found["objects"]) == 9 + 3 + 2  # meshes, links, joints, and nothing of the others'
+    assert_posed(found, found["frames"][50], cabinet, {"door_1_hinge": 1.75, "drawer_1_rail": 0.28})
