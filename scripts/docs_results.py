@@ -1,0 +1,79 @@
+"""Writes docs/results.md from the tables of a run of `grafu evaluate`.
+
+python scripts/docs_results.py OUT     OUT as given to `grafu evaluate --out`
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "results.md"
+SHOWN = (
+    "aligned",
+    "reasonable",
+    "collision",
+    "collision_fixed",
+    "connected",
+    "connected_fixed",
+    "works",
+    "works_fixed",
+)
+LEAD = """\
+# Results
+
+On the 17 development models of PartNet-Mobility that the project is measured on (12 pieces of storage furniture, 5
+tables, 50 parts that count). They are not part of the project, nothing was trained on them, but the generator and the
+realization were made with an eye on them, so that figures flatter it. What each number means:
+[evaluation](evaluation.md). The command:
+
+    grafu evaluate --data models --out results
+
+`scripts/docs_results.py results` writes this page from its tables.
+"""
+
+
+def main() -> int:
+    """Writes the page."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=Path, help="the folder of the run")
+    tables = parser.parse_args().out / "tables"
+    sections = [_motion(json.loads((tables / "motion.json").read_text("utf-8")))]
+    sections += [(tables / f"{name}.md").read_text("utf-8").replace("# ", "## ", 1) for name in ("masking", "static")]
+    sections.append((tables / "ood.md").read_text("utf-8").replace("# ", "## ", 1))
+    sections.append(_wrong(json.loads((tables / "models.json").read_text("utf-8"))))
+    PAGE.write_text("\n".join([LEAD, *sections]), "utf-8")
+    return 0
+
+
+def _motion(table: dict[str, Any]) -> str:
+    """Returns the means over objects; brackets hold 95 % intervals."""
+    titles = {column["name"]: column["title"] for column in table["columns"]}
+    lines = [f"## {table['title']}", "", "| Method | Data | Objects | " + " | ".join(titles[n] for n in SHOWN) + " |"]
+    lines.append("| --- | --- | ---: |" + " ---: |" * len(SHOWN))
+    for row in table["rows"]:
+        if row["over"] == "objects":
+            cells = " | ".join(_share(row[name]) for name in SHOWN)
+            lines.append(f"| {row['method']} | {row['data']} | {row['objects']} | {cells} |")
+    return "\n".join([*lines, "", *(f"- {note}" for note in table["notes"]), ""])
+
+
+def _share(cell: Any) -> str:
+    if cell is None:
+        return "–"
+    if isinstance(cell, dict):
+        return f"{100 * cell['value']:.1f} [{100 * cell['low']:.1f}, {100 * cell['high']:.1f}]"
+    return f"{100 * cell:.1f}"
+
+
+def _wrong(table: dict[str, Any]) -> str:
+    """Returns what is wrong, by model and method."""
+    lines = ["## What is wrong", ""]
+    found = [row for row in table["rows"] if row["faults"] and row["method"] != "annotation"]
+    lines += [f"- `{row['method']}`, {row['model']}: {row['faults']}." for row in found]
+    return "\n".join([*lines, *(() if found else ("Nothing, of rule and network as built.",)), ""])
+
+
+if __name__ == "__main__":
+    sys.exit(main())
