@@ -5,13 +5,14 @@
 #   make check   lint, formatting, types, layers, pages drawn from code
 #   make format  mend formatting and what lint can mend
 #   make bench   speed, memory, growth
+#   make blender   build the Blender extension: a zip in dist/
 #   make clean   remove what these made
 
 PYTHON ?= python3
 BIN := .venv/bin
 SAMPLE := samples/sideboard.glb
 
-.PHONY: demo train-deps test check format bench clean help
+.PHONY: demo train-deps test check format bench blender clean help
 .DEFAULT_GOAL := help
 
 help:
@@ -54,18 +55,22 @@ test: .venv/installed-dev .venv/installed-train .venv/installed-validator
 	$(BIN)/pytest -n auto
 
 check: .venv/installed-dev .venv/installed-train
-	$(BIN)/ruff check src tests scripts
-	$(BIN)/ruff format --check src tests scripts
+	$(BIN)/ruff check src tests scripts blender_addon
+	$(BIN)/ruff format --check src tests scripts blender_addon
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python scripts/docs.py --check
 
 format: .venv/installed-dev
-	$(BIN)/ruff check --fix src tests scripts
-	$(BIN)/ruff format src tests scripts
+	$(BIN)/ruff check --fix src tests scripts blender_addon
+	$(BIN)/ruff format src tests scripts blender_addon
 
 bench: .venv/installed-dev
 	$(BIN)/python scripts/bench.py
+
+# The wheels of the dependencies are fetched for Blender's Python and go into the zip; none are kept here.
+blender: .venv/installed
+	$(BIN)/python scripts/build_blender_addon.py
 
 clean:
 	rm -rf .venv out bench build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis

@@ -74,3 +74,9 @@ def lost(before: Report, after: Report) -> tuple[str, ...]:
     why = {skip.request: skip.detail or skip.reason.value for skip in after.skipped}
     gone = (joint.part for joint in before.joints if joint.part not in moving)
     return tuple(f"{part}: {why.get(part, 'it does not move any more')}" for part in gone)
+
+
+def newly_skipped(before: Report, after: Report) -> tuple[str, ...]:
+    """Returns what was asked for and not built after a change, and was no matter before it: each with the reason."""
+    known = {(skip.request, skip.detail) for skip in before.skipped}
+    return tuple(f"{s.request}: {s.detail}" for s in after.skipped if (s.request, s.detail) not in known)

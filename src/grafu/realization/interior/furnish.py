@@ -3,7 +3,7 @@
 A panel that finds no place is refused with the reason; what stands is never changed. It finds no compartments.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -85,7 +85,9 @@ def furnish(
     sizes = config.sizes(scene.unit)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
     wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
-    refused += [Unfurnished(k, None, f"there are {len(compartments)}") for k in chosen if k >= len(compartments)]
+    beyond = [k for k in chosen if k >= len(compartments)]
+    refused += [Unfurnished(k, None, f"there is no such compartment, only {len(compartments)}") for k in beyond]
+    chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
     if all(arrangement == Arrangement() for arrangement in wanted):
         return Furnished((), tuple(refused))
     clearing, walls = clearing_of(scene), _walls(compartments, scene, sizes)
@@ -98,7 +100,27 @@ def furnish(
                 panels.append(outcome)
             else:
                 refused.append(outcome)
+    refused += _fewer_than_chosen(panels, chosen, {(one.compartment, one.label) for one in refused})
     return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+
+
+def _fewer_than_chosen(
+    panels: Sequence[_Panel],
+    chosen: Mapping[int, CompartmentChoice],
+    told: Collection[tuple[int | None, PartLabel | None]],
+) -> list[Unfurnished]:
+    """Returns the compartments that took fewer panels than were chosen for them, unless that was told."""
+    found = []
+    for number, choice in chosen.items():
+        made = {label: sum(p.compartment == number and p.label is label for p in panels) for label in PartLabel}
+        cells = made[PartLabel.DIVIDER] + 1
+        wanted = {PartLabel.DIVIDER: choice.dividers, PartLabel.SHELF: choice.shelves * cells}
+        found += [
+            Unfurnished(number, label, f"there is room for {made[label]} only")
+            for label, count in wanted.items()
+            if made[label] < count and (number, label) not in told
+        ]
+    return found
 
 
 def _own(choice: CompartmentChoice | None, arrangement: Arrangement) -> Arrangement:

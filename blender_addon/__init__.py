@@ -1,0 +1,43 @@
+"""GraFu in Blender's sidebar: furniture that only looks right is made to work, and each joint is refined.
+
+The add-on holds no geometry: it hands the selected objects to the package `grafu` in a process of its own, and shows
+what comes back.
+"""
+
+bl_info = {  # for Blenders that know no manifest
+    "name": "GraFu",
+    "author": "The grafu authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Sidebar > GraFu",
+    "description": "Makes furniture work: hinges, rails, handles, tops, interiors",
+    "category": "Animation",
+}
+
+_MODULES = (
+    "state",
+    "run_operators",
+    "joint_operators",
+    "addition_operators",
+    "view_operators",
+    "output_operators",
+    "panels",
+)
+
+
+def register():
+    """Registers all classes, each module's in its order."""
+    for module in _modules():
+        module.register()
+
+
+def unregister():
+    """Takes everything back, in the opposite order."""
+    for module in reversed(_modules()):
+        module.unregister()
+
+
+def _modules():
+    from importlib import import_module
+
+    return [import_module(f".{name}", __package__) for name in _MODULES]

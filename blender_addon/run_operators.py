@@ -1,0 +1,226 @@
+"""Running: every operator that changes what is built edits the settings, runs `grafu`, and shows what comes back.
+
+A change that does not fit leaves everything as it was, and says why. In a window the run goes on behind it, with its
+stage in the sidebar and Escape to stop it; without a window (and with `wait`) the operator waits.
+"""
+
+from dataclasses import replace
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty
+
+from . import objects, work
+from .boxes import draw_boxes, remove_boxes
+from .state import report_of, session_of, settings_of, store
+
+MOTIONS = [
+    ("auto", "Automatic", "The trained network, or the rule where there are no weights"),
+    ("network", "Network", "The trained network"),
+    ("rule", "Rule", "Carpenters' rules on names, boxes and handles"),
+]
+_TICK = 0.1  # seconds between looks at the process
+_active = None
+
+
+def active_run():
+    """Returns the run that goes on behind the window, or None."""
+    return _active
+
+
+class Applies:
+    """What all operators that run share; subclasses say what they change, and may say what makes a change unfit."""
+
+    bl_options = {"REGISTER", "UNDO"}
+    wait: BoolProperty(name="Wait", description="Let the window wait for the result", options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        """Whether it can be used now."""
+        return _active is None and session_of(context).has_result
+
+    def changed(self, context, settings):
+        """Returns the settings with the change."""
+        raise NotImplementedError
+
+    def unfit(self, before, after):
+        """Returns why the change does not fit, in words; empty where it does."""
+        from grafu.pipeline.triage import lost
+
+        return lost(before, after)
+
+    def sources(self, context):
+        """Returns the objects to work on."""
+        return objects.sources_of(session_of(context))
+
+    def execute(self, context):
+        """Runs; see the module."""
+        from grafu.errors import FunctionalizationError
+
+        global _active
+        try:
+            self._settings = self.changed(context, settings_of(session_of(context)))
+        except (FunctionalizationError, ValueError) as error:
+            return self._refused(context, str(error))
+        self._run = work.Run(self._settings)
+        try:
+            self._sources = list(self.sources(context))
+            if not self._sources:
+                raise work.Failed("the objects that were handed over are gone")
+            objects.export_sources(context, self._sources, self._run.source)
+            self._run.start()
+        except (work.Failed, OSError, RuntimeError) as error:
+            self._run.close()
+            return self._refused(context, str(error))
+        if bpy.app.background or self.wait:
+            self._run.wait()
+            return self._finish(context)
+        _active = self._run
+        self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        """Looks at the process at every tick; Escape stops it."""
+        if event.type == "ESC" or self._run.is_cancelled:
+            self._end(context)
+            return self._refused(context, "stopped")
+        if event.type == "TIMER":
+            _redraw(context)
+            if self._run.is_done:
+                return self._finish(context)
+        return {"PASS_THROUGH"}
+
+    def _finish(self, context):
+        try:
+            self._run.require_success()
+            return self._shown(context)
+        except work.Failed as error:
+            return self._refused(context, str(error))
+        finally:
+            self._end(context)
+
+    def _shown(self, context):
+        from grafu.pipeline.report_schema import Report
+
+        session = session_of(context)
+        before, after = report_of(session), Report.model_validate_json(self._run.text("report.json"))
+        unfit = "; ".join(self.unfit(before, after)) if before is not None else ""
+        if unfit:
+            return self._refused(context, unfit)
+        made = self._run.result()
+        session.sources.clear()
+        for source in self._sources:
+            session.sources.add().object = source
+        objects.show_result(context, made, after.frame.input_to_output)
+        unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
+        store(session, self._settings, self._run.text("report.json"), self._run.text("interior.json"), float(unit))
+        session.colours = False
+        if remove_boxes(context.scene):
+            draw_boxes(context)
+        session.status = f"{len(after.joints)} joints, {len(after.added)} parts added, {len(after.skipped)} left out"
+        self.report({"INFO"}, session.status)
+        return {"FINISHED"}
+
+    def _refused(self, context, why):
+        session_of(context).status = why
+        self.report({"WARNING"}, why)
+        return {"CANCELLED"}
+
+    def _end(self, context):
+        global _active
+        if _active is self._run:
+            _active = None
+            context.window_manager.event_timer_remove(self._timer)
+            _redraw(context)
+        self._run.close()
+
+
+def _redraw(context):
+    for area in context.screen.areas if context.screen else ():
+        if area.type == "VIEW_3D":
+            area.tag_redraw()
+
+
+class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
+    """Makes the selected objects work: each is a part; what they are is read from their names"""
+
+    bl_idname = "grafu.functionalize"
+    bl_label = "Functionalize"
+
+    motion: EnumProperty(name="Motions from", items=MOTIONS, options={"SKIP_SAVE"})
+    keep: BoolProperty(
+        name="Keep settings", description="Keep what was chosen for the model before", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def poll(cls, context):
+        """Whether parts are selected."""
+        return _active is None and bool(_selected(context))
+
+    def sources(self, context):
+        """Returns the selected objects."""
+        return _selected(context)
+
+    def changed(self, context, settings):
+        """Returns fresh settings, or the ones before."""
+        from grafu.pipeline.motion_source import MotionSource
+        from grafu.pipeline.settings import Settings
+
+        return replace(settings if self.keep else Settings(), motion=MotionSource(self.motion))
+
+    def unfit(self, before, after):
+        """Nothing: it is another model."""
+        return ()
+
+
+def _selected(context):
+    return [o for o in context.selected_objects if o.type == "MESH" and "grafu" not in o]
+
+
+class GRAFU_OT_run_again(Applies, bpy.types.Operator):
+    """Functionalizes the same objects again, as they are now, with what was chosen"""
+
+    bl_idname = "grafu.run_again"
+    bl_label = "Run again"
+
+    def changed(self, context, settings):
+        """Returns the same settings."""
+        return settings
+
+    def unfit(self, before, after):
+        """Nothing: the objects may have changed."""
+        return ()
+
+
+class GRAFU_OT_cancel(bpy.types.Operator):
+    """Stops the run that goes on; everything stays as it was"""
+
+    bl_idname = "grafu.cancel"
+    bl_label = "Stop"
+
+    @classmethod
+    def poll(cls, context):
+        """Whether one goes on."""
+        return _active is not None
+
+    def execute(self, context):
+        """Stops it."""
+        _active.is_cancelled = True
+        return {"FINISHED"}
+
+
+_CLASSES = (GRAFU_OT_functionalize, GRAFU_OT_run_again, GRAFU_OT_cancel)
+
+
+def register():
+    """Registers the operators."""
+    for one in _CLASSES:
+        bpy.utils.register_class(one)
+
+
+def unregister():
+    """Takes them back, and stops a run that goes on."""
+    if _active is not None:
+        _active.close()
+    for one in reversed(_CLASSES):
+        bpy.utils.unregister_class(one)

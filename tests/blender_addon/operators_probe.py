@@ -1,0 +1,235 @@
+"""Runs the add-on's operators in a Blender without a window; prints one JSON line per step. It asserts nothing.
+
+Started as `python operators_probe.py ADDON_PARENT SAMPLE FOLDER` by a Python that has `bpy` and `grafu`.
+"""
+
+import json
+import os
+import sys
+import traceback
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import bpy
+
+addon_parent, sample, out = sys.argv[1:4]
+sys.path.insert(0, addon_parent)
+
+import blender_addon  # noqa: E402
+from blender_addon import objects, state  # noqa: E402
+from grafu.asset.load import load_asset  # noqa: E402
+from grafu.pipeline.functionalize import functionalize  # noqa: E402
+from grafu.templates.gallery import builtin_gallery  # noqa: E402
+
+FACTS = []
+
+
+def session():
+    return bpy.context.scene.grafu
+
+
+def snapshot() -> list:
+    """What stands in the scene: settings, report without timings, and every object of the result."""
+    report = json.loads(session().report_json or "{}")
+    report.pop("timings", None)
+    found = objects.result_objects(bpy.context.scene)
+    things = sorted(
+        (o["grafu"], o["id"], round(o.get("upper", 0.0), 6), len(o.data.vertices) if o.data else 0) for o in found
+    )
+    return [session().settings_json, json.dumps(report, sort_keys=True), things]
+
+
+def expected() -> list:
+    """What the library makes of the same sources and settings: links, joints and visuals."""
+    settings = state.settings_of(session())
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "model.glb"
+        objects.export_sources(bpy.context, objects.sources_of(session()), path)
+        asset = load_asset(path, settings.reading.options)
+    made = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline()).object
+    things = [("link", link.id, 0.0) for link in made.links]
+    things += [("joint", j.id, round(j.limits.upper, 4)) for j in made.joints]
+    things += [(v.role.value, v.name, 0.0) for link in made.links for v in link.visuals]
+    return sorted(things)
+
+
+def agrees() -> bool:
+    shown = [(kind, name, round(upper, 4)) for kind, name, upper, _ in snapshot()[2]]
+    return shown == expected()
+
+
+def step(title, operator, **arguments):
+    """Calls an operator as a user would, then takes it back and does it again."""
+    before, began = snapshot(), perf_counter()
+    result = next(iter(operator("EXEC_DEFAULT", True, **arguments)))
+    seconds, after = perf_counter() - began, snapshot()
+    report = json.loads(session().report_json or "{}")
+    fact = {
+        "step": title,
+        "result": result,
+        "status": session().status,
+        "seconds": seconds,
+        "changed": before != after,
+        "agrees": agrees(),
+        "joints": {
+            j["part"]: [j["mechanism"], j["template"], j["count"], j["upper"]] for j in report.get("joints", [])
+        },
+        "added": {a["part"]: a["style"] for a in report.get("added", [])},
+        "rows": {row.part: row.level for row in session().joints},
+    }
+    if result == "FINISHED":
+        bpy.ops.ed.undo()
+        fact["undone"] = snapshot() == before
+        bpy.ops.ed.redo()
+        fact["redone"] = snapshot() == after
+    FACTS.append(fact)
+    return fact
+
+
+def values() -> dict:
+    return {part: round(e["open"], 4) for part, e in objects.joint_empties(bpy.context.scene).items()}
+
+
+def main():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    began = perf_counter()
+    blender_addon.register()
+    FACTS.append({"step": "register", "seconds": perf_counter() - began, "torch": "torch" in sys.modules})
+    bpy.ops.import_scene.gltf(filepath=sample)
+    for one in bpy.data.objects:
+        one.select_set(one.type == "MESH")
+    bpy.ops.ed.undo_push(message="start")
+    grafu = bpy.ops.grafu
+    step("functionalize", grafu.functionalize, motion="rule")
+    FACTS[-1]["hidden"] = all(o.hide_viewport for o in objects.sources_of(session()))
+    FACTS[-1]["places"] = places()
+    for mechanism in "CFP":
+        step(f"class {mechanism}", grafu.set_joint, part="door_1", mechanism=mechanism)
+    step("template", grafu.set_joint, part="door_1", template="piano")
+    step("count", grafu.set_joint, part="door_1", count=3, scale=0.8)
+    step("opening", grafu.set_joint, part="door_1", opening=1.0)
+    step("unfit", grafu.set_joint, part="door_1", mechanism="corner-mount")
+    step("reset joint", grafu.reset_joint, part="door_1")
+    step("rail", grafu.set_joint, part="drawer_1", mechanism="corner-mount")
+    step("restyle", grafu.set_handle, part="drawer_1", style="knob-round", count=2)
+    step("remove handle", grafu.set_handle, part="door_2", style="none")
+    step("grip", grafu.set_handle, part="door_2", style="grip")
+    step("handle back", grafu.reset_handle, part="drawer_1")
+    step("top", grafu.set_top, shape="rounded", thickness=0.03)
+    step("furnish", grafu.furnish, number=0, shelves=1)
+    step("too many", grafu.furnish, number=0, shelves=20)
+    step("label", grafu.set_label, part="door_2", label="misc")
+    step("label as read", grafu.set_label, part="door_2", as_read=True)
+    step("compartments", grafu.show_compartments)
+    FACTS[-1]["boxes"] = [len(o.data.edges) for o in bpy.data.objects if o.get("grafu") == "compartment"]
+    view(grafu)
+    saved(grafu)
+    without_top(grafu)
+    step("finalize", grafu.finalize, directory=out, name="final", formats="glb,urdf")
+    blender_addon.unregister()
+    blender_addon.register()
+    blender_addon.unregister()
+    FACTS.append({"step": "unregister", "gone": not hasattr(bpy.types.Scene, "grafu")})
+
+
+def without_top(grafu):
+    """Another model from the same objects: without its top and shelves, and with a modifier on its door."""
+    grafu.show_sources(on=True)
+    FACTS.append({"step": "sources", "hidden": [o.hide_viewport for o in objects.sources_of(session())]})
+    for one in objects.sources_of(session()):
+        one.select_set(not one.name.startswith(("top_panel", "shelf")))
+        if one.name == "door_2":
+            one.modifiers.new("half", "DECIMATE").ratio = 1.0
+            one.modifiers.new("bevel", "BEVEL").width = 0.002
+    bpy.ops.ed.undo_push(message="chosen")
+    step("topless", grafu.functionalize, motion="rule")
+    FACTS[-1]["bevelled"] = len(objects.visual(bpy.context.scene, "door_2").data.vertices)
+    FACTS[-1]["sources"] = len(objects.sources_of(session()))
+    step("again", grafu.run_again)
+    FACTS[-1]["bevelled"] = len(objects.visual(bpy.context.scene, "door_2").data.vertices)
+    top = next((row.part for row in session().additions if row.about.startswith("top")), "")
+    step("rounded top", grafu.set_top, shape="rounded", thickness=0.03)
+    FACTS[-1]["thick"] = round(objects.visual(bpy.context.scene, top).dimensions.z, 4) if top else 0.0
+    step("no top", grafu.set_top, add=False)
+    step("top again", grafu.set_top, add=True)
+    step("reject top", grafu.set_addition, part=top, accepted=False)
+    step("accept top", grafu.set_addition, part=top, accepted=True)
+    box = next(o for o in bpy.data.objects if o.get("grafu") == "compartment" and o["number"] == 0)
+    for one in bpy.context.view_layer.objects:
+        one.select_set(one == box)
+    step("selected box", grafu.furnish, shelves=2, thickness=0.012)
+    step("own box", grafu.furnish, number=1, shelves=1)
+    step("no such box", grafu.furnish, number=40, shelves=1)
+
+
+def view(grafu):
+    scene = bpy.context.scene
+    before = {m.name for o in objects.result_objects(scene) for m in [s.material for s in o.material_slots] if m}
+    grafu.colours(on=True)
+    coloured = {s.material.name for o in objects.result_objects(scene) for s in o.material_slots}
+    grafu.colours(on=False)
+    after = {m.name for o in objects.result_objects(scene) for m in [s.material for s in o.material_slots] if m}
+    fact = {"step": "view", "coloured": sorted(coloured), "materials_back": before == after}
+    for what in ("all", "closed"):
+        grafu.preview(what=what)
+        fact[what] = values()
+    grafu.preview(what="solo", part="door_2")
+    fact["solo"] = values()
+    fact["moved"] = moved("door_2")
+    grafu.preview(what="animation")
+    scene.frame_set(50)
+    fact["frame 50"] = values()
+    scene.frame_set(0)
+    bpy.context.view_layer.objects.active = objects.visual(scene, "handle_5") or objects.visual(scene, "door_2")
+    grafu.pick_joint()
+    fact["picked"] = session().active_joint.part
+    session().joint_index = 0
+    fact["selected"] = [o["id"] for o in bpy.context.selected_objects]
+    fact["first"] = session().joints[0].part
+    FACTS.append(fact)
+
+
+def moved(part) -> float:
+    """How far the middle of a part is from where it is closed."""
+    bpy.context.view_layer.update()
+    now = middle(objects.visual(bpy.context.scene, part))
+    bpy.ops.grafu.preview(what="closed")
+    bpy.context.view_layer.update()
+    return (now - middle(objects.visual(bpy.context.scene, part))).length
+
+
+def middle(one):
+    from mathutils import Vector
+
+    return sum((one.matrix_world @ Vector(corner) for corner in one.bound_box), Vector()) / 8
+
+
+def places() -> float:
+    """The farthest that a part stands from its source."""
+    bpy.context.view_layer.update()
+    scene = bpy.context.scene
+    pairs = ((o, objects.visual(scene, o.name)) for o in objects.sources_of(session()))
+    return max((middle(a) - middle(b)).length for a, b in pairs if b is not None)
+
+
+def saved(grafu):
+    """Saves the file, opens it again and goes on."""
+    before = snapshot()
+    path = str(Path(out) / "session.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    FACTS.append({"step": "opened again", "same": snapshot() == before, "sources": len(objects.sources_of(session()))})
+    bpy.ops.ed.undo_push(message="opened")
+    step("goes on", grafu.set_joint, part="door_1", count=4)
+
+
+try:
+    main()
+except BaseException:  # Blender hangs where Python ends by itself
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)
+Path(out, "facts.json").write_text(json.dumps(FACTS))
+sys.stdout.flush()
+os._exit(0)
