@@ -50,7 +50,7 @@ class DecodeConfig:
     """Power of the carpenter's view of where a door's front is, and a drawer's way out, against the network's: 0 leaves
     it out."""
 
-    carpenter: float = 0.25
+    carpenter: float = 0.5
     """Power of the carpenter's view of which border the hinge is on."""
 
     edge_for_label: float = 0.2
