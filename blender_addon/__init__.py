@@ -26,18 +26,29 @@ _MODULES = (
 
 
 def register():
-    """Registers all classes, each module's in its order."""
-    for module in _modules():
-        module.register()
+    """Registers all classes, each module's in its order, and gives every scene its session."""
+    import bpy
+
+    from . import state
+
+    for one in _classes():
+        bpy.utils.register_class(one)
+    state.attach()
 
 
 def unregister():
-    """Takes everything back, in the opposite order."""
-    for module in reversed(_modules()):
-        module.unregister()
+    """Stops what goes on, and takes everything back in the opposite order."""
+    import bpy
+
+    from . import run_operators, state
+
+    run_operators.stop()
+    state.detach()
+    for one in reversed(_classes()):
+        bpy.utils.unregister_class(one)
 
 
-def _modules():
+def _classes():
     from importlib import import_module
 
-    return [import_module(f".{name}", __package__) for name in _MODULES]
+    return [one for name in _MODULES for one in import_module(f".{name}", __package__).CLASSES]

@@ -194,7 +194,7 @@ class GRAFU_OT_set_addition(Applies, bpy.types.Operator):
         return settings.with_addition(self.part, accepted=self.accepted)
 
 
-_CLASSES = (
+CLASSES = (
     GRAFU_OT_set_handle,
     GRAFU_OT_reset_handle,
     GRAFU_OT_set_top,
@@ -202,15 +202,3 @@ _CLASSES = (
     GRAFU_OT_furnish,
     GRAFU_OT_set_addition,
 )
-
-
-def register():
-    """Registers the operators."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    """Takes them back."""
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)

@@ -140,16 +140,4 @@ class GRAFU_OT_set_label(Applies, bpy.types.Operator):
         return ()
 
 
-_CLASSES = (GRAFU_OT_set_joint, GRAFU_OT_reset_joint, GRAFU_OT_set_label)
-
-
-def register():
-    """Registers the operators."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    """Takes them back."""
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)
+CLASSES = (GRAFU_OT_set_joint, GRAFU_OT_reset_joint, GRAFU_OT_set_label)

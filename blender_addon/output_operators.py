@@ -87,16 +87,4 @@ def _verdict(report) -> str:
     return f"{len(joints)} joints, {colliding} collide, {len(report['skipped'])} left out"
 
 
-_CLASSES = (GRAFU_OT_finalize,)
-
-
-def register():
-    """Registers the operators."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    """Takes them back."""
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)
+CLASSES = (GRAFU_OT_finalize,)

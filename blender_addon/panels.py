@@ -168,7 +168,7 @@ def _wrapped(text: str, width: int = 48) -> list:
     return lines
 
 
-_CLASSES = (
+CLASSES = (
     GRAFU_UL_joints,
     GRAFU_UL_additions,
     GRAFU_UL_parts,
@@ -178,15 +178,3 @@ _CLASSES = (
     GRAFU_PT_parts,
     GRAFU_PT_output,
 )
-
-
-def register():
-    """Registers the panels."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    """Takes them back."""
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)

@@ -28,7 +28,10 @@ def active_run():
 
 
 class Applies:
-    """What all operators that run share; subclasses say what they change, and may say what makes a change unfit."""
+    """What all operators that run share.
+
+    Each says what it changes, `changed(context, settings)`, and may say what makes a change unfit.
+    """
 
     bl_options = {"REGISTER", "UNDO"}
     wait: BoolProperty(name="Wait", description="Let the window wait for the result", options={"HIDDEN", "SKIP_SAVE"})
@@ -37,10 +40,6 @@ class Applies:
     def poll(cls, context):
         """Whether it can be used now."""
         return _active is None and session_of(context).has_result
-
-    def changed(self, context, settings):
-        """Returns the settings with the change."""
-        raise NotImplementedError
 
     def unfit(self, before, after):
         """Returns why the change does not fit, in words; empty where it does."""
@@ -209,18 +208,10 @@ class GRAFU_OT_cancel(bpy.types.Operator):
         return {"FINISHED"}
 
 
-_CLASSES = (GRAFU_OT_functionalize, GRAFU_OT_run_again, GRAFU_OT_cancel)
+CLASSES = (GRAFU_OT_functionalize, GRAFU_OT_run_again, GRAFU_OT_cancel)
 
 
-def register():
-    """Registers the operators."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    """Takes them back, and stops a run that goes on."""
+def stop():
+    """Stops a run that goes on."""
     if _active is not None:
         _active.close()
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)

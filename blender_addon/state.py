@@ -165,18 +165,14 @@ def _fill_additions(session, settings, report) -> None:
         row.about, row.accepted = about, accepted
 
 
-_CLASSES = (GRAFU_Source, GRAFU_Joint, GRAFU_Addition, GRAFU_Part, GRAFU_Session)
+CLASSES = (GRAFU_Source, GRAFU_Joint, GRAFU_Addition, GRAFU_Part, GRAFU_Session)
 
 
-def register():
-    """Registers the groups, and the session of every scene."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
+def attach():
+    """Gives every scene its session."""
     bpy.types.Scene.grafu = PointerProperty(type=GRAFU_Session)
 
 
-def unregister():
-    """Takes them back; what scenes hold stays in them until they are saved without the add-on."""
+def detach():
+    """Takes it back; what scenes hold stays in them until they are saved without the add-on."""
     del bpy.types.Scene.grafu
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)

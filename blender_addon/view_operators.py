@@ -162,22 +162,10 @@ def _material(one):
     return found
 
 
-_CLASSES = (
+CLASSES = (
     GRAFU_OT_pick_joint,
     GRAFU_OT_select_part,
     GRAFU_OT_show_sources,
     GRAFU_OT_preview,
     GRAFU_OT_colours,
 )
-
-
-def register():
-    """Registers the operators."""
-    for one in _CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    """Takes them back."""
-    for one in reversed(_CLASSES):
-        bpy.utils.unregister_class(one)

@@ -45,8 +45,8 @@ def _table_section(table: RunTable, index: int) -> Html:
 
 
 def _search(table: RunTable, index: int) -> Html:
-    box = tag("input", type="search", data_filter=f"table-{index}", autocomplete="off", placeholder="Find")
-    return tag("label", tag("span", f"Find in {table.title}", class_="unseen"), box, class_="search")
+    box = tag("input", type="search", data_filter=f"table-{index}", autocomplete="off")
+    return tag("label", tag("span", f"Find in {table.title}"), box, class_="search")
 
 
 def _table(table: RunTable, index: int) -> Html:
