@@ -214,6 +214,21 @@ def test_missing_and_foreign_files_are_refused_in_one_line(folder: Path) -> None
         read_foreign(folder)
 
 
+@pytest.mark.parametrize(("place", "value"), [(6, 1), (8, 99)], ids=["encrypted", "unknown compression"])
+def test_archives_that_cannot_be_unpacked_are_refused_in_one_line(place: int, value: int, folder: Path) -> None:
+    path = folder / "eval" / "pred.npz"
+    archive = bytearray(path.read_bytes())
+    for header, shift in ((b"PK\x03\x04", 0), (b"PK\x01\x02", 2)):  # each file's header, and its line in the directory
+        start = archive.find(header)
+        while start >= 0:
+            archive[start + place + shift] = value
+            start = archive.find(header, start + 4)
+    path.write_bytes(bytes(archive))
+
+    with pytest.raises(UnreadableAsset, match="is no NumPy archive of plain arrays"):
+        read_foreign(folder)
+
+
 @given(st.floats(0, 1), st.integers(0, 200), st.binary(max_size=20))
 def test_damage_anywhere_is_read_or_refused_in_one_line(
     tmp_path_factory: pytest.TempPathFactory, place: float, cut: int, inserted: bytes

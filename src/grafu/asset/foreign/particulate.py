@@ -104,7 +104,7 @@ def _arrays(path: Path, limits: Limits) -> Arrays:
     try:
         with np.load(io.BytesIO(read_bytes(path, limits)), allow_pickle=False) as stored:
             found = {key: np.asarray(stored[key]) for key in _SHAPES if key in stored}
-    except (ValueError, OSError, EOFError, KeyError, NotImplementedError, zipfile.BadZipFile, AttributeError):
+    except (ValueError, OSError, EOFError, KeyError, RuntimeError, zipfile.BadZipFile, AttributeError):
         raise UnreadableAsset(f"{path} is no NumPy archive of plain arrays: expected {_EXPECTED}") from None
     missing = [key for key in _SHAPES if key not in found]
     if missing:
