@@ -31,7 +31,8 @@ BOXES: dict[DrawerBox, float] = {
 CRUDE_BOXES: dict[DrawerBox, float] = {"whole": 4.0, "no bottom": 0.5, "shell": 2.0, "front only": 3.5}
 
 # Real handles: thin bars on modern kitchens, arched bars and cups on framed ones, knobs and bails on old furniture.
-# About one front in ten has none: it is pushed, or held by a grip or its edge.
+# About one front in fourteen has none: it is pushed, or held by a grip or its edge. With twice as many, 30 % of made
+# doors showed no handle, and 8 % of the real ones do (2 of 26).
 Handles = Mapping[HandleStyle, float]
 BARS: Handles = {
     "bar-round": 3.0, "bar-square": 2.0, "bar-slim": 3.0, "bar-tee": 3.0, "bar-strip": 1.0, "bar-profile": 1.0

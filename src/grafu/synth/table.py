@@ -40,8 +40,9 @@ class Table:
     `overhang` beyond the legs. Legs are `leg` wide and of any shape; `stretcher` bars join them at `stretcher_at` of
     the height. `arch` is the height of an arched rail below the drawers. `guides` run along the drawers' sides.
     A hutch stands on the top at its back, or a mirror of that height. `rails` is the height of bars above and below the
-    drawers, a `spine` a board that runs lengthwise in the middle behind them. A straight top has a `moulding` of that
-    height around it, which ends above the drawers. The back apron covers the share `modesty` of the room below it.
+    drawers; `boarded` makes them one board with openings. A `spine` is a board that runs lengthwise behind the drawers.
+    A straight top has a `moulding` of that height around it, which ends above the drawers. The back apron covers the
+    share `modesty` of the room below it.
 
     Raises:
         ValueError: if the legs leave no room between them or below the top, or the rails none for drawers.
@@ -72,6 +73,7 @@ class Table:
     hutch: Cabinet | None = None
     mirror: float = 0.0
     rails: float = 0.0
+    boarded: bool = False
     spine: bool = False
     moulding: float = 0.0
     modesty: float = 0.0
@@ -119,10 +121,7 @@ def _fronts(spec: Table) -> Iterator[Piece]:
     near = spec.front - y if spec.rails else -y
     setting = Setting(-y, back, "inset", spec.front, spec.gap, slide_gap=spec.slide_gap, finish=spec.finish)
     edges = Edges() if spec.rails else Edges(bottom=Edge.SEAM, top=Edge.STOP)
-    if spec.rails:
-        for z0 in (low, z - spec.rails):
-            span = ((-x, -y, z0), (x, near, z0 + spec.rails))
-            yield plank(PartLabel.BAR, "apron_rail", spec.finish.case, span)
+    rails: list[Span] = [((-x, -y, z0), (x, near, z0 + spec.rails)) for z0 in (low, z - spec.rails) if spec.rails]
     for item in divide(spec.layout, Rect(-x, x, low + spec.rails, z - spec.rails), edges, 0.018):
         if isinstance(item, Cell):
             yield from front_pieces(item, setting)
@@ -130,8 +129,13 @@ def _fronts(spec: Table) -> Iterator[Piece]:
         r = item.rect
         spans: list[Span] = [((r.x0, near, low), (r.x1, back, z))]
         if spec.rails:  # its front end stands between the bars
-            spans.append(((r.x0, -y, r.z0), (r.x1, near, r.z1)))
+            (rails if spec.boarded else spans).append(((r.x0, -y, r.z0), (r.x1, near, r.z1)))
         yield plank(PartLabel.MISC, "tabletop_connector", spec.finish.case, *spans)
+    if rails and spec.boarded:
+        yield plank(PartLabel.SIDE_PANEL, "apron_front", spec.finish.case, *rails)
+        return
+    for span in rails:
+        yield plank(PartLabel.BAR, "apron_rail", spec.finish.case, span)
 
 
 def _frame(spec: Table) -> Iterator[Piece]:

@@ -12,7 +12,7 @@ from grafu.synth.chance import between, chance, count, pick, weights
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
 from grafu.synth.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
-from grafu.synth.style import draw_style
+from grafu.synth.style import Style, draw_style
 from grafu.synth.tradition import TraditionName
 
 LIVING: Mapping[TraditionName, float] = {
@@ -36,7 +36,7 @@ def sideboard(rng: np.random.Generator) -> Cabinet:
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (0.8, 2.0), (0.33, 0.5), (0.6, 1.0))
     width = size[0]
-    kind = pick(rng, {"beside": 0.36, "above": 0.24, "doors": 0.22, "bay": 0.18})
+    kind = pick(rng, {"beside": 0.32, "above": 0.22, "doors": 0.2, "bay": 0.14, "flap": 0.12})
     if kind == "beside":
         layout = doors_beside_drawers(rng, style, width, count(rng, 2, 4))
     elif kind == "above":
@@ -44,11 +44,24 @@ def sideboard(rng: np.random.Generator) -> Cabinet:
         layout = Stack((doors_across(rng, width), row), (between(rng, (2.5, 4.0)), 1.0), style.between)
     elif kind == "doors":
         layout = doors_across(rng, width)
+    elif kind == "flap":
+        layout = _beside_flap(rng, style, width)
     else:
         bay: Layout = Bay() if chance(rng, 0.5) else Stack((Drawer(), Bay()), (1.0, between(rng, (1.0, 2.0))))
         cells: tuple[Layout, ...] = (Door(), bay, Door()) if width > 1.1 else (Door(), bay)
         layout = Row(cells, weights(rng, len(cells), 0.25))
     return build_cabinet(rng, "sideboard", style, size, layout, LOW, STAND)
+
+
+def _beside_flap(rng: np.random.Generator, style: Style, width: float) -> Layout:
+    """Returns a column whose upper front drops down as a bar's or a desk's does, with doors or drawers beside it."""
+    below: Mapping[Layout, float] = {Pair(): 0.3, Drawer(): 0.35, Bay(): 0.2, Stack((Drawer(), Drawer())): 0.15}
+    column = Stack((pick(rng, below), Door("bottom")), (between(rng, (0.8, 1.6)), 1.0), style.between)
+    aside: Layout = drawer_stack(rng, style, count(rng, 2, 4)) if chance(rng, 0.45) else Door()
+    cells: tuple[Layout, ...] = (column, aside) if chance(rng, 0.5) else (aside, column)
+    if width > 1.3 and chance(rng, 0.6):
+        cells = (Door(), column, aside)
+    return Row(cells, tuple(between(rng, (1.2, 1.6)) if cell is column else 1.0 for cell in cells))
 
 
 def tv_stand(rng: np.random.Generator) -> Cabinet:

@@ -46,7 +46,8 @@ APRONS: Mapping[str, Span] = {
 }  # fmt: skip
 # Of tables: bars above and below the drawers, a board lengthwise behind them (of those with drawers in a row), panels
 # between drawers, a moulding around the top, a back that reaches further down (26608 has most of these)
-RAILED, SPINED, PARTED, MOULDED, MODEST = 0.22, 0.45, 0.45, 0.12, 0.1
+RAILED, SPINED, PARTED, MOULDED, MODEST = 0.3, 0.45, 0.45, 0.12, 0.1
+BOARDED = 0.5  # of tables with such bars: one board with an opening for each drawer (26608)
 MIDDLE, TRAY, DESK_TRAY = 0.35, 0.5, 0.25  # of desks with something between their pedestals, a keyboard's tray (32052)
 THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
@@ -179,6 +180,7 @@ def _table(
         stretcher_at=between(rng, (0.08, 0.35)),
         arch=between(rng, (0.02, 0.05)) if chance(rng, 0.1) and not rails else 0.0,
         rails=rails,
+        boarded=rails > 0 and chance(rng, BOARDED),
         spine=number > 1 and chance(rng, SPINED),
         moulding=between(rng, (0.01, 0.03)) if chance(rng, MOULDED) else 0.0,
         modesty=between(rng, (0.2, 0.7)) if chance(rng, MODEST) else 0.0,
