@@ -127,10 +127,7 @@ class ShapeReader:
         plain = Material()
         return replace(
             shape,
-            surfaces=tuple(
-                Surface(s.mesh, material, s.uv, s.normals, s.colors) if s.material == plain else s
-                for s in shape.surfaces
-            ),
+            surfaces=tuple(replace(s, material=material) if s.material == plain else s for s in shape.surfaces),
         )
 
     def _rgba(self, color: Any) -> tuple[float, float, float, float]:

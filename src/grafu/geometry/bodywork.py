@@ -6,7 +6,7 @@ to cut.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import manifold3d
@@ -246,7 +246,7 @@ def _redrawn(body: Bodywork, number: int, cut: _CutPatch) -> Surface:
     if surface.colors is not None:
         colors = np.clip(np.round(_mixed(share, surface.colors[theirs])), 0, 255).astype(np.uint8)
     mesh = TriangleMesh(points.reshape(-1, 3), np.arange(3 * len(rows)).reshape(-1, 3))
-    return Surface(mesh, surface.material, uv, normals, colors)
+    return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
 
 
 def _mixed(share: np.ndarray, values: np.ndarray) -> np.ndarray:

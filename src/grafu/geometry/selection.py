@@ -1,6 +1,7 @@
 """Some faces of a surface, and several surfaces of one material as one; attributes go with them. It cuts nothing."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,7 @@ def selected(surface: Surface, faces: Indices) -> Surface:
     used, index = np.unique(kept, return_inverse=True)
     mesh = TriangleMesh(surface.mesh.vertices[used], index.reshape(kept.shape))
     uv, normals, colors = (None if a is None else a[used] for a in (surface.uv, surface.normals, surface.colors))
-    return Surface(mesh, surface.material, uv, normals, colors)
+    return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
 
 
 def joined(like: Surface, pieces: Sequence[Surface]) -> Surface:
@@ -30,5 +31,5 @@ def joined(like: Surface, pieces: Sequence[Surface]) -> Surface:
     for name, width in widths.items():
         found[name], at = rows[:, at : at + width], at + width
     colors = found["colors"].astype(np.uint8) if "colors" in found else None
-    vertices, faces = rows[:, :3], index.reshape(-1)[mesh.faces]
-    return Surface(TriangleMesh(vertices, faces), like.material, found.get("uv"), found.get("normals"), colors)
+    mesh = TriangleMesh(rows[:, :3], index.reshape(-1)[mesh.faces])
+    return replace(like, mesh=mesh, uv=found.get("uv"), normals=found.get("normals"), colors=colors)

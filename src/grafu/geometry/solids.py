@@ -6,7 +6,7 @@ several solids take of one triangle goes at once: one after another they would s
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
 
@@ -111,7 +111,7 @@ def _from_attributes(surface: Surface, rows: np.ndarray, faces: Faces) -> Surfac
     if surface.colors is not None:
         colors = np.clip(np.round(rows[:, at : at + 4]), 0, 255).astype(np.uint8)
     mesh = TriangleMesh(rows[:, :3], index.reshape(faces.shape))
-    return Surface(mesh, surface.material, uv, normals, colors)
+    return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
 
 
 def _subtract_closed(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface | None:

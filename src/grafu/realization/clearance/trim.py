@@ -73,7 +73,7 @@ def _pressed(
     if deepest == 0.0:
         return surface, 0.0
     mesh = TriangleMesh(local @ path.axes.T, surface.mesh.faces)
-    return Surface(mesh, surface.material, surface.uv, surface.normals, surface.colors), deepest
+    return replace(surface, mesh=mesh), deepest
 
 
 def _presses(box: Box, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]) -> list[_Press]:
