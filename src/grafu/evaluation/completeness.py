@@ -39,11 +39,6 @@ class Completeness:
     compartments: int
     filled: int
 
-    @property
-    def has_all_grasps(self) -> bool:
-        """Whether every mover can be grasped in the end."""
-        return all(grasp.after != "none" for grasp in self.grasps)
-
 
 def completeness_of(result: Functionalized) -> Completeness:
     """Returns what was missing and what was made in one result; compartments are furnished for the count alone."""

@@ -19,7 +19,6 @@ from grafu.templates.gallery import builtin_gallery
 
 OWN: Final = ("annotation", "rule", "network")
 FOREIGN: Final = ("particulate", "singapo", "grafu-pred", "urdf")
-DEFAULT_METHODS: Final = ("annotation", "rule", "network")
 _JOINTS_ALONE = AdditionConfig(handles=None, grips=None, interior=NOTHING)
 
 
@@ -73,7 +72,7 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
         WeightsError: if the network's weights are missing.
     """
     config = PipelineConfig(additions=_JOINTS_ALONE) if joints_alone else PipelineConfig()
-    if method.name in ("rule", "network"):
+    if method.can_be_masked:
         return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
     if method.folder is None:
         return functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)

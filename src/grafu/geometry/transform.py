@@ -50,22 +50,6 @@ def rotation_about(point: Vec3, direction: Vec3, angle: float) -> Mat4:
     return from_rotation(R, point - R @ point)
 
 
-def minimal_rotation(source: Vec3, target: Vec3) -> Mat3:
-    """Returns the rotation of least angle that maps the unit vector `source` onto the unit vector `target`.
-
-    Where they are opposite, half a turn about any perpendicular is returned.
-    """
-    axis = np.cross(source, target)
-    sine, cosine = float(np.linalg.norm(axis)), float(source @ target)
-    if sine < 1e-12:
-        if cosine > 0:
-            return np.eye(3)
-        other = np.eye(3)[int(np.argmin(np.abs(source)))]
-        axis = np.cross(source, other)
-        return rotation_matrix(axis / np.linalg.norm(axis), float(np.pi))
-    return rotation_matrix(axis / sine, float(np.arctan2(sine, cosine)))
-
-
 def reflection(point: Vec3, normal: Vec3) -> Mat4:
     """Returns the mirror image across the plane through `point` with unit `normal` (supplement, eq. rail mirror)."""
     M = np.eye(3) - 2.0 * np.outer(normal, normal)

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 import shapely
 from jaxtyping import Float
-from shapely.geometry import MultiPolygon, Polygon
+from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
 Segments = Float[np.ndarray, "k 2 2"]
@@ -111,11 +111,6 @@ def polygons_in(shape: BaseGeometry) -> list[Polygon]:
     if isinstance(shape, Polygon):
         return [shape] if shape.area > 0 else []
     return [p for g in getattr(shape, "geoms", ()) for p in polygons_in(g)] if not shape.is_empty else []
-
-
-def as_shape(polygons: Iterable[Polygon]) -> BaseGeometry:
-    """Returns polygons that do not overlap as one shape."""
-    return MultiPolygon(list(polygons))
 
 
 def _at_level(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"], height: float) -> Float[np.ndarray, "n 2"]:
