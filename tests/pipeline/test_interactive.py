@@ -37,7 +37,7 @@ def test_everything_comes_back(tmp_path):
     assert all(np.shape(box["corners"]) == (8, 3) for box in boxes)
 
 
-@pytest.mark.parametrize("settings", [{"joints": {"door_1": {"template": "spring"}}}, {"motions": "x"}])
+@pytest.mark.parametrize("settings", [{"joints": {"door_1": {"template": "spring"}}}, {"source": "x"}])
 def test_what_is_wrong_is_said_in_one_line_and_nothing_is_written(tmp_path, settings):
     code, said = run(tmp_path, SAMPLE, settings)
     assert code == 2

@@ -18,6 +18,7 @@ from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import SCHEMA, Reading, Settings, settings_from_json
 from grafu.realization.interior.request import CompartmentChoice
 from grafu.realization.interior.turned import compartments_of
+from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
 from grafu.realization.plan import AUTOMATIC, JointChoice
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
@@ -37,6 +38,9 @@ choices = st.builds(
     flipped=st.booleans(),
     opening=st.none() | st.floats(0.01, 3.0),
 )
+turns = st.builds(MotionChoice, st.just(Moves.TURNS), st.sampled_from(Side), st.booleans())
+slides = st.builds(MotionChoice, st.just(Moves.SLIDES), st.none() | st.sampled_from(Side))
+motions = turns | slides | st.just(STANDS_STILL)
 handles = st.builds(
     HandleChoice,
     style=st.sampled_from(["", "none", "grip", *(h.id for h in HANDLES)]),
@@ -63,6 +67,7 @@ def run(asset: Asset, chosen: Settings) -> Functionalized:
         motion=st.sampled_from([MotionSource.AUTO, MotionSource.RULE]),
         trim=st.booleans(),
         labels=st.dictionaries(st.text(), st.sampled_from(PartLabel)),
+        motions=st.dictionaries(st.text(), motions),
         joints=st.dictionaries(st.text(), choices),
     ),
     st.dictionaries(st.text(), handles),
@@ -90,7 +95,7 @@ def test_what_is_left_out_is_as_by_default():
     [
         ([], "must be a JSON object"),
         ({}, "`schema` grafu.settings/1: got None"),
-        ({"schema": SCHEMA, "motions": "auto"}, "there is no setting `motions`"),
+        ({"schema": SCHEMA, "source": "auto"}, "there is no setting `source`"),
         ({"schema": SCHEMA, "joints": {"d": {"scael": 1}}}, "there is no setting `joints.d.scael`"),
         ({"schema": SCHEMA, "joints": {"d": {"scale": 9}}}, "`joints.d` is wrong.*must be in 0.25..4"),
         ({"schema": SCHEMA, "motion": "urdf"}, "reads a file"),

@@ -48,7 +48,7 @@ def annotated_edges(asset: Asset, graph: FunctionalGraph) -> AnnotatedEdges:
     still = [node for node in graph.nodes if node.label.is_support and node.id not in joints]
     for part, joint in joints.items():
         try:
-            edges += _joint_edges(joint, graph, still)
+            edges += joint_edges(joint, graph, still)
             refused.pop(part, None)
         except GraphError as error:
             refused[part] = str(error)
@@ -62,8 +62,8 @@ def _attachments(asset: Asset, graph: FunctionalGraph) -> Iterable[Attached]:
             yield Attached(parent, part.id)
 
 
-def _joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartNode]) -> list[Hinge] | list[Rail]:
-    """Returns the hinge, or the one or two rails, of a joint.
+def joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartNode]) -> list[Hinge] | list[Rail]:
+    """Returns the hinge, or the one or two rails, of a joint; `still` are the nodes that may carry it.
 
     Raises:
         GraphError: where the codes cannot say it, or nothing could carry it.

@@ -22,10 +22,12 @@ from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.built_graph import as_built, without_removed
 from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
 from grafu.pipeline.learned import complete_by_weights
+from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_movers
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.realization.addition import Addition
 from grafu.realization.config import RealizationConfig
 from grafu.realization.joint_choice import with_choices
+from grafu.realization.motion_choice import MotionChoice
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
 from grafu.realization.plan import JointChoice, RealizationPlan
 from grafu.realization.realize import realize
@@ -49,6 +51,8 @@ class PipelineConfig:
     """The user's handle templates by id."""
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
     """By the id of a part, its category where the user corrects the input's."""
+    motions: Mapping[str, MotionChoice] = field(default_factory=dict)
+    """By the id of a part, how it moves, or that it does not, whatever the motion source says."""
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     """By the id of a moving part, what is decided about its joint."""
 
@@ -139,7 +143,7 @@ def functionalize(
         OptionError: if a foreign source is named, but no motions of its are attached to the asset.
     """
     clock = _Clock(on_stage)
-    asset = corrected(asset, config.labels)
+    asset = with_movers(corrected(asset, config.labels), config.motions, config.labels)
     if isinstance(source, ForeignMotions):
         foreign = source
         asset = clock.timed("match", lambda: attach_motions(asset, foreign))
@@ -152,8 +156,9 @@ def functionalize(
         asset = asset.without_annotation()
     graph = clock.timed("parse", lambda: parse_graph(asset, config.parsing))  # contacts only
     completion = clock.timed("complete", lambda: motion.complete(asset, graph))  # who moves, and how
+    completion = with_mounts(with_motions(completion, config.motions, asset), config.joints)
     plan = clock.timed("plan", lambda: motion.plan(asset, completion))  # initial axes
-    plan = with_choices(plan, config.joints, asset, gallery)
+    plan = with_choices(plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery)
     body = clock.timed("body", lambda: complete_body(asset, completion, plan, config.additions))  # top, drawer boxes
     realized = clock.timed("realize", lambda: realize(body.plan, body.asset, gallery, config.realization))  # joints
     fittings = clock.timed(

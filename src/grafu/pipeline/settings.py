@@ -17,6 +17,7 @@ from grafu.pipeline.functionalize import PipelineConfig
 from grafu.pipeline.motion_source import MotionSource
 from grafu.realization.config import RealizationConfig
 from grafu.realization.interior.request import CompartmentChoice
+from grafu.realization.motion_choice import MotionChoice
 from grafu.realization.plan import AUTOMATIC, JointChoice
 from grafu.templates.handle import HandleTemplate
 from grafu.vocabulary import PartLabel
@@ -50,14 +51,15 @@ class Reading:
 class Settings:
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
-    `labels` goes by the ids of parts, `joints` by those of moving parts. A motion source that reads another system's
-    file is no setting: it needs the file.
+    `labels` and `motions` go by the ids of parts, `joints` by those of moving parts. A motion source that reads another
+    system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
     reading: Reading = Reading()
     trim: bool = True
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
+    motions: Mapping[str, MotionChoice] = field(default_factory=dict)
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     additions: AdditionConfig = field(default_factory=AdditionConfig)
 
@@ -72,12 +74,20 @@ class Settings:
             additions=self.additions,
             own_handles=own_handles or {},
             labels=self.labels,
+            motions=self.motions,
             joints=self.joints,
         )
 
     def with_label(self, part: str, label: PartLabel) -> "Settings":
         """Returns the settings in which a part has this category."""
         return replace(self, labels={**self.labels, part: label})
+
+    def with_motion(self, part: str, choice: MotionChoice | None) -> "Settings":
+        """Returns the settings in which a part moves so, or stands still; None: as the motion source says."""
+        motions: dict[str, MotionChoice] = {k: v for k, v in self.motions.items() if k != part}
+        if choice is not None:
+            motions[part] = choice
+        return replace(self, motions=motions)
 
     def with_joint(self, part: str, choice: JointChoice) -> "Settings":
         """Returns the settings with this choice for a moving part; one that decides nothing is forgotten."""

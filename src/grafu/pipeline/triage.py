@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
-from grafu.pipeline.report_schema import JointRecord, Report
+from grafu.pipeline.report_schema import JointRecord, Report, SkippedRecord
 from grafu.realization.report import SkipReason
 from grafu.vocabulary import PartLabel
 
@@ -38,9 +38,7 @@ def joint_states(report: Report, unit: float = 1.0) -> tuple[JointState, ...]:
     built = tuple(_state(joint, unit) for joint in report.joints)
     known = {part.id: part.category for part in report.parts}
     failed = (skip for skip in report.skipped if skip.request in known and skip.reason is not SkipReason.NOT_ADDED)
-    missing = {
-        skip.request: JointState(skip.request, "", Level.ERROR, f"{skip.reason}: {skip.detail}") for skip in failed
-    }
+    missing = {skip.request: _not_built(skip) for skip in failed}
     silent = (name for name, label in known.items() if PartLabel(label).is_movable)
     moving = {joint.part for joint in report.joints}
     still = [
@@ -48,6 +46,11 @@ def joint_states(report: Report, unit: float = 1.0) -> tuple[JointState, ...]:
     ]
     riding = {part.id for part in report.parts if part.link in moving}
     return (*built, *missing.values(), *(state for state in still if state.part not in riding))
+
+
+def _not_built(skip: SkippedRecord) -> JointState:
+    level = Level.OK if skip.reason is SkipReason.REJECTED else Level.ERROR
+    return JointState(skip.request, "", level, f"{skip.reason}: {skip.detail}")
 
 
 def _state(joint: JointRecord, unit: float) -> JointState:

@@ -41,7 +41,7 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
 def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
     """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
     graph = completion.completed
-    riders = _riders(asset, ((edge.parent, edge.child) for edge in graph.attachments))
+    riders = riders_of(asset, ((edge.parent, edge.child) for edge in graph.attachments))
     known = {part.id for part in asset.parts}
     requests = []
     for hinge in graph.hinges:
@@ -60,7 +60,7 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
 
 
-def _riders(asset: Asset, attached: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
+def riders_of(asset: Asset, attached: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
     """Returns what rides on each part, whoever says so, riders of riders included."""
     known = {part.id for part in asset.parts}
     below: dict[str, list[str]] = {}
@@ -94,7 +94,7 @@ def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
     reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
     if not joint.limited and joint.type is JointType.PRISMATIC:
         reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out, nobody knows
-    riders = _riders(asset, ()).get(joint.part, ())
+    riders = riders_of(asset, ()).get(joint.part, ())
     return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), riders, drawn_at)
 
 

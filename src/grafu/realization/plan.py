@@ -86,10 +86,14 @@ class JointRequest:
 @final
 @dataclass(frozen=True)
 class Refusal:
-    """A movable part for which no motion could be stated, and why, in words."""
+    """A movable part for which no motion could be stated, and why, in words.
+
+    `is_decided` says that somebody wants it to stand still: nothing is amiss.
+    """
 
     part: str
     why: str
+    is_decided: bool = False
 
 
 @final

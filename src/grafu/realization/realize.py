@@ -24,7 +24,7 @@ from grafu.realization.expectation import expected_ways
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
 from grafu.realization.order import Moving, Order, order_joints
-from grafu.realization.plan import JointRequest, RealizationPlan
+from grafu.realization.plan import JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
 from grafu.realization.scene import Mover, Scene, Way
 from grafu.templates.template import Gallery
@@ -60,13 +60,18 @@ def realize(
     requests = _in_order(plan.joints)
     scene, closed = _closed_scene(asset, requests, config)
     built, failed, scene = _build_fairly(requests, scene, gallery, config)
-    skipped = [*(Skipped(r.part, SkipReason.NO_MOTION, r.why) for r in plan.refused), *failed]
+    skipped = [*(_refused(refusal) for refusal in plan.refused), *failed]
     orders = order_joints([_moving(b) for b in built], scene, config)
     installed = [_installed(b, orders[b.request.moving], scene, closed, config) for b in built]
     articulated = _assembled(asset, scene, built, orders)
     timings = (("realize", perf_counter() - started),)
     final = _final_scene(scene, built, orders)
     return Realized(articulated, RealizationReport((*installed, *skipped), timings), final)
+
+
+def _refused(refusal: Refusal) -> Skipped:
+    reason = SkipReason.REJECTED if refusal.is_decided else SkipReason.NO_MOTION
+    return Skipped(refusal.part, reason, refusal.why)
 
 
 def _final_scene(scene: Scene, built: list[Built], orders: dict[str, Order]) -> Scene:

@@ -15,6 +15,7 @@ class SkipReason(StrEnum):
     NO_ROOM = "no room"  # a mechanism would cut into parts
     BLOCKED = "blocked"  # the part cannot move freely about any candidate axis
     NO_MOTION = "no motion"  # nobody could say how the part moves
+    REJECTED = "rejected"  # somebody decided that the part stands still
     UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (drawers that slide up or down)
     NOT_ADDED = "not added"  # a part that is missing finds no place: a top, a handle, a shelf
 

@@ -1,0 +1,156 @@
+"""Motions that somebody states or rejects part by part, whoever completed the graph: in the graph and in the plan.
+
+It searches no hardware; what the codes of a graph cannot say is refused there, and built from the plan all the same.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import pi
+
+from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.completion.handles import attach_handles
+from grafu.errors import GraphError, OptionError
+from grafu.graph.annotated import joint_edges
+from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
+from grafu.graph.edit import relabelled, with_edges
+from grafu.graph.functional_graph import FunctionalGraph, is_allowed
+from grafu.realization.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion
+from grafu.realization.motion_source import riders_of
+from grafu.realization.plan import JointChoice, JointRequest, RealizationPlan, Refusal
+from grafu.vocabulary import PartLabel
+
+USER = "user"
+REJECTED = "it was decided that it stands still"
+_OF_MOTIONS = ("mount", "border", "sign", "slide")
+
+Motions = Mapping[str, MotionChoice]
+
+
+def with_movers(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel]) -> Asset:
+    """Returns the asset whose parts are called what their stated motions make of them, and ride on nothing then.
+
+    `labels` are the categories that were corrected already.
+
+    Raises:
+        OptionError: if a part does not exist, or its corrected category moves in another way.
+    """
+    known = {part.id for part in asset.parts}
+    if unknown := sorted(set(motions) - known):
+        raise OptionError(f"motions must be of parts: {asset.name} has no {', '.join(unknown)}")
+    return replace(asset, parts=tuple(_moved(p, motions.get(p.id), labels) for p in asset.parts)) if motions else asset
+
+
+def _moved(part: Part, choice: MotionChoice | None, labels: Mapping[str, PartLabel]) -> Part:
+    if choice is None or choice.moves is Moves.NOT:
+        return part
+    label = label_of_motion(part, choice)
+    if labels.get(part.id, label) is not label:
+        raise OptionError(f"`{part.id}` {choice.moves} and so is a {label}: its category must not be {part.label}")
+    by = part.labelled_by if part.label is label else "user"
+    return replace(part, label=label, labelled_by=by, rides_on=None)
+
+
+def with_motions(completion: GraphCompletion, motions: Motions, asset: Asset) -> GraphCompletion:
+    """Returns the completed graph with the motions that are stated, and without those that are rejected.
+
+    Handles that no part carries yet go to the doors and drawers that are new.
+
+    Raises:
+        OptionError: if a part is to move in a way that it cannot.
+    """
+    for part, choice in motions.items():
+        completion = _with_motion(completion, asset.part(part), choice, asset)
+    free = {edge for edge in attach_handles(completion.completed).graph.attachments if edge.parent in motions}
+    return replace(completion, completed=with_edges(completion.completed, sorted(free, key=ends_of)))
+
+
+def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, asset: Asset) -> GraphCompletion:
+    graph = _without_motion(completion.completed, part.id)
+    decisions = tuple(d for d in completion.decisions if d.part != part.id or d.question not in _OF_MOTIONS)
+    refused = tuple(r for r in completion.refused if r.part != part.id)
+    if choice.moves is Moves.NOT:
+        left = (RefusedMotion(part.id, REJECTED),) if graph.node(part.id).label.is_movable else ()
+        return replace(completion, completed=graph, decisions=decisions, refused=(*refused, *left))
+    graph = relabelled(graph, {part.id: part.label})
+    axis = axis_of_motion(part, choice, asset.box)
+    joint = AnnotatedJoint(part.id, choice.type, axis, 0.0, pi / 2, stated_by=USER)
+    moving = {h.child for h in graph.hinges} | {r.child for r in graph.rails} | {part.id}
+    try:
+        edges = joint_edges(joint, graph, [n for n in graph.nodes if n.label.is_support and n.id not in moving])
+    except GraphError as error:
+        return replace(
+            completion, completed=graph, decisions=decisions, refused=(*refused, RefusedMotion(part.id, str(error)))
+        )
+    told = tuple(_decision(edge) for edge in edges[:1])
+    return replace(completion, completed=with_edges(graph, edges), decisions=(*decisions, *told), refused=refused)
+
+
+def _decision(edge: Hinge | Rail) -> Decision:
+    if isinstance(edge, Hinge):
+        return Decision(edge.child, "border", str(edge.border), 1.0)
+    return Decision(edge.child, "slide", str(edge.axis), 1.0)
+
+
+def _without_motion(graph: FunctionalGraph, part: str) -> FunctionalGraph:
+    """Returns the graph in which a part hangs on nothing: its hinge, rails and attachment are contacts."""
+    edges = (
+        Contact(*ends_of(e)) if isinstance(e, Hinge | Rail | Attached) and e.child == part else e for e in graph.edges
+    )
+    return replace(graph, edges=tuple(edges))
+
+
+def _carrying(part: str, graph: FunctionalGraph) -> list[Hinge | Rail]:
+    return [e for e in graph.edges if isinstance(e, Hinge | Rail) and e.child == part]
+
+
+def with_mounts(completion: GraphCompletion, joints: Mapping[str, JointChoice]) -> GraphCompletion:
+    """Returns the completed graph in which parts hang on, or run on, the mounts that were chosen for them."""
+    graph = completion.completed
+    for part, choice in joints.items():
+        found = _carrying(part, graph)
+        if not choice.mount or choice.mount not in graph or choice.mount in {edge.parent for edge in found}:
+            continue
+        for edge in found[:1]:
+            hung = replace(edge, parent=choice.mount)
+            if is_allowed(hung, graph.node(choice.mount).label, graph.node(part).label):
+                others = tuple(Contact(*ends_of(e)) if e == edge else e for e in graph.edges)
+                graph = with_edges(replace(graph, edges=others), [hung])
+    return completion if graph is completion.completed else replace(completion, completed=graph)
+
+
+def plan_with_motions(
+    plan: RealizationPlan, motions: Motions, completion: GraphCompletion, asset: Asset
+) -> RealizationPlan:
+    """Returns the plan with the motions that are stated instead of its own, and without those that are rejected.
+
+    Raises:
+        OptionError: if a part is to move in a way that it cannot.
+    """
+    if not motions:
+        return plan
+    moved = {request.moving for request in plan.joints} | {refusal.part for refusal in plan.refused}
+    attached = ((edge.parent, edge.child) for edge in completion.completed.attachments)
+    riders = riders_of(asset, attached)
+    stated = [part for part, choice in motions.items() if choice.moves is not Moves.NOT]
+    kept = tuple(_without_riders(r, stated) for r in plan.joints if r.moving not in motions)
+    requests = [_request(asset.part(p), motions[p], riders.get(p, ()), completion, asset) for p in stated]
+    movers = {request.moving for request in (*kept, *requests)}
+    requests = [_without_riders(request, sorted(movers - {request.moving})) for request in requests]
+    refused = tuple(r for r in plan.refused if r.part not in motions)
+    still = (p for p, c in motions.items() if c.moves is Moves.NOT and (p in moved or asset.part(p).label.is_movable))
+    rejected = tuple(Refusal(part, REJECTED, is_decided=True) for part in still)
+    return RealizationPlan((*kept, *requests), (*refused, *rejected))
+
+
+def _without_riders(request: JointRequest, movers: Sequence[str]) -> JointRequest:
+    return replace(request, riders=tuple(rider for rider in request.riders if rider not in movers))
+
+
+def _request(
+    part: Part, choice: MotionChoice, riders: tuple[str, ...], completion: GraphCompletion, asset: Asset
+) -> JointRequest:
+    graph = completion.completed
+    mounts = tuple(edge.parent for edge in _carrying(part.id, graph))
+    axis = axis_of_motion(part, choice, asset.box)
+    return JointRequest(part.id, choice.type, axis, USER, None, mounts, riders)

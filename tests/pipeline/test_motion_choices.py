@@ -1,0 +1,186 @@
+"""What somebody says of how a part moves is built, whoever completed the graph; what is rejected stands still."""
+
+import json
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grafu.asset.load import load_asset
+from grafu.asset.part import Asset
+from grafu.errors import OptionError
+from grafu.geometry.transform import transform_points
+from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.motion_choices import REJECTED
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings, settings_from_json
+from grafu.pipeline.triage import Level, joint_states
+from grafu.realization.motion_choice import DIRECTIONS, STANDS_STILL, MotionChoice, Moves, Side, axis_of_motion
+from grafu.realization.plan import JointChoice
+from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.case import Case
+from grafu.synth.layout import Door, Drawer, Stack
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType, PartLabel
+
+SOURCES = [MotionSource.ANNOTATION, MotionSource.RULE]
+SAMPLES = Path(__file__).parents[2] / "samples"
+
+
+def made_cabinet() -> Asset:
+    return make_cabinet(Cabinet("made", Case(0.5, 0.9), Stack((Drawer(), Door()), (1.0, 3.0))))
+
+
+@pytest.fixture(scope="module")
+def asset() -> Asset:
+    return made_cabinet()
+
+
+def named(asset: Asset, label: PartLabel) -> str:
+    return next(p.id for p in asset.parts if p.label is label)
+
+
+def run(asset: Asset, chosen: Settings) -> Functionalized:
+    again = settings_from_json(json.loads(json.dumps(chosen.to_json())))
+    result = functionalize(asset, again.motion, builtin_gallery(), again.pipeline())
+    report_of(result)
+    return result
+
+
+def opened(result: Functionalized, part: str) -> np.ndarray:
+    """How far the middle of an open part lies from where it is closed."""
+    joint = result.object.joint_of[part]
+    middle = result.asset.part(part).box.center
+    return transform_points(joint.motion(joint.limits.upper), middle[None])[0] - middle
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_what_is_rejected_stands_still_with_all_that_sits_on_it(asset, source):
+    door = named(asset, PartLabel.DOOR)
+    riders = {p.id for p in asset.parts if p.rides_on == door}
+    result = run(asset, Settings(source).with_motion(door, STANDS_STILL))
+    report = report_of(result)
+    assert door not in result.object.joint_of
+    assert {door, *riders} <= {v.name for v in result.object.link(result.object.root).visuals}
+    assert [(s.reason, s.detail) for s in report.skipped if s.request == door] == [("rejected", REJECTED)]
+    assert {s.part: s.level for s in joint_states(report)}[door] is Level.OK
+    assert [r.why for r in result.completion.refused if r.part == door] == [REJECTED]
+    assert door not in {h.child for h in result.completion.completed.hinges}
+
+
+@pytest.mark.parametrize(("source", "side"), list(product(SOURCES, [Side.LEFT, Side.RIGHT, Side.TOP, Side.BOTTOM])))
+def test_a_door_turns_about_the_border_that_is_stated(asset, source, side):
+    door = named(asset, PartLabel.DOOR)
+    result = run(asset, Settings(source).with_motion(door, MotionChoice(Moves.TURNS, side)))
+    (made,) = [m for m in result.report.installed if m.moving == door]
+    box = result.asset.part(door).box
+    towards = DIRECTIONS[side]
+    off = made.axis.closest_point(box.center) - box.center
+    assert made.source == "user"
+    assert float(off @ towards) == pytest.approx(float(np.abs(towards) @ box.half), abs=0.03)
+    assert opened(result, door)[1] < -0.05
+    (edge,) = [h for h in result.completion.completed.hinges if h.child == door]
+    assert result.asset.part(edge.parent).label.is_support
+    riders = {p.id for p in asset.parts if p.rides_on == door}
+    assert riders <= {v.name for v in result.object.link(door).visuals}
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_a_drawer_that_was_taken_for_a_door_slides_on_rails(asset, source):
+    drawer = named(asset, PartLabel.DRAWER)
+    mistaken = replace(asset, joints=tuple(j for j in asset.joints if j.part != drawer))
+    mistaken = mistaken.with_labels({drawer: PartLabel.DOOR})
+    result = run(mistaken, Settings(source).with_motion(drawer, MotionChoice(Moves.SLIDES)))
+    (made,) = [m for m in result.report.installed if m.moving == drawer]
+    assert (made.type, made.source) == (JointType.PRISMATIC, "user")
+    assert result.completion.completed.node(drawer).label is PartLabel.DRAWER
+    assert {p.id: p.labelled_by for p in report_of(result).parts}[drawer] == "user"
+    assert opened(result, drawer)[1] < -0.1
+    assert {r.axis for r in result.completion.completed.rails if r.child == drawer} == {2}
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_a_part_that_nobody_takes_for_a_door_becomes_one_with_the_handle_on_it(asset, source):
+    door = named(asset, PartLabel.DOOR)
+    handle = next(p.id for p in asset.parts if p.rides_on == door)
+    blind = asset.without_annotation().with_labels({door: PartLabel.MISC})
+    assert door not in run(blind, Settings(source)).object.joint_of
+    result = run(blind, Settings(source).with_motion(door, MotionChoice(Moves.TURNS, Side.LEFT)))
+    assert opened(result, door)[1] < -0.05
+    assert handle in {v.name for v in result.object.link(door).visuals}
+
+
+def test_what_is_stated_of_all_parts_holds_where_one_rode_on_the_other(asset):
+    door = named(asset, PartLabel.DOOR)
+    rider = next(p.id for p in asset.parts if p.rides_on == door)
+    chosen = Settings(MotionSource.ANNOTATION).with_motion(rider, MotionChoice(Moves.SLIDES))
+    result = run(asset, chosen)
+    assert rider not in {v.name for v in result.object.link(door).visuals}
+
+
+def test_choices_for_the_joint_hold_on_a_stated_motion(asset):
+    door = named(asset, PartLabel.DOOR)
+    chosen = Settings(MotionSource.RULE).with_motion(door, MotionChoice(Moves.TURNS, Side.RIGHT))
+    result = run(asset, chosen.with_joint(door, JointChoice(count=3, opening=1.0)))
+    (made,) = [m for m in result.report.installed if m.moving == door]
+    assert (made.count, made.opening) == (3, pytest.approx(1.0))
+
+
+@pytest.mark.parametrize(
+    ("part", "choice", "labels", "words"),
+    [
+        ("nobody", STANDS_STILL, {}, "has no nobody"),
+        (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.FRONT), {}, "front is a broad face"),
+        (PartLabel.DRAWER, MotionChoice(Moves.SLIDES, Side.TOP), {}, "must slide level"),
+        (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.LEFT), PartLabel.MISC, "must not be misc"),
+    ],
+)
+def test_a_motion_that_cannot_be_is_refused_in_one_line(asset, part, choice, labels, words):
+    name = part if part == "nobody" else named(asset, part)
+    chosen = Settings(MotionSource.RULE, labels={name: labels} if labels else {}).with_motion(name, choice)
+    with pytest.raises(OptionError, match=words) as error:
+        run(asset, chosen)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "given_values", [{"moves": "turns"}, {"moves": "not", "side": "left"}, {"moves": "slides", "inwards": True}]
+)
+def test_a_motion_that_contradicts_itself_is_no_setting(given_values):
+    with pytest.raises(OptionError, match=r"`motions\.door` is wrong"):
+        settings_from_json({"schema": "grafu.settings/1", "motions": {"door": given_values}})
+
+
+def test_a_choice_of_none_is_forgotten():
+    base = Settings(MotionSource.RULE)
+    assert base.with_motion("door", STANDS_STILL).with_motion("door", None) == base
+
+
+@given(st.floats(-3.1, 3.1), st.sampled_from([Side.TOP, Side.BOTTOM]), st.booleans())
+@settings(max_examples=25, deadline=None)
+def test_an_axis_follows_a_part_that_stands_turned(angle, side, inwards):
+    flat = made_cabinet()
+    door = flat.part(named(flat, PartLabel.DOOR))
+    c, s = np.cos(angle), np.sin(angle)
+    T = np.array([[c, -s, 0.0, 0.0], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    turned = replace(door, surfaces=tuple(surface.transformed(T) for surface in door.surfaces))
+    choice = MotionChoice(Moves.TURNS, side, inwards)
+    expected = axis_of_motion(door, choice, flat.box).transformed(T)
+    found = axis_of_motion(turned, choice, flat.box)  # its middle lies on the axis of the turn
+    assert found.direction == pytest.approx(expected.direction, abs=1e-6)
+    assert found.distance_to(expected.point) < 1e-6
+
+
+@pytest.mark.parametrize("sample", ["sideboard", "wardrobe"])
+def test_a_door_of_a_sample_can_be_rejected_and_hung_anew(sample):
+    asset = load_asset(SAMPLES / f"{sample}.glb")
+    door = next(p.id for p in asset.parts if p.label is PartLabel.DOOR)
+    base = Settings(MotionSource.RULE)
+    assert door not in run(asset, base.with_motion(door, STANDS_STILL)).object.joint_of
+    again = run(asset, base.with_motion(door, MotionChoice(Moves.TURNS, Side.RIGHT)))
+    assert opened(again, door)[1] < -0.05
