@@ -48,8 +48,7 @@ def settle_frame(reading: Reading, options: LoadOptions) -> Frame:
 
 def whole_box(parts: tuple[Part, ...]) -> Box:
     """Returns the box around all parts."""
-    lows, highs = (np.array([getattr(p.box, end) for p in parts]) for end in ("low", "high"))
-    return Box(lows.min(axis=0), highs.max(axis=0))
+    return Box.enclosing(part.box for part in parts)
 
 
 def _placed(scale: float, rotation: np.ndarray, whole: Box) -> Mat4:

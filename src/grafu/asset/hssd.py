@@ -269,6 +269,6 @@ def _strays(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]]) -> 
     boxes = {pid: _box(surfaces) for pid, surfaces in cut.items() if surfaces}
     if not boxes:
         return []
-    reach = _AGREES * Box.around(np.vstack([b.corners() for b in boxes.values()])).diagonal
+    reach = _AGREES * Box.enclosing(boxes.values()).diagonal
     pairs = [(p.pid, p.box, boxes[p.pid]) for p in annotation.parts if p.box is not None and p.pid in boxes]
     return [pid for pid, stated, box in pairs if np.abs(stated.center - box.center).max() > reach]

@@ -136,8 +136,7 @@ class Asset:
     @cached_property
     def box(self) -> Box:
         """The box around all parts."""
-        boxes = [part.box for part in self.parts]
-        return Box(np.min([box.low for box in boxes], axis=0), np.max([box.high for box in boxes], axis=0))
+        return Box.enclosing(part.box for part in self.parts)
 
     @property
     def unit(self) -> float:

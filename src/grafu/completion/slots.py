@@ -108,12 +108,6 @@ def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:
 
 def _is_there(node: PartNode, others: tuple[PartNode, ...], view: View) -> bool:
     """Whether a part of this label stands in the same place already."""
-    grown = node.box.grown(_SLACK * view.unit)
-    alike = (other.box.grown(_SLACK * view.unit) for other in others if other.label is node.label)
-    return any(_shared(grown, box) > view.config.overlap for box in alike)
-
-
-def _shared(a: Box, b: Box) -> float:
-    """Returns the volume that two boxes share, as a share of that of their union."""
-    common = float(np.prod(np.maximum(np.minimum(a.high, b.high) - np.maximum(a.low, b.low), 0.0)))
-    return common / (a.volume + b.volume - common)
+    slack = _SLACK * view.unit
+    alike = (other.box for other in others if other.label is node.label)
+    return any(node.box.intersection_over_union(box, slack) > view.config.overlap for box in alike)

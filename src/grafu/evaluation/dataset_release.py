@@ -145,7 +145,7 @@ def _frame_of(meshes: dict[str, tuple[Surface, ...]], graph: FunctionalGraph) ->
     """
     corners = {k: _around(surfaces).corners() for k, surfaces in meshes.items()}
     boxes = {k: graph.node(k).box for k in meshes}
-    size = Box.around(np.vstack([b.corners() for b in boxes.values()])).diagonal
+    size = Box.enclosing(boxes.values()).diagonal
     off = {words: _misfits(corners, boxes, T) for words, T in _TURNS.items()}
     best = min(off, key=lambda words: (round(float(off[words].mean()) / size, 6), list(_TURNS).index(words)))
     strays = int((off[best] > _FITS * size).sum())

@@ -67,8 +67,7 @@ def usual_opening(kind: JointType, axis: Axis, box: Box) -> float:
 
 def box_of(asset: Asset, members: tuple[str, ...]) -> Box:
     """Returns the box around some of the asset's parts."""
-    boxes = [asset.part(member).box for member in members]
-    return Box(np.min([box.low for box in boxes], axis=0), np.max([box.high for box in boxes], axis=0))
+    return Box.enclosing(asset.part(member).box for member in members)
 
 
 def _moving_part(request: JointRequest, asset: Asset) -> MovingPart | None:

@@ -88,7 +88,7 @@ def box_of(visuals: Sequence[Visual]) -> Box:
     boxes = [v.mesh.box for v in visuals if len(v.mesh.faces)]
     if not boxes:
         return Box(np.zeros(3), np.ones(3))
-    return Box(np.min([b.low for b in boxes], axis=0), np.max([b.high for b in boxes], axis=0))
+    return Box.enclosing(boxes)
 
 
 def before_after(

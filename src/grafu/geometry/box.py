@@ -1,5 +1,6 @@
 """Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis. It knows no meshes and no labels."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isfinite
 from typing import final
@@ -35,6 +36,12 @@ class Box(ArrayValue):
     def around(cls, points: Points) -> "Box":
         """Returns the smallest box around at least one point."""
         return cls(points.min(axis=0), points.max(axis=0))
+
+    @classmethod
+    def enclosing(cls, boxes: Iterable["Box"]) -> "Box":
+        """Returns the smallest box around at least one box."""
+        lows, highs = zip(*((box.low, box.high) for box in boxes), strict=True)
+        return cls(np.min(lows, axis=0), np.max(highs, axis=0))
 
     @classmethod
     def from_center(cls, center: Vec3, half: Vec3) -> "Box":
@@ -91,6 +98,18 @@ class Box(ArrayValue):
     def overlaps(self, other: "Box", margin: float = 0.0) -> bool:
         """Whether the two, one grown by `margin`, share a point."""
         return bool(np.all(self.axis_gaps(other) <= margin))
+
+    def shared_volume(self, other: "Box") -> float:
+        """Returns the volume that lies in both, cubic metres."""
+        sides = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
+        return float(np.prod(np.maximum(sides, 0.0)))
+
+    def intersection_over_union(self, other: "Box", margin: float = 0.0) -> float:
+        """Returns the volume in both over the volume in either, each grown by `margin`; 0 where there is none."""
+        a, b = self.grown(margin), other.grown(margin)
+        shared = a.shared_volume(b)
+        joint = a.volume + b.volume - shared
+        return shared / joint if joint > 0 else 0.0
 
     def contains(self, points: Points) -> np.ndarray:
         """Returns for each point whether it lies in the box, its border counted in."""

@@ -13,6 +13,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 
@@ -112,7 +113,8 @@ class _Grid:
     """Rays straight down over the plan of some meshes."""
 
     def __init__(self, meshes: Sequence[TriangleMesh]) -> None:
-        low, high = np.min([m.box.low for m in meshes], axis=0), np.max([m.box.high for m in meshes], axis=0)
+        whole = Box.enclosing(mesh.box for mesh in meshes)
+        low, high = whole.low, whole.high
         self.unit, self.height, self.floor = float((high - low).max()), float(high[2] - low[2]), float(low[2])
         self.low, self.cell = low[:2], float((high - low)[:2].max()) / _CELLS
         x, y = (np.arange(low[k] + self.cell / 2, high[k], self.cell) for k in (0, 1))

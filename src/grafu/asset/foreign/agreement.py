@@ -11,7 +11,6 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
-from grafu.asset.foreign.box_overlap import intersection_over_union
 from grafu.asset.foreign.motions import ForeignMotions, ForeignPart
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Mat4, Points, Scalars
@@ -84,7 +83,7 @@ class Comparison:
         for body in self._bodies:
             mine, theirs = self._box_of(body, part_of), self._foreign_box(body, T_object_foreign)
             residuals.append(_faces_apart(mine, theirs) / self.asset.unit if mine else _UNMATCHED)
-            overlaps.append(intersection_over_union(mine, theirs, _SLACK * self.asset.unit) if mine else 0.0)
+            overlaps.append(mine.intersection_over_union(theirs, _SLACK * self.asset.unit) if mine else 0.0)
         return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
 
     def matched_boxes(self, agreed: Agreement, T_object_foreign: Mat4) -> list[tuple[Box, Box]]:
@@ -103,7 +102,7 @@ class Comparison:
     def whole_overlap(self, T_object_foreign: Mat4) -> float:
         """Returns the intersection over union of the two as a whole."""
         whole = Box.around(transform_points(T_object_foreign, self.points))
-        return intersection_over_union(whole, self.asset.box, _SLACK * self.asset.unit)
+        return whole.intersection_over_union(self.asset.box, _SLACK * self.asset.unit)
 
     def _disagrees(self, mine: Part, theirs: ForeignPart) -> bool:
         moves = self.foreign.body_of[theirs.name] is not None
@@ -127,7 +126,7 @@ class Comparison:
         if residual > _REGRESSED:
             return None
         slack = _SLACK * self.asset.unit
-        overlap = float(np.mean([intersection_over_union(a, b, slack) for a, b in pairs]))
+        overlap = float(np.mean([a.intersection_over_union(b, slack) for a, b in pairs]))
         part_of = tuple(self._order[k].name if k in self._order else None for k in range(len(self._boxes)))
         return Agreement(part_of, residual, max(overlap, LEAST_OVERLAP))
 
@@ -155,7 +154,7 @@ class Comparison:
             for box, name in zip(self._boxes, part_of, strict=True)
             if name is not None and self.foreign.body_of[name] == body
         ]
-        return _around(covered) if covered else None
+        return Box.enclosing(covered) if covered else None
 
     def _foreign_box(self, body: str | None, T: Mat4) -> Box:
         parts = (name for name, moved_by in self.foreign.body_of.items() if moved_by == body)
@@ -217,10 +216,6 @@ def _points_of(mesh: TriangleMesh, count: int, corners: int | None = None) -> Po
     most = count if corners is None else corners
     own = own if len(own) <= most else own[np.random.default_rng(0).permutation(len(own))[:most]]
     return np.vstack([sample_surface(mesh, count).points, own])
-
-
-def _around(boxes: list[Box]) -> Box:
-    return Box(np.min([b.low for b in boxes], axis=0), np.max([b.high for b in boxes], axis=0))
 
 
 def _faces_apart(a: Box, b: Box) -> float:

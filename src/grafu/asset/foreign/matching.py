@@ -163,7 +163,7 @@ def _strangenesses(asset: Asset, foreign: ForeignMotions, match: Match) -> list[
     for joint in foreign.joints:
         covered = covered_parts(asset, foreign, match, joint.part)
         if covered:
-            box = Box.around(np.vstack([part.box.corners() for part in covered]))
+            box = Box.enclosing(part.box for part in covered)
             placed = match.placed(joint, box)
             values.append(strangeness(placed.type, placed.axis, placed.lower, placed.upper, box, asset.box))
     return values or [0.0]

@@ -12,7 +12,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from grafu.asset.foreign.box_overlap import intersection_over_union
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
 from grafu.asset.labels import label_of
 from grafu.asset.mesh_files import read_bytes, read_mesh_file
@@ -127,7 +126,7 @@ def _mesh(node: Json, box: Box, path: Path, limits: Limits, notes: list[str]) ->
             notes.append(f"a part's box stands for its mesh: {error}")
             return None
     mesh = merge_meshes(found)
-    if not len(mesh.faces) or intersection_over_union(mesh.box, box, 0.01 * box.diagonal) < _ALIKE:
+    if not len(mesh.faces) or mesh.box.intersection_over_union(box, 0.01 * box.diagonal) < _ALIKE:
         return None
     return mesh
 

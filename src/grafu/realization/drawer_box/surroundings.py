@@ -7,6 +7,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.geometry.box import Box
 from grafu.geometry.transform import translation
 from grafu.realization.plan import JointRequest, RealizationPlan
 from grafu.realization.rail.body_region import DrawerFrame
@@ -76,9 +77,8 @@ def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surrounding
         if request.drawn_at > 0:
             for member in movers[request.moving].members:
                 known[member] = _closed(known[member], request)
-    low = np.min([p.box.low for p in known.values()], axis=0)
-    high = np.max([p.box.high for p in known.values()], axis=0)
-    return Surroundings(Scene(known, movers, float((high - low).max())), requests)
+    whole = Box.enclosing(part.box for part in known.values())
+    return Surroundings(Scene(known, movers, float(whole.size.max())), requests)
 
 
 def _closed(part: Part, request: JointRequest) -> Part:

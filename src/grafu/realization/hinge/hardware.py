@@ -32,7 +32,10 @@ _LAP = 0.002  # how far it laps over the leaf that it carries on
 @final
 @dataclass(frozen=True, eq=False)
 class Site:
-    """What hinge hardware is judged against: the door, what is static, the other movers and their ways, the motion."""
+    """What hinge hardware is judged against: the door, what is static, the other movers and their ways, the motion.
+
+    `mount` is the one part that may carry it (empty: any).
+    """
 
     mover: str
     frame: BorderFrame
@@ -48,6 +51,7 @@ class Site:
     depth: float
     anchor: float
     reach: float
+    mount: str = ""
 
 
 @final
@@ -131,7 +135,7 @@ def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
 def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
     """Whether the moving hardware cuts into static parts somewhere, or into other movers at rest."""
     body = _body(dynamic, site)
-    box = Box.around(np.vstack([mesh.box.corners() for mesh in dynamic]))
+    box = Box.enclosing(mesh.box for mesh in dynamic)
     near = in_the_way(site.obstacles, swept_box(box, site.motion, site.upper))
     if not is_free(body, site.motion, site.upper, near, _POSES):
         return True
@@ -143,9 +147,9 @@ def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.let_in:
         tongue = _tongue(hinge, pin, site.frame)
-        held = site.scene.is_near_static(tongue.mesh, site.anchor)
+        held = site.scene.is_near_static(tongue.mesh, site.anchor, site.mount)
         return (hinge.static, tongue) if held else None
-    if site.scene.is_near_static(hinge.static.mesh, site.anchor):
+    if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.mount):
         return (hinge.static,)
     snap = hinge.template.static.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.static, snap, site.static_rays, site)

@@ -17,7 +17,7 @@ from grafu.realization.hinge.hardware import InstalledHinge, Site, install, judg
 from grafu.realization.hinge.pivot import pivot_ends
 from grafu.realization.hinge.search import DoorSearch, JudgedPin
 from grafu.realization.limits import in_the_way, motion_about
-from grafu.realization.placement import Placement, nearest_part
+from grafu.realization.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.realization.plan import PIVOT
 from grafu.templates.template import Gallery, HingeModel
 from grafu.vocabulary import JointType
@@ -127,8 +127,7 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
-    near = search.scene.static_mesh_near(door.box, 0.25 * float(door.box.size.max()))
-    ends = pivot_ends(search.frame, judged.pin, door, near, 0.2 * search.frame.length)
+    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, 0.2 * search.frame.length)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     held = [hinge for hinge in judgements if hinge is not None]
     free = [hinge for hinge in held if not hinge.struck_by]
@@ -139,7 +138,7 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
     box = search.scene.parts[search.request.moving].box
-    unit = search.scene.unit
+    unit, mount = search.scene.unit, search.request.choice.mount
     return Site(
         mover=search.request.moving,
         frame=search.frame,
@@ -154,7 +153,8 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         upper=upper,
         depth=search.depth,
         anchor=search.config.anchor * unit,
-        reach=search.config.bridge * unit,
+        reach=(CHOSEN_REACH if mount else search.config.bridge) * unit,
+        mount=mount,
     )
 
 
@@ -215,7 +215,7 @@ def _placement(
         upper=upper,
         mechanism=judged.pin.mechanism,
         template=template,
-        mount=nearest_part(static[0], search.scene, search.request.mounts),
+        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request.mounts),
         count=len(hinges),
         dynamic=tuple(dynamic),
         static=tuple(static),

@@ -9,6 +9,7 @@ from typing import final
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MovingBody
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import BorderFrame, border_frame, part_axes
@@ -80,9 +81,14 @@ class DoorSearch:
 
     @cached_property
     def static_rays(self) -> RayCaster:
-        """The static body around the door, prepared for rays."""
+        """The static body around the door, of which what must carry it where that was chosen, prepared for rays."""
+        return RayCaster(self.carriers)
+
+    @cached_property
+    def carriers(self) -> TriangleMesh:
+        """The static body around the door that may carry it: all of it, or the mount that was chosen."""
         box = self.scene.parts[self.request.moving].box
-        return RayCaster(self.scene.static_mesh_near(box, 0.25 * float(box.size.max())))
+        return self.scene.static_mesh_near(box, 0.25 * float(box.size.max()), self.request.choice.mount)
 
     @cached_property
     def door_rays(self) -> RayCaster:

@@ -136,10 +136,7 @@ def _own_sizes(choice: CompartmentChoice | None, sizes: Sizes) -> Sizes:
 
 def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> Walls:
     """Returns the still meshes in and around some compartments."""
-    whole = Box(
-        np.min([compartment.box.low for compartment in compartments], axis=0),
-        np.max([compartment.box.high for compartment in compartments], axis=0),
-    )
+    whole = Box.enclosing(compartment.box for compartment in compartments)
     return Walls((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
 
 

@@ -57,7 +57,7 @@ class Taken(ArrayValue):
 
 def taken_cells(scene: Scene, sizes: Sizes) -> Taken:
     """Returns what is taken of an object's space, a layer of free cells around it."""
-    box = _around([part.box for part in scene.parts.values()])
+    box = Box.enclosing([part.box for part in scene.parts.values()])
     origin = box.low - sizes.cell
     n = np.ceil((box.size + 2 * sizes.cell) / sizes.cell).astype(int)
     shape = (int(n[0]), int(n[1]), int(n[2]))
@@ -90,7 +90,7 @@ def is_drawer(scene: Scene, mover: Mover) -> bool:
 
 def _zone(scene: Scene, mover: Mover, still: Grid, origin: Vec3, cell: float) -> tuple[slice, ...]:
     """Returns the cells that a drawer takes: itself and its rails, its travel, and what lies behind it."""
-    box = _around([scene.moving_mesh(mover.id).box, *(v.mesh.box for v in _rails(scene, mover))])
+    box = Box.enclosing([scene.moving_mesh(mover.id).box, *(v.mesh.box for v in _rails(scene, mover))])
     way = scene.ways.get(mover.id)
     direction, travel = (way.axis.direction, way.upper) if way is not None else (np.array([0.0, -1.0, 0.0]), 0.0)
     axis = int(np.abs(direction).argmax())
@@ -144,7 +144,3 @@ def _slices(box: Box, origin: Vec3, cell: float) -> tuple[slice, ...]:
     low = np.maximum(np.floor((box.low - origin) / cell + 1e-6), 0).astype(int)
     high = np.maximum(np.ceil((box.high - origin) / cell - 1e-6), low + 1).astype(int)
     return tuple(slice(int(a), int(b)) for a, b in zip(low, high, strict=True))
-
-
-def _around(boxes: list[Box]) -> Box:
-    return Box(np.min([b.low for b in boxes], axis=0), np.max([b.high for b in boxes], axis=0))

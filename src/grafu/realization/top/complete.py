@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-import numpy as np
 import shapely
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
@@ -117,7 +116,7 @@ def missing_top(
     roles = roles_of(parts, movers)
     if roles is None:
         return TopVerdict(True, 1.0, "nothing has a surface")
-    metre = metre_of(float(Box.around(np.vstack([p.box.corners() for p in parts])).size.max()))
+    metre = metre_of(float(Box.enclosing(p.box for p in parts).size.max()))
     views, coverage, basins = _seen(roles, config, metre)
     verdict = _judged(roles, views, coverage, config, metre, hint)
     if verdict.covered:

@@ -50,7 +50,7 @@ def outer_body(parts: Sequence[Part], roles: Roles) -> tuple[Part, ...]:
 
 def _seen(parts: tuple[Part, ...]) -> tuple[Part, ...]:
     """Returns parts with those faces alone that one sees from in front or from a side."""
-    box = Box.around(np.vstack([p.box.corners() for p in parts]))
+    box = Box.enclosing(p.box for p in parts)
     deep = _DEEP * float(box.size.max())
     turned = [_View(axis, sign, parts, box) for axis, sign in _EYES]
     return tuple(

@@ -59,7 +59,7 @@ class Roles:
     def box(self) -> Box:
         """The box around what stands (around everything, where nothing does)."""
         meshes = [p.mesh for p in self.still] or [m.mesh for m in self.moving]
-        return Box.around(np.vstack([m.box.corners() for m in meshes]))
+        return Box.enclosing(mesh.box for mesh in meshes)
 
 
 def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest] = ()) -> Roles | None:
