@@ -5,7 +5,7 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
-from .boxes import draw_boxes, remove_boxes
+from .boxes import boxes_of, draw_boxes, remove_boxes
 from .run_operators import Applies
 from .state import compartments_of, session_of
 
@@ -132,13 +132,13 @@ class GRAFU_OT_show_compartments(bpy.types.Operator):
 
     def execute(self, context):
         """Draws or removes the boxes."""
-        if remove_boxes(context.scene):
+        session = session_of(context)
+        if remove_boxes(session):
             return {"FINISHED"}
-        found = compartments_of(session_of(context))
-        if not found:
+        if not compartments_of(session):
             self.report({"WARNING"}, "no compartment was found")
             return {"CANCELLED"}
-        draw_boxes(context)
+        draw_boxes(session)
         return {"FINISHED"}
 
 
@@ -177,7 +177,9 @@ class GRAFU_OT_furnish(_Adds, bpy.types.Operator):
 
 
 def _selected_numbers(context):
-    return sorted(o["number"] for o in context.selected_objects if o.get("grafu") == "compartment")
+    shown = boxes_of(session_of(context))
+    own = set(shown.objects) if shown is not None else set()
+    return sorted(o["number"] for o in context.selected_objects if o in own)
 
 
 class GRAFU_OT_set_addition(Applies, bpy.types.Operator):

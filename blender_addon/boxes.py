@@ -3,31 +3,40 @@
 import bpy
 
 from . import objects
-from .state import compartments_of, session_of
+from .state import KIND, compartments_of
 
 _NAME = "GraFu compartments"
 
 
-def draw_boxes(context) -> None:
-    """Draws a box for each compartment of the last run."""
-    collection = bpy.data.collections.new(_NAME)
-    collection["grafu"] = "compartments"
-    context.scene.collection.children.link(collection)
-    root = next(o for o in objects.result_objects(context.scene) if o.get("grafu") == "link" and o.parent is None)
-    for number, compartment in enumerate(compartments_of(session_of(context))):
+def draw_boxes(session) -> None:
+    """Draws a box for each compartment of a model's last run."""
+    scene = session.id_data
+    collection = session.boxes = bpy.data.collections.new(_NAME)
+    collection[KIND] = "compartments"
+    scene.collection.children.link(collection)
+    root = next(o for o in objects.result_objects(session) if o.get(KIND) == "link" and o.parent is None)
+    for number, compartment in enumerate(compartments_of(session)):
         collection.objects.link(_box(number, compartment["corners"], root.matrix_world))
 
 
-def remove_boxes(scene) -> bool:
-    """Removes the boxes of the compartments; returns whether there were any."""
-    shown = [c for c in scene.collection.children if c.get("grafu") == "compartments"]
-    for collection in shown:
-        for box in list(collection.objects):
-            mesh = box.data
-            bpy.data.objects.remove(box)
-            bpy.data.meshes.remove(mesh)
-        bpy.data.collections.remove(collection)
-    return bool(shown)
+def remove_boxes(session) -> bool:
+    """Removes the boxes of a model's compartments; returns whether there were any."""
+    collection = boxes_of(session)
+    if collection is None:
+        return False
+    for box in list(collection.objects):
+        mesh = box.data
+        bpy.data.objects.remove(box)
+        bpy.data.meshes.remove(mesh)
+    bpy.data.collections.remove(collection)
+    return True
+
+
+def boxes_of(session):
+    """Returns the collection of a model's boxes, or None where they are not shown."""
+    if session.collection is None and session.has_result:  # a file of the time when a scene had one model
+        return next((c for c in session.id_data.collection.children if c.get(KIND) == "compartments"), None)
+    return session.boxes
 
 
 def _box(number, corners, matrix):

@@ -8,7 +8,7 @@ import json
 import bpy
 import mathutils
 
-from .state import ID, KIND, session_of
+from .state import ID, KIND
 
 OBJECT, JOINT = "object", "joint"  # values of the property `grafu`
 _UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))  # glTF's Y up to Blender's Z up
@@ -17,6 +17,19 @@ _UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))
 def sources_of(session) -> list:
     """Returns the objects that were handed over and still are there."""
     return [row.object for row in session.sources if row.object is not None]
+
+
+def common_holder(things) -> str:
+    """Returns the name of the collection that holds all objects, else of what all hang on; else `model`."""
+    held = set(things[0].users_collection).intersection(*(thing.users_collection for thing in things))
+    named = sorted(c.name for c in held if not c.is_embedded_data and c.name != "Collection")  # Blender's first one
+    parents = [_ancestors(thing) for thing in things]
+    shared = [parent.name for parent in parents[0] if all(parent in others for others in parents)]
+    return (*named, *reversed(shared), "model")[0]
+
+
+def _ancestors(thing) -> list:
+    return [thing.parent, *_ancestors(thing.parent)] if thing.parent is not None else []
 
 
 def export_sources(context, objects, path) -> None:
@@ -70,21 +83,48 @@ def _swap_names(names) -> None:
         copy.name = named
 
 
-def show_result(context, articulated, input_to_output) -> None:
-    """Puts a result where its sources stand, in the place of the one before; the sources are hidden."""
-    from grafu.export.blend.objects import build_object, remove_object
+def show_result(session, articulated, input_to_output) -> None:
+    """Puts a model's result where its sources stand, in the place of the one before; the sources are hidden."""
+    from grafu.export.blend.objects import build_object
 
-    old = result_collection(context.scene)
+    scene, marked = session.id_data, _marked(session)
+    if not remove_result(session) and not any(c.get(KIND) == OBJECT for c in scene.collection.children):
+        _set_frames(scene)
+    built = build_object(articulated, scene)
+    session.collection = built.collection
+    root = next(empty for empty in built.links.values() if empty.parent is None)
+    root.matrix_world = _UP @ mathutils.Matrix(input_to_output).inverted()
+    for source in sources_of(session):
+        source.hide_viewport = source.hide_render = True
+    _mark_again(session, *marked)
+
+
+def _marked(session):
+    """Returns kind and id of the result's objects that are selected, and of the active one."""
+    layer = session.id_data.view_layers[0]
+    own = {one: (one.get(KIND), one.get(ID)) for one in result_objects(session)}
+    return {key for one, key in own.items() if one.select_get(view_layer=layer)}, own.get(layer.objects.active)
+
+
+def _mark_again(session, selected, active) -> None:
+    """Selects in a new result what was selected in the one before."""
+    layer = session.id_data.view_layers[0]
+    for one in result_objects(session):
+        key = (one.get(KIND), one.get(ID))
+        if key in selected:
+            one.select_set(True, view_layer=layer)
+        if key == active:
+            layer.objects.active = one
+
+
+def remove_result(session) -> bool:
+    """Takes a model's result out of Blender; returns whether there was one."""
+    from grafu.export.blend.objects import remove_object
+
+    old = result_collection(session)
     if old is not None:
         remove_object(old)
-    else:
-        _set_frames(context.scene)
-    built = build_object(articulated, context.scene)
-    T = _UP @ mathutils.Matrix(input_to_output).inverted()
-    root = next(empty for empty in built.links.values() if empty.parent is None)
-    root.matrix_world = T
-    for source in sources_of(session_of(context)):
-        source.hide_viewport = source.hide_render = True
+    return old is not None
 
 
 def _set_frames(scene) -> None:
@@ -95,26 +135,28 @@ def _set_frames(scene) -> None:
     scene.frame_set(FIRST_FRAME)
 
 
-def result_collection(scene):
-    """Returns the collection of the scene's result, or None."""
-    return next((c for c in scene.collection.children if c.get(KIND) == OBJECT), None)
+def result_collection(session):
+    """Returns the collection of a model's result, or None."""
+    if session.collection is None and session.has_result:  # a file of the time when a scene had one model
+        return next((c for c in session.id_data.collection.children if c.get(KIND) == OBJECT), None)
+    return session.collection
 
 
-def result_objects(scene) -> list:
-    """Returns all objects of the scene's result."""
-    collection = result_collection(scene)
+def result_objects(session) -> list:
+    """Returns all objects of a model's result."""
+    collection = result_collection(session)
     return list(collection.all_objects) if collection is not None else []
 
 
-def joint_empties(scene) -> dict:
+def joint_empties(session) -> dict:
     """Returns the empties of the result's joints by the id of the part that moves."""
-    return {o["child"]: o for o in result_objects(scene) if o.get(KIND) == JOINT}
+    return {o["child"]: o for o in result_objects(session) if o.get(KIND) == JOINT}
 
 
-def visual(scene, part: str):
+def visual(session, part: str):
     """Returns the mesh object of a part or piece of hardware, or None."""
     kinds = ("part", "added", "hardware")
-    return next((o for o in result_objects(scene) if o.get(ID) == part and o.get(KIND) in kinds), None)
+    return next((o for o in result_objects(session) if o.get(ID) == part and o.get(KIND) in kinds), None)
 
 
 def moving_part_of(thing) -> str:
@@ -126,20 +168,20 @@ def moving_part_of(thing) -> str:
     return ""
 
 
-def waits_for(scene, part: str) -> list:
+def waits_for(session, part: str) -> list:
     """Returns the parts that must be open before one can move, the farthest first."""
-    empties = joint_empties(scene)
+    empties = joint_empties(session)
     by_joint = {empty[ID]: child for child, empty in empties.items()}
     found = []
     for joint in json.loads(empties[part]["after"]):
         child = by_joint[joint]
-        found += [*waits_for(scene, child), child]
+        found += [*waits_for(session, child), child]
     return list(dict.fromkeys(found))
 
 
-def select_part(context, part: str) -> None:
+def select_part(context, session, part: str) -> None:
     """Selects the object of a part, and nothing else."""
-    found = visual(context.scene, part)
+    found = visual(session, part)
     for one in context.view_layer.objects:
         one.select_set(False)
     if found is not None and found.name in context.view_layer.objects:

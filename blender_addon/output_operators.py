@@ -66,7 +66,7 @@ class GRAFU_OT_finalize(bpy.types.Operator):
         finally:
             run.close()
         if self.clean:
-            remove_boxes(context.scene)
+            remove_boxes(session)
             for source in sources:
                 bpy.data.objects.remove(source)
             session.sources.clear()

@@ -11,7 +11,7 @@ from bpy.props import BoolProperty, EnumProperty
 
 from . import objects, work
 from .boxes import draw_boxes, remove_boxes
-from .state import report_of, session_of, settings_of, store
+from .state import fill_slot, free_slot, report_of, session_of, settings_of, shown_slot, slot_of, store
 
 MOTIONS = [
     ("auto", "Automatic", "The trained network, or the rule where there are no weights"),
@@ -51,12 +51,21 @@ class Applies:
         """Returns the objects to work on."""
         return objects.sources_of(session_of(context))
 
+    def slot(self, context):
+        """Returns the place of the model's session among those of the scene."""
+        return shown_slot(context)
+
+    def title(self, context):
+        """Returns the model's name."""
+        return report_of(session_of(context)).input.name
+
     def execute(self, context):
         """Runs; see the module."""
         from grafu.errors import FunctionalizationError
 
         global _active
         try:
+            self._scene, self._slot = context.scene.name, self.slot(context)
             self._settings = self.changed(context, settings_of(session_of(context)))
         except (FunctionalizationError, ValueError) as error:
             return self._refused(context, str(error))
@@ -65,6 +74,7 @@ class Applies:
             self._sources = list(self.sources(context))
             if not self._sources:
                 raise work.Failed("the objects that were handed over are gone")
+            self._run.source = self._run.folder / f"{bpy.path.clean_name(self.title(context)) or 'model'}.glb"
             objects.export_sources(context, self._sources, self._run.source)
             self._run.start()
         except (work.Failed, OSError, RuntimeError) as error:
@@ -101,7 +111,10 @@ class Applies:
     def _shown(self, context):
         from grafu.pipeline.report_schema import Report
 
-        session = session_of(context)
+        scene = bpy.data.scenes.get(self._scene)
+        if scene is None:
+            raise work.Failed("the scene is gone")
+        session = fill_slot(scene, self._slot)
         before, after = report_of(session), Report.model_validate_json(self._run.text("report.json"))
         unfit = "; ".join(self.unfit(before, after)) if before is not None else ""
         if unfit:
@@ -110,12 +123,12 @@ class Applies:
         session.sources.clear()
         for source in self._sources:
             session.sources.add().object = source
-        objects.show_result(context, made, after.frame.input_to_output)
+        objects.show_result(session, made, after.frame.input_to_output)
         unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
         store(session, self._settings, self._run.text("report.json"), self._run.text("interior.json"), float(unit))
         session.colours = False
-        if remove_boxes(context.scene):
-            draw_boxes(context)
+        if remove_boxes(session):
+            draw_boxes(session)
         session.status = f"{len(after.joints)} joints, {len(after.added)} parts added, {len(after.skipped)} left out"
         self.report({"INFO"}, session.status)
         return {"FINISHED"}
@@ -141,7 +154,7 @@ def _redraw(context):
 
 
 class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
-    """Makes the selected objects work: each is a part; what they are is read from their names"""
+    """Makes the selected objects work: each is a part, its name says what. Objects of a model give that model anew"""
 
     bl_idname = "grafu.functionalize"
     bl_label = "Functionalize"
@@ -159,6 +172,18 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
     def sources(self, context):
         """Returns the selected objects."""
         return _selected(context)
+
+    def slot(self, context):
+        """Returns the place of the model that the objects are of, or that of a new one."""
+        scene = context.scene
+        known = {slot_of(scene, one) for one in _selected(context)} - {None}
+        if len(known) > 1:
+            raise ValueError("the selected objects are of several models: select those of one")
+        return known.pop() if known else free_slot(scene)
+
+    def title(self, context):
+        """Returns the name of what holds all the objects, a parent or a collection; else `model`."""
+        return objects.common_holder(_selected(context))
 
     def changed(self, context, settings):
         """Returns fresh settings, or the ones before."""

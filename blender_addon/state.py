@@ -1,7 +1,8 @@
-"""What the add-on keeps in a scene: settings and report as JSON, the source objects, and lists drawn from them.
+"""What the add-on keeps in a scene of each model: settings and report as JSON, its sources, and lists drawn from them.
 
-All of it is saved with the file and undone with the objects that it goes with. The package is imported where it is
-first needed: enabling the add-on takes no time.
+All of it is saved with the file and undone with the objects that it goes with. Each model has a session; the one that
+is shown is that of the active object, else the last one. The package is imported where it is first needed: enabling the
+add-on takes no time.
 """
 
 import json
@@ -18,6 +19,7 @@ from bpy.props import (
 
 KIND, ID = "grafu", "id"
 LEVELS = [("ok", "ok", ""), ("warning", "warning", ""), ("error", "error", "")]
+_shown: dict = {}  # by the scene's name, the slot that was shown last: a click on a lamp changes no panel
 
 
 class GRAFU_Source(bpy.types.PropertyGroup):
@@ -61,12 +63,14 @@ def _chosen(session, context):
     if joint is not None and not session.is_filling:
         from . import objects
 
-        objects.select_part(context, joint.part)
+        objects.select_part(context, session, joint.part)
 
 
 class GRAFU_Session(bpy.types.PropertyGroup):
-    """All of it; see the module."""
+    """All of one model; see the module."""
 
+    collection: PointerProperty(type=bpy.types.Collection, description="The result")
+    boxes: PointerProperty(type=bpy.types.Collection, description="Its compartments, where they are shown")
     settings_json: StringProperty()
     report_json: StringProperty()
     interior_json: StringProperty()
@@ -92,9 +96,69 @@ class GRAFU_Session(bpy.types.PropertyGroup):
         return bool(self.report_json)
 
 
+def slots_in(scene) -> list:
+    """Returns the sessions of a scene, also those that are free. The first is where a scene had its only one."""
+    return [scene.grafu, *scene.grafu_more]
+
+
 def session_of(context):
-    """Returns the scene's session."""
-    return context.scene.grafu
+    """Returns the session that is shown: of the active object's model, else of the last; a free one without models."""
+    return slots_in(context.scene)[shown_slot(context)]
+
+
+def shown_slot(context) -> int:
+    """Returns the place of the session that is shown among those of the scene."""
+    scene = context.scene
+    slots = slots_in(scene)
+    active = context.view_layer.objects.active if context.view_layer else None
+    found = slot_of(scene, active)
+    if found is not None:
+        _shown[scene.name_full] = found
+        return found
+    filled = [number for number, session in enumerate(slots) if session.has_result]
+    usual = filled[-1] if filled else 0
+    return next((k for k in (_shown.get(scene.name_full), scene.grafu_last) if k in filled), usual)
+
+
+def slot_of(scene, thing):
+    """Returns the place of the session to whose result, compartments or sources an object belongs, or None."""
+    if thing is None:
+        return None
+    held = set(thing.users_collection)
+    return next((k for k, session in enumerate(slots_in(scene)) if _owns(session, thing, held)), None)
+
+
+def _owns(session, thing, held) -> bool:
+    if not session.has_result:
+        return False
+    roots = [root for root in (session.collection, session.boxes) if root is not None]
+    if any(held & {root, *root.children} for root in roots):
+        return True
+    return any(row.object == thing for row in session.sources)
+
+
+def free_slot(scene) -> int:
+    """Returns the place where another model's session goes."""
+    slots = slots_in(scene)
+    return next((number for number, session in enumerate(slots) if not session.has_result), len(slots))
+
+
+def fill_slot(scene, slot: int):
+    """Returns the session at a place, a new one where there is none yet, and lets it be shown."""
+    while slot >= len(slots_in(scene)):
+        scene.grafu_more.add()
+    scene.grafu_last = _shown[scene.name_full] = slot
+    return slots_in(scene)[slot]
+
+
+def clear_slot(scene, slot: int) -> None:
+    """Forgets a model."""
+    _shown.pop(scene.name_full, None)
+    if slot:
+        scene.grafu_more.remove(slot - 1)
+        return
+    for name in GRAFU_Session.__annotations__:
+        scene.grafu.property_unset(name)
 
 
 def settings_of(session):
@@ -148,10 +212,10 @@ def _fill_joints(session, settings, report, unit) -> None:
         record = records.get(state.part)
         if record is not None:
             row.type, row.template = record.type.value, record.template
-            row.mechanism = f"{record.count} x {record.template} ({record.mechanism.value})"
+            row.mechanism = f"{record.count} x {record.template.replace('_', ' ')}"
             row.figures = (
-                f"collision {100 * record.collision_share:.0f} %, gap {1000 * record.largest_gap:.1f} mm, "
-                f"on {record.mount}"
+                f"class {record.mechanism.value}, on {record.mount}\n"
+                f"collision {100 * record.collision_share:.0f} %, gap {1000 * record.largest_gap:.1f} mm"
             )
 
 
@@ -169,10 +233,29 @@ CLASSES = (GRAFU_Source, GRAFU_Joint, GRAFU_Addition, GRAFU_Part, GRAFU_Session)
 
 
 def attach():
-    """Gives every scene its session."""
+    """Gives every scene its sessions."""
     bpy.types.Scene.grafu = PointerProperty(type=GRAFU_Session)
+    bpy.types.Scene.grafu_more = CollectionProperty(type=GRAFU_Session)
+    bpy.types.Scene.grafu_last = IntProperty()
+    for happened in _happenings():
+        happened.append(_forget_shown)
 
 
 def detach():
-    """Takes it back; what scenes hold stays in them until they are saved without the add-on."""
-    del bpy.types.Scene.grafu
+    """Takes them back; what scenes hold stays in them until they are saved without the add-on."""
+    for name in ("grafu", "grafu_more", "grafu_last"):
+        delattr(bpy.types.Scene, name)
+    for happened in _happenings():
+        happened.remove(_forget_shown)
+    _shown.clear()
+
+
+def _happenings() -> list:
+    handlers = bpy.app.handlers
+    return [handlers.undo_post, handlers.redo_post, handlers.load_post]
+
+
+@bpy.app.handlers.persistent
+def _forget_shown(*_):
+    """Trusts what the scene holds: it is another one, or as it was before."""
+    _shown.clear()

@@ -64,10 +64,11 @@ class GRAFU_OT_select_part(_Shown, bpy.types.Operator):
 
     def execute(self, context):
         """Selects it."""
-        if objects.visual(context.scene, self.part) is None:
+        session = session_of(context)
+        if objects.visual(session, self.part) is None:
             self.report({"WARNING"}, f"there is no object of `{self.part}`")
             return {"CANCELLED"}
-        objects.select_part(context, self.part)
+        objects.select_part(context, session, self.part)
         return {"FINISHED"}
 
 
@@ -81,9 +82,10 @@ class GRAFU_OT_show_sources(_Shown, bpy.types.Operator):
 
     def execute(self, context):
         """Shows the one and hides the other."""
-        for source in objects.sources_of(session_of(context)):
+        session = session_of(context)
+        for source in objects.sources_of(session):
             source.hide_viewport = source.hide_render = not self.on
-        collection = objects.result_collection(context.scene)
+        collection = objects.result_collection(session)
         collection.hide_viewport = collection.hide_render = self.on
         return {"FINISHED"}
 
@@ -111,15 +113,16 @@ class GRAFU_OT_preview(_Shown, bpy.types.Operator):
         """Sets the joints."""
         from grafu.export.blend.joints import mute_joint, set_open
 
-        empties = objects.joint_empties(context.scene)
-        row = session_of(context).active_joint
+        session = session_of(context)
+        empties = objects.joint_empties(session)
+        row = session.active_joint
         part = self.part or (row.part if row else "")
         if self.what == "solo" and part not in empties:
             self.report({"WARNING"}, f"`{part}` has no joint")
             return {"CANCELLED"}
         shares = dict.fromkeys(empties, 1.0 if self.what == "all" else 0.0)
         if self.what == "solo":
-            shares |= dict.fromkeys(objects.waits_for(context.scene, part), 1.0)
+            shares |= dict.fromkeys(objects.waits_for(session, part), 1.0)
             shares[part] = self.share
         for name, empty in empties.items():
             mute_joint(empty, self.what != "animation")
@@ -140,8 +143,9 @@ class GRAFU_OT_colours(_Shown, bpy.types.Operator):
 
     def execute(self, context):
         """Sets what the objects' slots show; the meshes keep their materials."""
-        session_of(context).colours = self.on
-        for one in objects.result_objects(context.scene):
+        session = session_of(context)
+        session.colours = self.on
+        for one in objects.result_objects(session):
             for slot in one.material_slots:
                 slot.link = "OBJECT" if self.on else "DATA"
                 if self.on:

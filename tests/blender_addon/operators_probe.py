@@ -26,14 +26,14 @@ FACTS = []
 
 
 def session():
-    return bpy.context.scene.grafu
+    return state.session_of(bpy.context)
 
 
 def snapshot() -> list:
     """What stands in the scene: settings, report without timings, and every object of the result."""
     report = json.loads(session().report_json or "{}")
     report.pop("timings", None)
-    found = objects.result_objects(bpy.context.scene)
+    found = objects.result_objects(session())
     things = sorted(
         (o["grafu"], o["id"], round(o.get("upper", 0.0), 6), len(o.data.vertices) if o.data else 0) for o in found
     )
@@ -88,7 +88,7 @@ def step(title, operator, **arguments):
 
 
 def values() -> dict:
-    return {part: round(e["open"], 4) for part, e in objects.joint_empties(bpy.context.scene).items()}
+    return {part: round(e["open"], 4) for part, e in objects.joint_empties(session()).items()}
 
 
 def main():
@@ -144,13 +144,13 @@ def without_top(grafu):
             one.modifiers.new("bevel", "BEVEL").width = 0.002
     bpy.ops.ed.undo_push(message="chosen")
     step("topless", grafu.functionalize, motion="rule")
-    FACTS[-1]["bevelled"] = len(objects.visual(bpy.context.scene, "door_2").data.vertices)
+    FACTS[-1]["bevelled"] = len(objects.visual(session(), "door_2").data.vertices)
     FACTS[-1]["sources"] = len(objects.sources_of(session()))
     step("again", grafu.run_again)
-    FACTS[-1]["bevelled"] = len(objects.visual(bpy.context.scene, "door_2").data.vertices)
+    FACTS[-1]["bevelled"] = len(objects.visual(session(), "door_2").data.vertices)
     top = next((row.part for row in session().additions if row.about.startswith("top")), "")
     step("rounded top", grafu.set_top, shape="rounded", thickness=0.03)
-    FACTS[-1]["thick"] = round(objects.visual(bpy.context.scene, top).dimensions.z, 4) if top else 0.0
+    FACTS[-1]["thick"] = round(objects.visual(session(), top).dimensions.z, 4) if top else 0.0
     step("no top", grafu.set_top, add=False)
     step("top again", grafu.set_top, add=True)
     step("reject top", grafu.set_addition, part=top, accepted=False)
@@ -165,11 +165,11 @@ def without_top(grafu):
 
 def view(grafu):
     scene = bpy.context.scene
-    before = {m.name for o in objects.result_objects(scene) for m in [s.material for s in o.material_slots] if m}
+    before = {m.name for o in objects.result_objects(session()) for m in [s.material for s in o.material_slots] if m}
     grafu.colours(on=True)
-    coloured = {s.material.name for o in objects.result_objects(scene) for s in o.material_slots}
+    coloured = {s.material.name for o in objects.result_objects(session()) for s in o.material_slots}
     grafu.colours(on=False)
-    after = {m.name for o in objects.result_objects(scene) for m in [s.material for s in o.material_slots] if m}
+    after = {m.name for o in objects.result_objects(session()) for m in [s.material for s in o.material_slots] if m}
     fact = {"step": "view", "coloured": sorted(coloured), "materials_back": before == after}
     for what in ("all", "closed"):
         grafu.preview(what=what)
@@ -181,7 +181,7 @@ def view(grafu):
     scene.frame_set(50)
     fact["frame 50"] = values()
     scene.frame_set(0)
-    bpy.context.view_layer.objects.active = objects.visual(scene, "handle_5") or objects.visual(scene, "door_2")
+    bpy.context.view_layer.objects.active = objects.visual(session(), "handle_5") or objects.visual(session(), "door_2")
     grafu.pick_joint()
     fact["picked"] = session().active_joint.part
     session().joint_index = 0
@@ -193,10 +193,10 @@ def view(grafu):
 def moved(part) -> float:
     """How far the middle of a part is from where it is closed."""
     bpy.context.view_layer.update()
-    now = middle(objects.visual(bpy.context.scene, part))
+    now = middle(objects.visual(session(), part))
     bpy.ops.grafu.preview(what="closed")
     bpy.context.view_layer.update()
-    return (now - middle(objects.visual(bpy.context.scene, part))).length
+    return (now - middle(objects.visual(session(), part))).length
 
 
 def middle(one):
@@ -208,8 +208,7 @@ def middle(one):
 def places() -> float:
     """The farthest that a part stands from its source."""
     bpy.context.view_layer.update()
-    scene = bpy.context.scene
-    pairs = ((o, objects.visual(scene, o.name)) for o in objects.sources_of(session()))
+    pairs = ((o, objects.visual(session(), o.name)) for o in objects.sources_of(session()))
     return max((middle(a) - middle(b)).length for a, b in pairs if b is not None)
 
 
