@@ -9,6 +9,9 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.realization.scene import Scene
 from grafu.vocabulary import MechanismClass
 
+CHOSEN_REACH = 0.1
+"""Longest block (unit) that bridges the way to a mount that was chosen: what stands farther off does not carry it."""
+
 
 @final
 @dataclass(frozen=True)

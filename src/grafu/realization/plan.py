@@ -1,6 +1,7 @@
 """What realization is asked to build: joints with initial axes, and choices about them. It cannot tell who asked."""
 
 from dataclasses import dataclass
+from enum import StrEnum
 from math import isfinite
 from typing import final
 
@@ -11,6 +12,15 @@ PIVOT = "pivot"
 """The template of a door that is carried by discs at its ends; it is of no gallery."""
 
 
+class Supports(StrEnum):
+    """What holds a rail that touches no wall, and what bridges the way to its drawer."""
+
+    AUTO = "auto"  # the shortest block to whatever stands there
+    NONE = "none"  # nothing: rails stand only where they touch both sides
+    SLAB = "slab"  # a slab as large as the rail, out to the wall beside it
+    DIVIDER = "divider"  # an upright board along the rail, from what stands below to what stands above
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class JointChoice:
@@ -18,7 +28,8 @@ class JointChoice:
 
     `mechanism` and `template` narrow it to one class or template (an id; `PIVOT` for discs at the ends), `scale`
     multiplies the size of hinges, `count` is their number (0: by the door's height), `flipped` hangs the door on its
-    opposite border, `opening` is the widest opening (radians or metres), `mount` the part that should carry the joint.
+    opposite border, `opening` is the widest opening (radians or metres), `mount` the part that must carry the joint (of
+    the two rails of a drawer, at least one), `supports` what holds rails where they touch no wall.
 
     Raises:
         ValueError: if `scale` is not in [0.25, 4], `count` not in 0..12, or `opening` not above 0.
@@ -31,6 +42,7 @@ class JointChoice:
     flipped: bool = False
     opening: float | None = None
     mount: str = ""
+    supports: Supports = Supports.AUTO
 
     def __post_init__(self) -> None:
         if not 0.25 <= self.scale <= 4.0:
@@ -45,7 +57,9 @@ class JointChoice:
     def __str__(self) -> str:
         words = (f"class {self.mechanism}" if self.mechanism else "", self.template, "flipped" * self.flipped)
         sizes = (f"{self.count} of them" if self.count else "", f"scale {self.scale:g}" if self.scale != 1.0 else "")
-        return ", ".join(word for word in (*words, *sizes) if word)
+        mount = f"on `{self.mount}`" if self.mount else ""
+        held = f"supports: {self.supports}" if self.supports is not Supports.AUTO else ""
+        return ", ".join(word for word in (*words, *sizes, mount, held) if word)
 
     def takes(self, template: str) -> bool:
         """Whether hardware of this template may be built."""

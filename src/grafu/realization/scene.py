@@ -121,10 +121,11 @@ class Scene:
         others = (other for other in self.movers if other != mover_id)
         return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
 
-    def is_near_static(self, mesh: TriangleMesh, within: float) -> bool:
-        """Whether a mesh comes within so many metres of a static part."""
+    def is_near_static(self, mesh: TriangleMesh, within: float, of: str = "") -> bool:
+        """Whether a mesh comes within so many metres of a static part (`of`: of that one alone)."""
         collider = MeshCollider(mesh)
-        return any(collider.is_within(within, obstacle.collider) for obstacle in self.static_obstacles)
+        obstacles = (obstacle for obstacle in self.static_obstacles if of in ("", obstacle.id))
+        return any(collider.is_within(within, obstacle.collider) for obstacle in obstacles)
 
     def hardware_of(self, mover_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a mover."""
@@ -149,11 +150,11 @@ class Scene:
         added = [(mover_id, v) for v in dynamic] + [("", v) for v in static]
         return replace(self, hardware=(*self.hardware, *added), ways={**self.ways, mover_id: way})
 
-    def static_mesh_near(self, box: Box, margin: float) -> TriangleMesh:
-        """Returns the static triangles whose own boxes come within `margin` of a box."""
+    def static_mesh_near(self, box: Box, margin: float, of: str = "") -> TriangleMesh:
+        """Returns the static triangles (`of`: of that part alone) whose own boxes come within `margin` of a box."""
         near = []
         for part in self.static_parts:
-            if not part.box.overlaps(box, margin):
+            if of not in ("", part.id) or not part.box.overlaps(box, margin):
                 continue
             corners = part.mesh.triangles
             grown = box.grown(margin)

@@ -4,25 +4,21 @@ One rail is fitted, the other is its exact mirror image (supplement, eq. rail mi
 remains between a rail and the wall.
 """
 
-from collections.abc import Iterator
-
 import numpy as np
 
-from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.articulation.articulated_object import Visual
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, reflection
 from grafu.realization.limits import in_the_way, is_free, swept_box
 from grafu.realization.placement import Placement, nearest_part
 from grafu.realization.rail.body_region import BodyRegion, DrawerFrame
+from grafu.realization.rail.hold import held_rail
 from grafu.realization.rail.search import DrawerSearch
 from grafu.realization.rail.spots import RailSpot, find_walls, rail_spots
 from grafu.realization.scene import Obstacle
-from grafu.realization.support_block import Footing, block, shortest_bridge
-from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
-from grafu.vocabulary import PartLabel
+from grafu.templates.template import Gallery, RailModel
 
 _LEAST_SHARE = 0.3  # a travel below this share of the wanted one is no motion
 
@@ -52,20 +48,23 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         return None
     static: list[Visual] = []
     dynamic: list[Visual] = []
+    mount = search.request.choice.mount
+    is_on_mount = not mount
     for side, T in zip(("left", "right"), _poses(spot, region, search.frame), strict=True):
-        held = _anchored(template, T, side, search)
+        held = held_rail(template, T, side, search)
         if held is None:
             return None
-        static += held[0]
-        dynamic += held[1]
-    if _in_the_way(static, dynamic, upper, search):
+        static += held.static
+        dynamic += held.dynamic
+        is_on_mount = is_on_mount or held.is_on_mount
+    if not is_on_mount or _in_the_way(static, dynamic, upper, search):
         return None
     return Placement(
         axis=search.axis,
         upper=upper,
         mechanism=model.mechanism,
         template=model.id,
-        mount=nearest_part(static[0], search.scene, search.request.mounts),
+        mount=mount or nearest_part(static[0], search.scene, search.request.mounts),
         count=2,
         dynamic=tuple(dynamic),
         static=tuple(static),
@@ -78,60 +77,6 @@ def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4
     left = frame.T_object_drawer @ from_rotation(np.eye(3), vec3(spot.x, spot.y, spot.z))
     middle = frame.to_object(vec3(region.middle, 0.0, 0.0)[None])[0]
     return left, reflection(middle, frame.rotation[:, 0]) @ left
-
-
-def _anchored(
-    template: RailTemplate, T: Mat4, side: str, search: DrawerSearch
-) -> tuple[list[Visual], list[Visual]] | None:
-    """Returns one rail's static and dynamic visuals with the blocks that bridge gaps; None if out of reach."""
-    name = search.request.moving
-    anchor = search.config.anchor * search.scene.unit
-    static, dynamic = template.static.transformed(T), template.dynamic.transformed(T)
-    held_static = [_visual(f"rail_{name}_{side}_static", static)]
-    held_dynamic = [_visual(f"rail_{name}_{side}_dynamic", dynamic)]
-    if not search.scene.is_near_static(static.mesh, anchor):
-        bridge = shortest_bridge(_footings(static, T), search.static_rays, search.config.bridge * search.scene.unit)
-        if bridge is None:
-            return None
-        held_static.append(block(f"support_{name}_{side}_static", *bridge))
-    if MeshCollider(dynamic.mesh).distance(MeshCollider(search.mesh)) > anchor:
-        bridge = shortest_bridge(_dynamic_footings(dynamic, T), RayCaster(search.mesh), 0.2 * search.frame.width)
-        if bridge is None:
-            return None
-        held_dynamic.append(block(f"support_{name}_{side}_dynamic", *bridge))
-    return held_static, held_dynamic
-
-
-def _visual(name: str, end: TemplateEnd) -> Visual:
-    return Visual(name, end.surfaces, VisualRole.HARDWARE, PartLabel.MISC)
-
-
-def _footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
-    """Yields the static snap plane looking at the wall, then the rail looking up, down and to the back."""
-    snap = end.snap
-    yield Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v)
-    yield from _looking(end, T, (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward")))
-    yield from _looking(end, T, (("back", 1.0, "up", "outward"),))
-
-
-def _dynamic_footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
-    """Yields the dynamic snap plane looking at the drawer, then the rail's front end looking at the front's back."""
-    snap = end.snap
-    yield Footing(snap.center, snap.normal, 0.9 * snap.u, 0.9 * snap.v)
-    yield from _looking(end, T, (("back", -1.0, "up", "outward"),))
-
-
-def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str], ...]) -> Iterator[Footing]:
-    """Yields rectangles on a rail's sides, measured along its own axes: direction, its sense, and their two sides."""
-    middle, reach = np.zeros(3), {}
-    for name, axis in (("outward", end.snap.normal), ("back", T[:3, 1]), ("up", T[:3, 2])):
-        along = end.mesh.vertices @ axis
-        middle = middle + axis * (along.min() + along.max()) / 2
-        reach[name] = axis * (along.max() - along.min()) / 2
-    for name, sign, first, second in looks:
-        towards = sign * reach[name]
-        direction = towards / np.linalg.norm(towards)
-        yield Footing(middle + towards, direction, 0.9 * reach[first], 0.9 * reach[second])
 
 
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
