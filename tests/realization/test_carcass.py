@@ -12,7 +12,6 @@ from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.realization.carcass.complete import complete_carcass
-from grafu.realization.carcass.config import CarcassConfig
 from grafu.realization.carcass.lacks import carcass_lacks
 from grafu.realization.motion_source import plan_from_annotation
 from grafu.realization.realize import realize
@@ -166,9 +165,3 @@ def test_other_furniture_that_is_whole_lacks_nothing(kind):
 
 def test_a_model_without_fronts_lacks_nothing():
     assert lacks(scene(box("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))) == []
-
-
-@pytest.mark.parametrize("name", ["back", "covered", "filled"])
-def test_lengths_and_shares_are_above_zero(name):
-    with pytest.raises(ValueError, match=f"`CarcassConfig.{name}` must be above 0: got -1"):
-        CarcassConfig(**{name: -1.0})

@@ -14,7 +14,6 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation
 from grafu.realization.drawer_box.complete import complete_drawers, with_riders
-from grafu.realization.drawer_box.config import DrawerBoxConfig
 from grafu.realization.motion_source import plan_from_annotation
 from grafu.realization.realize import realize
 from grafu.synth.cabinet import Cabinet, make_cabinet
@@ -298,9 +297,3 @@ def test_a_model_without_drawers_lacks_none():
     assert (
         complete_drawers((box("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),), plan_from_annotation(scene())).verdicts == ()
     )
-
-
-@pytest.mark.parametrize("name", ["wall", "side_gap", "highest"])
-def test_lengths_are_above_zero(name):
-    with pytest.raises(ValueError, match=f"`DrawerBoxConfig.{name}` must be above 0: got 0"):
-        DrawerBoxConfig(**{name: 0.0})

@@ -5,10 +5,35 @@ from math import radians
 from typing import final
 
 
+def require_positive(config: object, *names: str) -> None:
+    """Raises ValueError unless these fields of a config are above 0."""
+    for name in names:
+        if not getattr(config, name) > 0:
+            raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {getattr(config, name)}")
+
+
+def require_not_negative(config: object, *names: str) -> None:
+    """Raises ValueError unless these fields of a config are at least 0."""
+    for name in names:
+        if not getattr(config, name) >= 0:
+            raise ValueError(f"`{type(config).__name__}.{name}` must not be negative: got {getattr(config, name)}")
+
+
+def require_shares(config: object, *names: str) -> None:
+    """Raises ValueError unless these fields of a config lie between 0 and 1."""
+    for name in names:
+        if not 0 < getattr(config, name) < 1:
+            raise ValueError(f"`{type(config).__name__}.{name}` must be between 0 and 1: got {getattr(config, name)}")
+
+
 @final
 @dataclass(frozen=True)
 class RealizationConfig:
-    """What realization may do, and how exact it is."""
+    """What realization may do, and how exact it is.
+
+    Raises:
+        ValueError: if a number is not above 0, a share not between 0 and 1, or there are fewer than two poses.
+    """
 
     depth: float = 0.0004
     """Penetration that counts as a touch (unit): 0.4 mm on one metre; the official swing test warns at 0.5."""
@@ -38,3 +63,9 @@ class RealizationConfig:
     """Length of a rail over the drawer's body (supplement: 1 - beta, beta = 0.1)."""
     body_tolerance: float = 0.01
     """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a share of the width."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "depth", "contact", "flush", "anchor", "bridge", "door_opening", "body_tolerance")
+        require_shares(self, "restricted", "max_trim", "max_carve", "rail_share")
+        if min(self.coarse_poses, self.fine_poses) < 2:
+            raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

@@ -218,9 +218,3 @@ def test_both_maps_are_told() -> None:
     assert coverage is not None
     assert coverage.near_top.sum() < 0.5 * coverage.everything.sum()
     assert coverage.level == pytest.approx(H, abs=1e-6)
-
-
-@pytest.mark.parametrize("wrong", [{"coverage": 1.5}, {"thickness": 0.0}, {"front": -0.1}])
-def test_senseless_configurations_are_refused(wrong: dict[str, float]) -> None:
-    with pytest.raises(ValueError, match="`TopConfig` needs"):
-        TopConfig(**wrong)

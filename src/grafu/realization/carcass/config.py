@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.realization.config import require_positive
+
 
 @final
 @dataclass(frozen=True)
@@ -33,6 +35,4 @@ class CarcassConfig:
     """How far a back that is planted on the rear edges laps onto them."""
 
     def __post_init__(self) -> None:
-        for name in self.__dataclass_fields__:
-            if not getattr(self, name) > 0:
-                raise ValueError(f"`CarcassConfig.{name}` must be above 0: got {getattr(self, name)}")
+        require_positive(self, *self.__dataclass_fields__)

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.realization.config import require_positive
+
 
 @final
 @dataclass(frozen=True)
@@ -47,6 +49,4 @@ class DrawerBoxConfig:
     """Share of the front's smaller side below which the space behind it is too shallow for a box."""
 
     def __post_init__(self) -> None:
-        for name in self.__dataclass_fields__:
-            if not getattr(self, name) > 0:
-                raise ValueError(f"`DrawerBoxConfig.{name}` must be above 0: got {getattr(self, name)}")
+        require_positive(self, *self.__dataclass_fields__)

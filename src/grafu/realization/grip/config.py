@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, final
 
+from grafu.realization.config import require_positive, require_shares
+
 
 class GripKind(StrEnum):
     """What is carved."""
@@ -30,8 +32,7 @@ class GripSize:
     depth: float = 0.012
 
     def __post_init__(self) -> None:
-        if not min(self.length, self.width, self.depth) > 0:
-            raise ValueError(f"`GripSize` must have positive lengths: got {self.length}, {self.width}, {self.depth}")
+        require_positive(self, "length", "width", "depth")
 
     def scaled(self, factor: float) -> "GripSize":
         """Returns the size with its length and width multiplied."""
@@ -83,12 +84,11 @@ class GripConfig:
     """Thickest front through which a hole or notch is cut, metres."""
 
     def __post_init__(self) -> None:
-        lengths = (self.margin, self.wall, self.finger_room, self.thickest, self.depth or 1.0, *(self.size or ()))
-        if not min(lengths) > 0:
-            raise ValueError(f"lengths of `GripConfig` must be positive: got {lengths}")
-        shares = (self.length_share, self.width_share, self.depth_share)
-        if not all(0 < share < 1 for share in shares):
-            raise ValueError(f"shares of `GripConfig` must lie between 0 and 1: got {shares}")
+        require_positive(self, "margin", "wall", "finger_room", "thickest")
+        require_shares(self, "length_share", "width_share", "depth_share")
+        own = (*(self.size or ()), *(() if self.depth is None else (self.depth,)))
+        if not all(length > 0 for length in own):
+            raise ValueError(f"a grip's own size and depth must be above 0: got {self.size} and {self.depth}")
 
     @property
     def kinds(self) -> tuple[GripKind, ...]:

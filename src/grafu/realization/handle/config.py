@@ -3,13 +3,19 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.realization.config import require_not_negative, require_positive, require_shares
+
 _COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
 
 
 @final
 @dataclass(frozen=True)
 class GraspConfig:
-    """What counts as room for fingers; see `at_scale` for models of another size."""
+    """What counts as room for fingers; see `at_scale` for models of another size.
+
+    Raises:
+        ValueError: if a length is not above 0, or `lever` is no share.
+    """
 
     gap: float = 0.012
     """Narrowest gap that fingers enter, and the least room behind what they pull at; a fingertip is 12 to 20 mm."""
@@ -45,17 +51,18 @@ class GraspConfig:
     """Share of the way from the hinge to the free edge beyond which a door can be pulled open."""
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not value > 0:
-                raise ValueError(f"`GraspConfig.{name}` must be above 0: got {value}")
-        if not self.lever < 1:
-            raise ValueError(f"`GraspConfig.lever` must be a share below 1: got {self.lever}")
+        require_positive(self, *self.__dataclass_fields__)
+        require_shares(self, "lever")
 
 
 @final
 @dataclass(frozen=True)
 class HandleConfig:
-    """Which handles are added, how large, and where; see `size_factor` for models of another scale."""
+    """Which handles are added, how large, and where; see `size_factor` for models of another scale.
+
+    Raises:
+        ValueError: if a length or share is out of its range, or there are fewer than two poses.
+    """
 
     style: str = ""
     """Id of a handle template; empty: like the model's other handles, or `default` where it has none."""
@@ -91,12 +98,8 @@ class HandleConfig:
     """By how much handles are moved from their usual places, metres: to the front's right, and up."""
 
     def __post_init__(self) -> None:
-        for name in ("inset", "reach_height", "tall", "short", "wide", "high", "most"):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"`HandleConfig.{name}` must be above 0: got {getattr(self, name)}")
-        for name in ("length", "margin", "weak"):
-            if not getattr(self, name) >= 0:
-                raise ValueError(f"`HandleConfig.{name}` must not be negative: got {getattr(self, name)}")
+        require_positive(self, "inset", "reach_height", "tall", "short", "wide", "high", "most")
+        require_not_negative(self, "length", "margin", "weak")
         if not 0 <= self.count <= 4:
             raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")
         if self.poses < 2:

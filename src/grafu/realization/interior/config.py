@@ -7,6 +7,8 @@ panels in its own scale.
 from dataclasses import dataclass
 from typing import final
 
+from grafu.realization.config import require_not_negative, require_positive
+
 
 @final
 @dataclass(frozen=True)
@@ -45,19 +47,9 @@ class InteriorConfig:
     """Cells along the object's longest side in which compartments are looked for."""
 
     def __post_init__(self) -> None:
-        for name in (
-            "thickness",
-            "least_side",
-            "least_pitch",
-            "shelf_pitch",
-            "divider_pitch",
-            "hanging_height",
-            "touch",
-        ):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"`InteriorConfig.{name}` must be positive: got {getattr(self, name)}")
-        if not self.inset >= 0 or min(self.most_panels, self.cells) < 1:
-            raise ValueError(f"`InteriorConfig` needs an inset and counts that are not negative: got {self}")
+        lengths = ("thickness", "least_side", "least_pitch", "shelf_pitch", "divider_pitch", "hanging_height", "touch")
+        require_positive(self, *lengths, "most_panels", "cells")
+        require_not_negative(self, "inset")
         for name in ("deepest_inset", "carried", "wall_share"):
             if not 0 <= getattr(self, name) <= 1:
                 raise ValueError(f"`InteriorConfig.{name}` must be in 0..1: got {getattr(self, name)}")

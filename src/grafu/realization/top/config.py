@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal, final
 
+from grafu.realization.config import require_not_negative, require_positive, require_shares
+
 TopShape = Literal["rectangle", "rounded", "chamfered"]
 
 # A largest side outside of these is no furniture in metres (normalised data, centimetres): lengths scale with it.
@@ -42,11 +44,9 @@ class TopConfig:
     """How deep a top may reach into what carries it or stands in it, as a share of the largest side."""
 
     def __post_init__(self) -> None:
-        lengths = (self.recess, self.gallery, self.front, self.side, self.back, self.thickness, self.gap, self.seat)
-        if not (0 < self.coverage < 1 and 0 <= self.doubt < 1):
-            raise ValueError(f"`TopConfig` needs shares between 0 and 1: got {self.coverage} and {self.doubt}")
-        if min(lengths) < 0 or self.thickness <= 0:
-            raise ValueError(f"`TopConfig` needs lengths of at least 0 and a thickness: got {lengths}")
+        require_shares(self, "coverage")
+        require_positive(self, "thickness")
+        require_not_negative(self, "doubt", "recess", "gallery", "front", "side", "back", "gap", "seat")
 
 
 DEFAULT_TOP = TopConfig()
