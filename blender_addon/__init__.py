@@ -41,9 +41,10 @@ def unregister():
     """Stops what goes on, and takes everything back in the opposite order."""
     import bpy
 
-    from . import run_operators, state
+    from . import run_operators, state, work
 
     run_operators.stop()
+    work.end()
     state.detach()
     for one in reversed(_classes()):
         bpy.utils.unregister_class(one)

@@ -45,19 +45,20 @@ class GRAFU_OT_finalize(bpy.types.Operator):
         """Writes; the window waits, for it is the last step."""
         session = session_of(context)
         name = bpy.path.clean_name(self.name) or "model"
-        run = work.Run(settings_of(session))
+        run = work.Command()
         try:
             sources = objects.sources_of(session)
             if not sources:
                 raise work.Failed("the objects that were handed over are gone")
-            run.source = run.folder / f"{name}.glb"
-            objects.export_sources(context, sources, run.source)
-            run.start("grafu.cli.main", self._arguments(run))
+            source, settings = run.folder / f"{name}.glb", run.folder / "settings.json"
+            objects.export_sources(context, sources, source)
+            settings.write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
+            run.start("grafu.cli.main", self._arguments(source, settings))
             run.wait()
             run.require_success()
             target = Path(bpy.path.abspath(self.directory)) / name
-            (target / "source.glb").write_bytes(run.source.read_bytes())
-            (target / "settings.json").write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
+            (target / "source.glb").write_bytes(source.read_bytes())
+            (target / "settings.json").write_bytes(settings.read_bytes())
             report = json.loads((target / "report.json").read_text(encoding="utf-8"))
         except (work.Failed, OSError, RuntimeError) as error:
             session.status = str(error)
@@ -74,10 +75,9 @@ class GRAFU_OT_finalize(bpy.types.Operator):
         self.report({"INFO"}, session.status)
         return {"FINISHED"}
 
-    def _arguments(self, run) -> list:
-        folder = bpy.path.abspath(self.directory)
-        settings = str(run.folder / "settings.json")
-        given = ["functionalize", str(run.source), "--settings", settings, "--out", folder, "--formats", self.formats]
+    def _arguments(self, source, settings) -> list:
+        out = bpy.path.abspath(self.directory)
+        given = ["functionalize", str(source), "--settings", str(settings), "--out", out, "--formats", self.formats]
         return [*given, "--overwrite"] if self.overwrite else given
 
 

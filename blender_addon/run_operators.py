@@ -64,6 +64,7 @@ class Applies:
         from grafu.errors import FunctionalizationError
 
         global _active
+        work.warm()  # it starts while Blender's own imports go on
         try:
             self._scene, self._slot = context.scene.name, self.slot(context)
             self._settings = self.changed(context, settings_of(session_of(context)))

@@ -1,7 +1,7 @@
 """What may be added to furniture beside hinges and rails, and how it looks. It adds nothing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import final
 
 from grafu.realization.carcass.config import CarcassConfig
@@ -62,6 +62,12 @@ class AdditionConfig:
     """By number, what a compartment gets instead."""
     rejected: frozenset[str] = frozenset()
     """Ids of added parts that are left out again."""
+
+    @property
+    def of_body(self) -> "AdditionConfig":
+        """What of it is decided before joints are built; all else is nothing."""
+        bare = replace(self, handles=None, grips=None, grasp=GraspConfig(), fronts={})
+        return replace(bare, interior=NOTHING, interior_sizes=InteriorConfig(), compartments={})
 
 
 NO_ADDITIONS = AdditionConfig(top=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING)

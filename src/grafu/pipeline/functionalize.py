@@ -27,6 +27,7 @@ from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.realization.addition import Addition
 from grafu.realization.config import RealizationConfig
 from grafu.realization.joint_choice import with_choices
+from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.realization.motion_choice import MotionChoice
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
 from grafu.realization.plan import JointChoice, RealizationPlan
@@ -130,11 +131,13 @@ def functionalize(
     gallery: Gallery,
     config: PipelineConfig = PipelineConfig(),
     on_stage: Callable[[str], None] = _say_nothing,
+    kept: Kept = NOTHING_KEPT,
 ) -> Functionalized:
     """Returns the asset as an object that works, and how it came about.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
     that cannot be made to move is no error: the report says which, and why. `on_stage` is told each stage as it begins.
+    What is `kept` of earlier runs is not made again; the result is the same.
 
     Raises:
         OptionError: if what is chosen for a part or joint does not exist.
@@ -154,13 +157,19 @@ def functionalize(
     motion = MOTIONS[chosen]
     if not motion.reads_annotation:
         asset = asset.without_annotation()
-    graph = clock.timed("parse", lambda: parse_graph(asset, config.parsing))  # contacts only
-    completion = clock.timed("complete", lambda: motion.complete(asset, graph))  # who moves, and how
+    graph = clock.timed("parse", lambda: kept.value("parse", parse_graph, asset, config.parsing))  # contacts only
+    completion = clock.timed(  # who moves, and how
+        "complete", lambda: kept.value(f"complete by {chosen}", motion.complete, asset, graph)
+    )
     completion = with_mounts(with_motions(completion, config.motions, asset), config.joints)
-    plan = clock.timed("plan", lambda: motion.plan(asset, completion))  # initial axes
+    plan = clock.timed("plan", lambda: kept.value(f"plan by {chosen}", motion.plan, asset, completion))  # initial axes
     plan = with_choices(plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery)
-    body = clock.timed("body", lambda: complete_body(asset, completion, plan, config.additions))  # top, drawer boxes
-    realized = clock.timed("realize", lambda: realize(body.plan, body.asset, gallery, config.realization))  # joints
+    body = clock.timed(  # top, drawer boxes
+        "body", lambda: kept.value("body", complete_body, asset, completion, plan, config.additions.of_body)
+    )
+    realized = clock.timed(  # joints
+        "realize", lambda: realize(body.plan, body.asset, gallery, config.realization, kept)
+    )
     fittings = clock.timed(
         "fittings", lambda: add_fittings(realized.scene, completion, config.additions, config.own_handles)
     )

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from grafu.asset.load import load_asset
+from grafu.asset.part import Asset
 from grafu.errors import FunctionalizationError
 from grafu.export.blend.transport import packed
 from grafu.geometry.transform import transform_points
@@ -21,11 +22,14 @@ from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import settings_from_json
 from grafu.realization.interior.turned import compartments_of
+from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.templates.gallery import builtin_gallery
 
 
-def run(source: Path, settings_file: Path, folder: Path) -> Functionalized:
+def run(source: Path, settings_file: Path, folder: Path, kept: Kept = NOTHING_KEPT) -> Functionalized:
     """Functionalizes one input as the settings say and writes what the module's docstring lists.
+
+    What is `kept` of earlier runs is not made again.
 
     Raises:
         FunctionalizationError: if the input or a setting is at fault.
@@ -33,7 +37,8 @@ def run(source: Path, settings_file: Path, folder: Path) -> Functionalized:
     settings = settings_from_json(json.loads(settings_file.read_text(encoding="utf-8")))
     _say("load")
     asset = load_asset(source, settings.reading.options)
-    result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say)
+    asset = kept.value("asset", _itself, asset)  # the same object: what was worked out on its meshes stays
+    result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say, kept)
     _say("write")
     (folder / "object.packed").write_bytes(packed(result.object))
     for name, values in (
@@ -52,6 +57,10 @@ def compartments_to_json(result: Functionalized) -> dict[str, Any]:
     corners = [np.round(transform_points(T, compartment.box.corners()), 6).tolist() for compartment in found]
     boxes = zip(corners, found, strict=True)
     return {"compartments": [{"corners": eight, "behind": list(one.behind)} for eight, one in boxes]}
+
+
+def _itself(asset: Asset) -> Asset:
+    return asset
 
 
 def _say(stage: str) -> None:

@@ -4,7 +4,7 @@ Doors come first, then drawers, whose rails must respect what the doors already 
 not cost the others theirs.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from time import perf_counter
@@ -22,9 +22,11 @@ from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
 from grafu.realization.expectation import expected_ways
 from grafu.realization.hinge.border import part_axes
+from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
 from grafu.realization.order import Moving, Order, order_joints
-from grafu.realization.plan import JointRequest, RealizationPlan, Refusal
+from grafu.realization.placement import Placement
+from grafu.realization.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
 from grafu.realization.scene import Mover, Scene, Way
 from grafu.templates.template import Gallery
@@ -53,16 +55,21 @@ class Realized:
 
 
 def realize(
-    plan: RealizationPlan, asset: Asset, gallery: Gallery, config: RealizationConfig = RealizationConfig()
+    plan: RealizationPlan,
+    asset: Asset,
+    gallery: Gallery,
+    config: RealizationConfig = RealizationConfig(),
+    kept: Kept = NOTHING_KEPT,
 ) -> Realized:
-    """Returns the asset with every joint of the plan built that can be built."""
+    """Returns the asset with every joint of the plan built that can be built; what is `kept` is not built again."""
     started = perf_counter()
     requests = _in_order(plan.joints)
-    scene, closed = _closed_scene(asset, requests, config)
-    built, failed, scene = _build_fairly(requests, scene, gallery, config)
+    free = tuple(replace(request, choice=AUTOMATIC) for request in requests)
+    scene, closed = kept.value("closed", _closed_scene, asset, free, config)
+    built, failed, scene = _build_fairly(requests, scene, gallery, config, kept)
     skipped = [*(_refused(refusal) for refusal in plan.refused), *failed]
-    orders = order_joints([_moving(b) for b in built], scene, config)
-    installed = [_installed(b, orders[b.request.moving], scene, closed, config) for b in built]
+    orders = kept.value("order", _orders, tuple(built), scene, config)
+    installed = [_installed(b, orders[b.request.moving], scene, closed, config, kept) for b in built]
     articulated = _assembled(asset, scene, built, orders)
     timings = (("realize", perf_counter() - started),)
     final = _final_scene(scene, built, orders)
@@ -85,29 +92,33 @@ def _final_way(built: Built, order: Order) -> Way:
     return Way(built.placement.axis, built.request.type, order.upper, after=order.after)
 
 
-def _build_fairly(requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig) -> _Outcomes:
+def _build_fairly(
+    requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+) -> _Outcomes:
     """Returns what came of all requests, each joint keeping out of the expected ways of those built after it.
 
     Doors for which that left no place are given the way that was asked for, and all is built again; the first try
     stands unless the second builds more.
     """
-    ways = expected_ways(requests, scene, config)
-    first = _build_all(requests, replace(scene, ways=ways), gallery, config)
+    ways = kept.value("ways", expected_ways, tuple(requests), scene, config)
+    first = _build_all(requests, replace(scene, ways=ways), gallery, config, kept)
     left = {skip.request for skip in first[1]}
     asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
     if not asked or not first[0]:
         return first
     wider = {r.moving: replace(ways[r.moving], axis=r.axis) for r in asked}
-    second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config)
+    second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config, kept)
     return second if len(second[1]) < len(first[1]) else first
 
 
-def _build_all(requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig) -> _Outcomes:
+def _build_all(
+    requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+) -> _Outcomes:
     """Returns the joints built, those that were not, and the scene with all hardware."""
     built: list[Built] = []
     skipped: list[Skipped] = []
     for request in requests:
-        outcome = build_joint(request, scene, gallery, config)
+        outcome = kept.value("joint", build_joint, request, scene, gallery, config)
         if isinstance(outcome, Skipped):
             skipped.append(outcome)
             scene = replace(scene, ways={name: way for name, way in scene.ways.items() if name != request.moving})
@@ -128,7 +139,7 @@ def _in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
 
 
 def _closed_scene(
-    asset: Asset, requests: list[JointRequest], config: RealizationConfig
+    asset: Asset, requests: Sequence[JointRequest], config: RealizationConfig
 ) -> tuple[Scene, dict[str, tuple[Clearance, ...]]]:
     """Returns the scene with every part that is drawn ajar closed, and what was noted about it."""
     movers = {r.moving: Mover(r.moving, (r.moving, *r.riders)) for r in requests}
@@ -153,6 +164,10 @@ def _moved(part: Part, T: np.ndarray) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
+def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
+    return order_joints([_moving(b) for b in built], scene, config)
+
+
 def _moving(built: Built) -> Moving:
     placement = built.placement
     motion = motion_about(placement.axis, built.request.type)
@@ -160,10 +175,15 @@ def _moving(built: Built) -> Moving:
 
 
 def _installed(
-    built: Built, order: Order, scene: Scene, closed: dict[str, tuple[Clearance, ...]], config: RealizationConfig
+    built: Built,
+    order: Order,
+    scene: Scene,
+    closed: dict[str, tuple[Clearance, ...]],
+    config: RealizationConfig,
+    kept: Kept,
 ) -> Installed:
     request, placement = built.request, built.placement
-    share, gap = _measured(built, order.upper, scene, config)
+    share, gap = _measured(built, order.upper, scene, config, kept)
     waits = tuple(joint_id(name) for name in order.after)
     return Installed(
         moving=request.moving,
@@ -187,16 +207,33 @@ def _installed(
     )
 
 
-def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig) -> tuple[float, float]:
+def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, kept: Kept) -> tuple[float, float]:
     """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
     mover = built.request.moving
     motion = motion_about(built.placement.axis, built.request.type)
-    mesh = scene.moving_mesh(mover)
-    near = in_the_way(scene.static_obstacles, swept_box(mesh.box, motion, upper))
+    near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(mover).box, motion, upper))
+    names = {*scene.movers[mover].members, *(obstacle.id for obstacle in near)}
+    around = replace(
+        scene,
+        parts={name: part for name, part in scene.parts.items() if name in names},
+        movers={mover: scene.movers[mover]},
+        hardware=tuple((mover, visual) for visual in scene.hardware_of(mover)),
+        ways={},
+    )
+    return kept.value("measure", _measure, built.request, built.placement, upper, around, config)
+
+
+def _measure(
+    request: JointRequest, placement: Placement, upper: float, scene: Scene, config: RealizationConfig
+) -> tuple[float, float]:
+    """Returns the same in a scene that holds only what is on the mover's way."""
+    mover = request.moving
+    motion = motion_about(placement.axis, request.type)
+    near = list(scene.static_obstacles)
     body = scene.moving_body(mover, config.depth * scene.unit, part_axes(scene.parts[mover].mesh))
     share = sweep(body, motion, upper, near, _MEASURED_POSES).share
     ends = [MeshCollider(v.mesh) for v in scene.hardware_of(mover)]
-    held = [MeshCollider(v.mesh) for v in built.placement.static]
+    held = [MeshCollider(v.mesh) for v in placement.static]
     return share, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
 
 

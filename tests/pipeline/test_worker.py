@@ -1,0 +1,149 @@
+"""The process that stays: what it keeps changes no byte of what comes out; it ends when nobody listens any more."""
+
+import json
+import subprocess
+import sys
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from grafu.asset.load import load_asset
+from grafu.export.blend.transport import unpacked
+from grafu.export.glb import export_glb
+from grafu.pipeline.addition_config import HandleChoice
+from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.interactive import compartments_to_json, run
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings
+from grafu.realization.interior.request import CompartmentChoice
+from grafu.realization.kept import Kept
+from grafu.realization.plan import JointChoice
+from grafu.realization.top.config import TopConfig
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import PartLabel
+
+SAMPLE = Path(__file__).parents[2] / "samples" / "sideboard.glb"
+BASE = Settings(motion=MotionSource.RULE)
+KNOBS = HandleChoice("knob-round", 2)
+STACKED = BASE.with_joint("door_1", JointChoice(template="piano"))
+CHANGES = {
+    "as it is": BASE,
+    "hinges": BASE.with_joint("door_1", JointChoice(count=3, scale=0.8)),
+    "opening and grip": BASE.with_joint("drawer_1", JointChoice(opening=0.2)).with_front(
+        "door_2", HandleChoice("grip")
+    ),
+    "handle and top": replace(
+        STACKED, additions=replace(STACKED.additions, top=TopConfig(thickness=0.04), fronts={"drawer_1": KNOBS})
+    ),
+    "interior": STACKED.with_compartment(0, CompartmentChoice(1, 1)),
+    "category, no trimming": replace(BASE, trim=False).with_label("door_2", PartLabel.MISC),
+}
+
+
+def everything(result) -> tuple:
+    report = report_of(result).to_json()
+    del report["timings"]
+    return export_glb(result.object).contents["model.glb"], report, result.completion, compartments_to_json(result)
+
+
+@pytest.fixture(scope="module")
+def kept():
+    return Kept(400)
+
+
+@pytest.mark.parametrize("change", [*CHANGES, "as it is"])
+def test_a_run_that_keeps_gives_what_a_fresh_one_gives(change, kept):
+    settings = CHANGES[change]
+    asset = load_asset(SAMPLE)
+    fresh, again = (
+        functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), kept=one)
+        for one in (Kept(0), kept)
+    )
+    assert everything(again) == everything(fresh)
+
+
+def test_only_what_a_change_touches_is_made_again(kept):
+    def made_by(settings):
+        before = dict(kept.made)
+        functionalize(load_asset(SAMPLE), settings.motion, builtin_gallery(), settings.pipeline(), kept=kept)
+        return {name: count - before.get(name, 0) for name, count in kept.made.items() if count > before.get(name, 0)}
+
+    made_by(BASE)
+    assert made_by(BASE) == {}
+    assert made_by(BASE.with_front("drawer_2", HandleChoice("bar-round"))) == {}
+    assert made_by(replace(BASE, additions=replace(BASE.additions, top=None))).keys() == {"body"}
+    last = made_by(BASE.with_joint("drawer_2", JointChoice(template="corner_mount")))
+    assert last["joint"] < len(load_asset(SAMPLE).parts)
+    assert not {"parse", "complete by rule", "plan by rule", "closed"} & last.keys()
+
+
+@contextmanager
+def working(folder):
+    command = [sys.executable, "-m", "grafu.pipeline.worker", str(folder)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.PIPE, text=True, bufsize=1) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def asked(process, folder, settings, source=SAMPLE) -> list[str]:
+    (folder / "settings.json").write_text(json.dumps(settings if isinstance(settings, dict) else settings.to_json()))
+    process.stdin.write(json.dumps([str(source), str(folder / "settings.json"), str(folder)]) + "\n")
+    said = []
+    while not said or not (said[-1] == "done" or said[-1].startswith("error ")):
+        said.append(process.stdout.readline().rstrip("\n"))
+        assert said[-1], said
+    return said
+
+
+def test_one_process_answers_again_and_again_and_ends_with_its_input(tmp_path):
+    folder = tmp_path / "shared"
+    folder.mkdir()
+    with working(folder) as process:
+        said = asked(process, folder, BASE)
+        assert said[-1] == "done"
+        assert said[:2] == ["stage load", "stage parse"]
+        (first,) = [j for j in unpacked((folder / "object.packed").read_bytes()).joints if j.child == "drawer_1"]
+        assert asked(process, folder, {"schema": "none"})[-1].startswith("error settings must be")
+        assert asked(process, folder, BASE, tmp_path / "none.glb")[-1].startswith("error ")
+        assert asked(process, folder, CHANGES["opening and grip"])[-1] == "done"
+        (second,) = [j for j in unpacked((folder / "object.packed").read_bytes()).joints if j.child == "drawer_1"]
+        assert second.limits.upper == pytest.approx(0.2)
+        assert first.limits.upper > 0.2
+        process.stdin.close()
+        assert process.wait(10) == 0
+        assert not folder.exists()
+
+
+def test_it_ends_amid_its_work_when_nobody_listens_any_more(tmp_path):
+    folder = tmp_path / "shared"
+    folder.mkdir()
+    (folder / "settings.json").write_text(json.dumps(BASE.to_json()))
+    with working(folder) as process:
+        line = json.dumps([str(SAMPLE), str(folder / "settings.json"), str(folder)]) + "\n"
+        process.stdin.write(30 * line)
+        assert process.stdout.readline() == "stage load\n"
+        process.stdin.close()
+        rest = process.stdout.read()
+        assert process.wait(10) == 0
+        assert rest.count("done") < 30
+        assert not folder.exists()
+
+
+def test_a_fault_of_ours_is_one_line_and_the_end(tmp_path):
+    folder = tmp_path / "shared"
+    folder.mkdir()
+    with working(folder) as process:
+        process.stdin.write("5\n")
+        assert process.stdout.readline().startswith("error internal fault: TypeError")
+        assert process.wait(10) == 1
+
+
+def test_a_run_of_its_own_keeps_nothing(tmp_path):
+    (tmp_path / "settings.json").write_text(json.dumps(BASE.to_json()))
+    assert run(SAMPLE, tmp_path / "settings.json", tmp_path).object.moving_joints
