@@ -69,7 +69,7 @@ def _say(stage: str) -> None:
 
 if __name__ == "__main__":
     try:
-        run(*map(Path, sys.argv[1:4]))
+        run(Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]))
     except FunctionalizationError as error:
         print("error", " ".join(str(error).split()), flush=True)
         sys.exit(2)
