@@ -13,7 +13,7 @@ from grafu.synth.habits import is_storage
 from grafu.synth.specimen import Specimen
 from grafu.vocabulary import PartLabel
 
-NUMBER = 100
+NUMBER = 200
 
 
 @cache
