@@ -21,6 +21,7 @@ _MODULES = (
     "addition_operators",
     "view_operators",
     "output_operators",
+    "lists",
     "model_operators",
     "panels",
 )

@@ -122,7 +122,7 @@ class GRAFU_OT_show_compartments(bpy.types.Operator):
     """Shows the compartments as boxes of wire, numbered; again: takes them away"""
 
     bl_idname = "grafu.show_compartments"
-    bl_label = "Compartments"
+    bl_label = "Show compartments"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

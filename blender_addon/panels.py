@@ -1,44 +1,16 @@
-"""The sidebar: what there is to see and to press. It changes nothing itself."""
+"""The sidebar: what there is to see and to press. It changes nothing itself, and reads only what the scene holds."""
 
 import bpy
 
+from .lists import LEVEL_ICONS
+from .objects import joint_empties
 from .run_operators import active_run
-from .state import session_of, settings_of
+from .state import session_of
+from .versions import draw_progress
 
-_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
-
-
-class GRAFU_UL_joints(bpy.types.UIList):
-    """One row per door and drawer."""
-
-    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
-        """Draws level, part and mechanism."""
-        row = layout.row(align=True)
-        row.label(text=item.part + (" *" if item.changed else ""), icon=_ICONS[item.level])
-        row.label(text=item.mechanism or "no joint")
-
-
-class GRAFU_UL_additions(bpy.types.UIList):
-    """One row per added part."""
-
-    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
-        """Draws the part with its switch."""
-        row = layout.row(align=True)
-        row.label(text=item.part)
-        row.label(text=item.about)
-        button = row.operator("grafu.set_addition", text="", icon="CHECKBOX_HLT" if item.accepted else "CHECKBOX_DEHLT")
-        button.part, button.accepted = item.part, not item.accepted
-
-
-class GRAFU_UL_parts(bpy.types.UIList):
-    """One row per part of the input."""
-
-    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
-        """Draws the part and its category, which a click corrects."""
-        row = layout.row(align=True)
-        row.label(text=item.part)
-        button = row.operator("grafu.set_label", text=item.category)
-        button.part, button.label = item.part, item.category
+_LETTER = 5.6  # pixels of a letter in the sidebar's font, at Blender's usual size
+_MARGIN = 58.0  # pixels of the sidebar beside a panel's text: tabs and borders
+_BOX = 18.0  # pixels that a box takes
 
 
 class _Panel:
@@ -62,15 +34,17 @@ class GRAFU_PT_main(_Panel, bpy.types.Panel):
         """Draws it."""
         layout, session, run = self.layout, session_of(context), active_run()
         if run is not None:
-            layout.label(text=f"{round(100 * run.share)} %  {run.stage} ...", icon="TIME")
+            draw_progress(layout, run.share, run.doing)
             layout.operator("grafu.cancel", icon="CANCEL")
             return
-        layout.operator("grafu.functionalize", icon="PLAY")
+        column = layout.column(align=True)
+        column.operator("grafu.functionalize", icon="PLAY")
         if session.has_result:
-            layout.operator("grafu.run_again", icon="FILE_REFRESH")
+            column.operator("grafu.run_again", icon="FILE_REFRESH")
+        elif not session.status:
+            draw_text(context, layout, "Select the mesh objects of one piece of furniture: each is a part.")
         if session.status:
-            for line in _wrapped(session.status):
-                layout.label(text=line)
+            draw_text(context, layout, session.status)
 
 
 class GRAFU_PT_joints(_ResultPanel, bpy.types.Panel):
@@ -78,40 +52,44 @@ class GRAFU_PT_joints(_ResultPanel, bpy.types.Panel):
 
     bl_label = "Joints"
 
+    def draw_header_preset(self, context):
+        """Draws how many need somebody's eye."""
+        levels = [row.level for row in session_of(context).joints]
+        for level in ("warning", "error"):
+            if level in levels:
+                self.layout.label(text=str(levels.count(level)), icon=LEVEL_ICONS[level])
+
     def draw(self, context):
         """Draws it."""
         layout, session = self.layout, session_of(context)
-        layout.template_list("GRAFU_UL_joints", "", session, "joints", session, "joint_index")
-        row = layout.row(align=True)
-        row.operator("grafu.pick_joint", text="", icon="EYEDROPPER")
-        for what, text in (("all", "All open"), ("solo", "This one"), ("closed", "Closed"), ("animation", "Animation")):
-            row.operator("grafu.preview", text=text).what = what
-        row = layout.row(align=True)
-        row.operator("grafu.colours", text="Colours").on = True
-        row.operator("grafu.colours", text="Materials").on = False
-        row = layout.row(align=True)
-        row.operator("grafu.show_sources", text="Sources").on = True
-        row.operator("grafu.show_sources", text="Result").on = False
+        layout.template_list("GRAFU_UL_joints", "", session, "joints", session, "joint_index", rows=5)
         joint = session.active_joint
         if joint is not None:
-            _draw_joint(layout.box(), joint, context.scene)
+            _draw_joint(context, layout.box(), joint)
 
 
-def _draw_joint(box, joint, scene):
-    box.label(text=joint.part, icon=_ICONS[joint.level])
-    for line in (joint.figures, *_wrapped(joint.why)):
-        if line:
-            box.label(text=line)
-    empty = next((o for o in scene.objects if o.get("grafu") == "joint" and o.get("child") == joint.part), None)
-    if empty is not None and "open" in empty:
-        box.label(text=_limits(empty))
+def _draw_joint(context, box, joint):
+    row = box.row()
+    row.label(text=joint.part, icon=LEVEL_ICONS[joint.level])
+    row.operator("grafu.pick_joint", text="", icon="EYEDROPPER")
+    empty = joint_empties(session_of(context)).get(joint.part)
+    moves = empty is not None and "open" in empty
+    lines = [joint.why, *joint.figures.splitlines(), _limits(empty) if moves else ""]
+    draw_text(context, box, "\n".join(line for line in lines if line), _BOX)
+    if moves:
         box.prop(empty, '["open"]', text="Open", slider=True)
-    row = box.row(align=True)
-    row.operator("grafu.set_joint", icon="MODIFIER").part = joint.part
-    row.operator("grafu.reset_joint", text="", icon="LOOP_BACK").part = joint.part
-    row = box.row(align=True)
-    row.operator("grafu.set_handle", icon="GRIP").part = joint.part
-    row.operator("grafu.reset_handle", text="", icon="LOOP_BACK").part = joint.part
+    column = box.column(align=True)
+    _draw_choice(column, "joint", joint.part, joint.changed, "Hinges or rails", "MODIFIER")
+    _draw_choice(column, "handle", joint.part, joint.front_changed, "Handle", "GRIP")
+
+
+def _draw_choice(column, what, part, changed, text, icon):
+    """Draws a button that asks, and one that takes back what was chosen."""
+    row = column.row(align=True)
+    row.operator(f"grafu.set_{what}", text=f"{text} ...", icon=icon).part = part
+    back = row.row(align=True)
+    back.enabled = changed
+    back.operator(f"grafu.reset_{what}", text="", icon="LOOP_BACK").part = part
 
 
 def _limits(empty) -> str:
@@ -120,21 +98,58 @@ def _limits(empty) -> str:
     return f"slides by {100 * empty['upper']:.1f} cm"
 
 
+class GRAFU_PT_view(_ResultPanel, bpy.types.Panel):
+    """How the model is shown."""
+
+    bl_label = "Show"
+
+    def draw(self, context):
+        """Draws it."""
+        session, column = session_of(context), self.layout.column(align=True)
+        for pair in (
+            (("all", "All open"), ("closed", "All closed")),
+            (("solo", "This one"), ("animation", "Animation")),
+        ):
+            row = column.row(align=True)
+            for what, text in pair:
+                row.operator("grafu.preview", text=text).what = what
+        column = self.layout.column(align=True)
+        button = column.operator("grafu.colours", icon="COLOR", depress=session.colours)
+        button.on = not session.colours
+        shown = any(row.object is not None and not row.object.hide_viewport for row in session.sources)
+        button = column.operator("grafu.show_sources", text="What was handed over", icon="HIDE_OFF", depress=shown)
+        button.on = not shown
+
+
 class GRAFU_PT_additions(_ResultPanel, bpy.types.Panel):
-    """What was added, top and interior."""
+    """What was added."""
 
     bl_label = "Added parts"
 
     def draw(self, context):
         """Draws it."""
         layout, session = self.layout, session_of(context)
-        layout.template_list("GRAFU_UL_additions", "", session, "additions", session, "addition_index")
-        layout.operator("grafu.set_top", icon="MESH_PLANE")
-        row = layout.row(align=True)
-        row.operator("grafu.show_compartments", icon="MESH_CUBE")
-        row.operator("grafu.furnish", icon="ALIGN_JUSTIFY")
-        for number, choice in sorted(settings_of(session).additions.compartments.items()):
-            layout.label(text=f"compartment {number + 1}: {choice.shelves} shelves, {choice.dividers} dividers")
+        if session.additions:
+            layout.template_list("GRAFU_UL_additions", "", session, "additions", session, "addition_index", rows=3)
+        else:
+            layout.label(text="Nothing was added")
+
+
+class GRAFU_PT_interior(_ResultPanel, bpy.types.Panel):
+    """Top and shelves."""
+
+    bl_label = "Top and interior"
+
+    def draw(self, context):
+        """Draws it."""
+        layout, session = self.layout, session_of(context)
+        shown = session.boxes is not None
+        column = layout.column(align=True)
+        column.operator("grafu.set_top", text="Top ...", icon="MESH_PLANE")
+        column.operator("grafu.show_compartments", icon="MESH_CUBE", depress=shown)
+        column.operator("grafu.furnish", text="Furnish ...", icon="ALIGN_JUSTIFY")
+        if session.furnished:
+            draw_text(context, layout, session.furnished)
 
 
 class GRAFU_PT_parts(_ResultPanel, bpy.types.Panel):
@@ -146,7 +161,7 @@ class GRAFU_PT_parts(_ResultPanel, bpy.types.Panel):
     def draw(self, context):
         """Draws it."""
         session = session_of(context)
-        self.layout.template_list("GRAFU_UL_parts", "", session, "parts", session, "part_index")
+        self.layout.template_list("GRAFU_UL_parts", "", session, "parts", session, "part_index", rows=5)
 
 
 class GRAFU_PT_output(_ResultPanel, bpy.types.Panel):
@@ -156,25 +171,39 @@ class GRAFU_PT_output(_ResultPanel, bpy.types.Panel):
 
     def draw(self, context):
         """Draws it."""
-        self.layout.operator("grafu.finalize", icon="EXPORT")
+        self.layout.operator("grafu.finalize", text="Finalize ...", icon="EXPORT")
 
 
-def _wrapped(text: str, width: int = 48) -> list:
+def draw_text(context, layout, text: str, taken: float = 0.0) -> None:
+    """Draws lines of words, broken where the sidebar ends; `taken`: pixels that what is around them takes."""
+    scale = context.preferences.system.ui_scale
+    width = (context.region.width / scale if context.region else 300.0) - _MARGIN - taken
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    for line in text.splitlines():
+        for part in wrapped(line, max(int(width / _LETTER), 12)):
+            column.label(text=part)
+
+
+def wrapped(text: str, width: int) -> list:
+    """Returns the lines of a text, none longer than `width` letters; a word that is too long is cut."""
     lines = [""]
     for word in text.split():
-        if lines[-1] and len(lines[-1]) + len(word) >= width:
+        while len(word) > width:
+            lines += [word[:width]]
+            word = word[width:]
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
             lines.append("")
         lines[-1] = f"{lines[-1]} {word}".strip()
-    return lines
+    return [line for line in lines if line]
 
 
 CLASSES = (
-    GRAFU_UL_joints,
-    GRAFU_UL_additions,
-    GRAFU_UL_parts,
     GRAFU_PT_main,
     GRAFU_PT_joints,
+    GRAFU_PT_view,
     GRAFU_PT_additions,
+    GRAFU_PT_interior,
     GRAFU_PT_parts,
     GRAFU_PT_output,
 )

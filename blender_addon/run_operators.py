@@ -34,6 +34,7 @@ class Applies:
     """
 
     bl_options = {"REGISTER", "UNDO"}
+    _run = None
     wait: BoolProperty(name="Wait", description="Let the window wait for the result", options={"HIDDEN", "SKIP_SAVE"})
 
     @classmethod
@@ -63,7 +64,6 @@ class Applies:
         """Runs; see the module."""
         from grafu.errors import FunctionalizationError
 
-        global _active
         work.warm()  # it starts while Blender's own imports go on
         try:
             self._scene, self._slot = context.scene.name, self.slot(context)
@@ -72,15 +72,20 @@ class Applies:
             return self._refused(context, str(error))
         self._run = work.Run(self._settings)
         try:
-            self._sources = list(self.sources(context))
-            if not self._sources:
+            sources = list(self.sources(context))
+            if not sources:
                 raise work.Failed("the objects that were handed over are gone")
+            self._names = [source.name for source in sources]  # what is undone meanwhile makes other objects of them
             self._run.source = self._run.folder / f"{bpy.path.clean_name(self.title(context)) or 'model'}.glb"
-            objects.export_sources(context, self._sources, self._run.source)
+            objects.export_sources(context, sources, self._run.source)
             self._run.start()
         except (work.Failed, OSError, RuntimeError) as error:
             self._run.close()
             return self._refused(context, str(error))
+        return self._launched(context)
+
+    def _launched(self, context):
+        global _active
         if bpy.app.background or self.wait:
             self._run.wait()
             return self._finish(context)
@@ -91,14 +96,20 @@ class Applies:
 
     def modal(self, context, event):
         """Looks at the process at every tick; Escape stops it."""
-        if event.type == "ESC" or self._run.is_cancelled:
+        if (event.type == "ESC" and event.value == "PRESS") or self._run.is_cancelled:
             self._end(context)
             return self._refused(context, "stopped")
         if event.type == "TIMER":
+            _tell(context, f"GraFu: {self._run.doing}; Escape stops it")
             _redraw(context)
             if self._run.is_done:
                 return self._finish(context)
         return {"PASS_THROUGH"}
+
+    def cancel(self, context):
+        """Ends with the window, where another file is opened; also called where the question is not answered."""
+        if self._run is not None:
+            self._end(context)
 
     def _finish(self, context):
         try:
@@ -122,8 +133,8 @@ class Applies:
             return self._refused(context, unfit)
         made = self._run.result()
         session.sources.clear()
-        for source in self._sources:
-            session.sources.add().object = source
+        for name in self._names:
+            session.sources.add().object = bpy.data.objects.get(name)
         objects.show_result(session, made, after.frame.input_to_output)
         unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
         store(session, self._settings, self._run.text("report.json"), self._run.text("interior.json"), float(unit))
@@ -144,8 +155,15 @@ class Applies:
         if _active is self._run:
             _active = None
             context.window_manager.event_timer_remove(self._timer)
+            _tell(context, None)
             _redraw(context)
         self._run.close()
+
+
+def _tell(context, text):
+    """Says something below the window, or no longer (None)."""
+    if context.workspace is not None:
+        context.workspace.status_text_set(text)
 
 
 def _redraw(context):
@@ -168,6 +186,7 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Whether parts are selected."""
+        cls.poll_message_set("select the mesh objects of one piece of furniture, and let what runs end")
         return _active is None and bool(_selected(context))
 
     def sources(self, context):

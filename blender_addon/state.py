@@ -40,6 +40,7 @@ class GRAFU_Joint(bpy.types.PropertyGroup):
     template: StringProperty()
     figures: StringProperty()
     changed: BoolProperty()
+    front_changed: BoolProperty()
 
 
 class GRAFU_Addition(bpy.types.PropertyGroup):
@@ -83,6 +84,7 @@ class GRAFU_Session(bpy.types.PropertyGroup):
     joint_index: IntProperty(update=_chosen)
     addition_index: IntProperty()
     part_index: IntProperty()
+    furnished: StringProperty(description="The compartments of which something was chosen")
     colours: BoolProperty()
 
     @property
@@ -194,6 +196,10 @@ def store(session, settings, report_json: str, interior_json: str, unit: float) 
         row = session.parts.add()
         row.name = row.part = part.id
         row.category, row.labelled_by = part.category.value, part.labelled_by
+    session.furnished = "\n".join(
+        f"Compartment {number + 1}: {one.shelves} shelves, {one.dividers} dividers"
+        for number, one in sorted(settings.additions.compartments.items())
+    )
     session.joint_index = next((k for k, row in enumerate(session.joints) if row.part == chosen), 0)
     session.is_filling = False
 
@@ -209,6 +215,7 @@ def _fill_joints(session, settings, report, unit) -> None:
         row.name = row.part = state.part
         row.joint, row.level, row.why = state.joint, state.level.value, state.why
         row.changed = settings.joints.get(state.part, AUTOMATIC) != AUTOMATIC
+        row.front_changed = state.part in settings.additions.fronts
         record = records.get(state.part)
         if record is not None:
             row.type, row.template = record.type.value, record.template

@@ -1,0 +1,11 @@
+"""What older Blenders do otherwise. The add-on is made for 4.2 to 5.0; Debian's 3.4 draws and runs it, too."""
+
+import bpy
+
+
+def draw_progress(layout, share: float, text: str) -> None:
+    """Draws how far a run is, 0..1; before 4.0 in words."""
+    if bpy.app.version >= (4, 0):
+        layout.progress(factor=share, text=text)
+    else:
+        layout.label(text=f"{round(100 * share)} %  {text}", icon="TIME")
