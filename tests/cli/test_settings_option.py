@@ -40,3 +40,17 @@ def test_a_wrong_file_is_one_line(tmp_path, capsys, text, words):
     said = capsys.readouterr().err
     assert words in said
     assert said.count("\n") == 1
+
+
+def test_what_a_run_writes_gives_the_same_again(tmp_path: Path) -> None:
+    model = str(write_cabinet(tmp_path))
+    options = ["--motion", "rule", "--height", "1.2", "--no-trim", "--handle", "knob-round", "--interior", "shelves=1"]
+    assert main(["functionalize", model, *options, "--formats", "glb", "--no-page", "--out", str(tmp_path / "a")]) == 0
+    written = tmp_path / "a" / "cabinet" / "settings.json"
+    again = ["--settings", str(written), "--formats", "glb", "--no-page", "--out", str(tmp_path / "b")]
+    assert main(["functionalize", model, *again]) == 0
+
+    same = tmp_path / "b" / "cabinet"
+    assert json.loads(written.read_text())["reading"]["height"] == 1.2
+    assert (same / "settings.json").read_bytes() == written.read_bytes()
+    assert (same / "model.glb").read_bytes() == (written.parent / "model.glb").read_bytes()

@@ -3,6 +3,7 @@
 What goes wrong comes back as a value, so that one bad input never stops the others.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
@@ -15,6 +16,7 @@ from grafu.errors import ExportError, FunctionalizationError
 from grafu.pipeline.motion_source import MotionChoice
 
 if TYPE_CHECKING:
+    from grafu.articulation.articulated_object import ArticulatedObject
     from grafu.export.files import ExportFiles
     from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import Functionalized
@@ -89,11 +91,27 @@ class Failed:
 JobResult = Succeeded | Failed
 
 
-def run_job(job: Job) -> JobResult:
+def _tell_nobody(_: object) -> None:
+    """Hears of a stage or an object and does nothing."""
+
+
+@final
+@dataclass(frozen=True)
+class Listener:
+    """Who is told each stage as it begins, and what was made, before it is written."""
+
+    on_stage: Callable[[str], None] = _tell_nobody
+    on_object: "Callable[[ArticulatedObject], None]" = _tell_nobody
+
+
+NOBODY = Listener()
+
+
+def run_job(job: Job, listener: Listener = NOBODY) -> JobResult:
     """Returns what came of a job; a failure is a value, but for an interruption."""
     try:
         started = perf_counter()
-        report, picture = _functionalize(job)
+        report, picture = _functionalize(job, listener)
         return Succeeded(job, report, perf_counter() - started, picture)
     except FunctionalizationError as error:
         return Failed(job, one_line(str(error)), users_fault=True)
@@ -103,7 +121,7 @@ def run_job(job: Job) -> JobResult:
         return Failed(job, internal_fault(error, f"`{job.input}`", job.options.debug), users_fault=False)
 
 
-def _functionalize(job: Job) -> "tuple[Report, bytes]":
+def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     from grafu.asset.load import load_asset
     from grafu.export.files import write_files
     from grafu.export.formats import export
@@ -117,6 +135,7 @@ def _functionalize(job: Job) -> "tuple[Report, bytes]":
     options = job.options
     _require_absent(job)
     clock = _Stopwatch()
+    listener.on_stage("load")
     asset = load_asset(job.input, options.load)
     clock.lap("load")
     own_handles = load_handles(options.templates) if options.templates else {}
@@ -129,8 +148,10 @@ def _functionalize(job: Job) -> "tuple[Report, bytes]":
         config = options.settings.pipeline(own_handles)
     motion = options.motion
     source = prediction_for(motion, job.name, options.alone) if motion.source.is_foreign else motion.source
-    result = functionalize(asset, source, open_gallery(options.templates), config)
+    result = functionalize(asset, source, open_gallery(options.templates), config, listener.on_stage)
     clock.lap("functionalize")
+    listener.on_stage("export")
+    listener.on_object(result.object)
     files = export(result.object, options.formats)
     clock.lap("export")
     outside = {name: seconds for name, seconds in clock.seconds.items() if name != "functionalize"}
@@ -141,7 +162,8 @@ def _functionalize(job: Job) -> "tuple[Report, bytes]":
         clock.lap("page")
         timings = {**report.timings, "page": round(clock.seconds["page"], 4)}
         report = report.model_copy(update={"timings": timings})
-    write_files(files.joined(_json_files(result, report)), job.folder, options.overwrite)
+    listener.on_stage("write")
+    write_files(files.joined(_json_files(result, report, options)), job.folder, options.overwrite)
     return report, picture
 
 
@@ -174,9 +196,28 @@ def _require_absent(job: Job) -> None:
         raise ExportError(f"the output `{job.folder}` exists already: choose another --out, or give --overwrite")
 
 
-def _json_files(result: "Functionalized", report: "Report") -> "ExportFiles":
+def _json_files(result: "Functionalized", report: "Report", options: JobOptions) -> "ExportFiles":
     from grafu.export.files import ExportFiles
     from grafu.graph.serialize import completion_to_json, dump_json
 
-    graph = dump_json(completion_to_json(result.completion))
-    return ExportFiles({"graph.json": graph.encode(), "report.json": dump_json(report.to_json()).encode()})
+    texts = {
+        "graph.json": dump_json(completion_to_json(result.completion)),
+        "report.json": dump_json(report.to_json()),
+    }
+    settings = _settings(options)
+    if settings is not None:
+        texts["settings.json"] = dump_json(settings.to_json())
+    return ExportFiles({name: text.encode() for name, text in texts.items()})
+
+
+def _settings(options: JobOptions) -> "Settings | None":
+    """Returns what was chosen, for `--settings`; None where motions are another system's: no setting names these."""
+    from grafu.pipeline.addition_config import AdditionConfig
+    from grafu.pipeline.settings import Reading, Settings
+
+    if options.settings is not None or options.motion.source.is_foreign:
+        return options.settings
+    load = options.load
+    reading = Reading(load.up, load.front, load.scale, load.height, load.labels)
+    additions = options.additions or AdditionConfig()
+    return Settings(options.motion.source, reading, options.trim, additions=additions)

@@ -1,0 +1,103 @@
+"""A folder that `grafu functionalize` wrote, read back: the object, its report, and what a change of it needs.
+
+It changes nothing and runs nothing.
+"""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import final
+
+from pydantic import ValidationError
+
+from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.errors import OptionError, UnreadableAsset
+from grafu.export.glb_object import read_glb_object
+from grafu.pipeline.report_schema import Report
+from grafu.pipeline.settings import Reading, Settings, settings_from_json
+
+REPORT, MODEL, SETTINGS, SOURCE = "report.json", "model.glb", "settings.json", "source.glb"
+_NAMED = 4  # results of a folder that a refusal names
+
+
+@final
+@dataclass(frozen=True)
+class ResultFolder:
+    """What a folder of results holds.
+
+    `source` is the input that was functionalized, None where it is gone; `settings` what was chosen for it. Where a
+    change cannot be built from them `fixed` says why, in one line; it is empty otherwise.
+    """
+
+    object: ArticulatedObject
+    report: Report
+    settings: Settings
+    source: Path | None
+    fixed: str = ""
+
+
+def read_result(folder: Path) -> ResultFolder:
+    """Returns what a folder of results holds.
+
+    `settings.json` states what was chosen; without it the settings are those that read the input as it was read. The
+    input is `source.glb` in the folder, else the file that the report names: if its path is relative, from the working
+    folder or from one above the results.
+
+    Raises:
+        UnreadableAsset: if it is no such folder, or its files are damaged or of different runs.
+        OptionError: if its settings are wrong.
+    """
+    _require_result(folder)
+    try:
+        report = Report.model_validate_json((folder / REPORT).read_bytes())
+    except (OSError, ValidationError) as error:
+        raise UnreadableAsset(f"{folder / REPORT} is no report of grafu: {_first_line(error)}") from None
+    made = read_glb_object(folder / MODEL)
+    if {joint.id for joint in made.moving_joints} != {joint.id for joint in report.joints}:
+        raise UnreadableAsset(f"{MODEL} and {REPORT} in {folder} are of different runs: their joints differ")
+    source = _source_of(folder, report)
+    return ResultFolder(made, report, _settings_of(folder, report), source, _why_fixed(report, source))
+
+
+def _require_result(folder: Path) -> None:
+    if not folder.is_dir():
+        raise UnreadableAsset(f"a result is a folder that `grafu functionalize` wrote: {folder} is none")
+    missing = [name for name in (REPORT, MODEL) if not (folder / name).is_file()]
+    if not missing:
+        return
+    inside = sorted(report.parent.name for report in folder.glob(f"*/{REPORT}"))
+    if REPORT in missing and inside:
+        named = ", ".join(inside[:_NAMED]) + (", ..." if len(inside) > _NAMED else "")
+        raise UnreadableAsset(f"{folder} holds {len(inside)} results: choose one of its folders ({named})")
+    hint = "run again with --formats glb" if missing == [MODEL] else "choose one that `grafu functionalize` wrote"
+    raise UnreadableAsset(f"{folder} is no folder of a result, for it has no {' and no '.join(missing)}: {hint}")
+
+
+def _settings_of(folder: Path, report: Report) -> Settings:
+    path = folder / SETTINGS
+    if path.is_file():
+        try:
+            return settings_from_json(json.loads(path.read_text(encoding="utf-8")))
+        except (OSError, ValueError) as error:
+            raise OptionError(f"{path} is no settings file: {_first_line(error)}") from None
+    frame, source = report.frame, report.motion.source
+    reading = Reading(up=frame.up, front=frame.front, scale=frame.scale)
+    return Settings(reading=reading) if source.is_foreign else Settings(source, reading)
+
+
+def _source_of(folder: Path, report: Report) -> Path | None:
+    kept, named = folder / SOURCE, Path(report.input.path)
+    above = [] if named.is_absolute() else [parent / named for parent in folder.resolve().parents]
+    return next((path.resolve() for path in (kept, named, *above) if path.exists()), None)
+
+
+def _why_fixed(report: Report, source: Path | None) -> str:
+    if source is None:
+        return f"it cannot be changed: its input is gone, neither {SOURCE} nor {report.input.path} is there"
+    if report.motion.source.is_foreign:
+        return f"it cannot be changed: its motions came from {report.motion.source}, whose file is not in the folder"
+    return ""
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).splitlines()[0]
