@@ -96,6 +96,19 @@ def test_a_model_that_fails_is_said_and_stops_no_other(
     assert "broken" in (out / "tables" / "index.md").read_text()
 
 
+def test_a_file_in_place_of_the_folder_is_said_before_any_work(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("grafu.cli.evaluate_run.run_all", lambda *_: pytest.fail("work was begun"))
+    (tmp_path / "out").write_text("mine")
+    for more in ([], ["--overwrite"]):
+        assert main(command(data, tmp_path / "out", *more)) == 2
+        said = capsys.readouterr().err
+        assert "choose another --out" in said
+        assert said.count("\n") == 1
+    assert (tmp_path / "out").read_text() == "mine"
+
+
 @pytest.mark.parametrize(
     ("more", "says"),
     [
@@ -103,7 +116,10 @@ def test_a_model_that_fails_is_said_and_stops_no_other(
         (["--methods", "particulate"], "particulate:DIR"),
         (["--tables", "motion,poem"], "a table must be one of"),
         (["--methods", "annotation", "--tables", "masking"], "needs the method network or rule"),
-        (["--methods", "rule,rule"], "each once"),
+        (["--methods", "rule,rule"], "methods must be one or more, each once: got rule, rule"),
+        (["--methods", ""], "methods must be one or more, each once: got none"),
+        (["--methods", "rule,urdf:nowhere"], "`nowhere` of the method urdf must be a folder"),
+        (["--data", "synth:1:99999999999"], "at most 1,000,000 models are made"),
         (["--data", "nowhere"], "does not exist"),
     ],
 )

@@ -11,7 +11,7 @@ from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.methods import Method
 from grafu.evaluation.perform import perform
 from grafu.evaluation.records import MadeFacts, Row
-from grafu.evaluation.rows import append_rows, done, read_rows
+from grafu.evaluation.rows import append_rows, begin_rows, done, read_rows
 from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, TwinTask, key_of
 
 
@@ -21,9 +21,11 @@ def row(key: str, value: float = 1.0, error: str = "") -> Row:
 
 def test_what_was_appended_is_read(tmp_path: Path) -> None:
     file = tmp_path / "deep" / "rows.jsonl"
+    assert begin_rows(file) == {}
     append_rows(file, [row("a"), row("b", 2.0)])
     append_rows(file, [row("a", 3.0)])
-    assert read_rows(file) == {"a": row("a", 3.0), "b": row("b", 2.0)}
+    assert read_rows(file) == begin_rows(file) == {"a": row("a", 3.0), "b": row("b", 2.0)}
+    assert begin_rows(file, anew=True) == read_rows(file) == {}
 
 
 def test_nothing_was_read_where_nothing_is(tmp_path: Path) -> None:
@@ -65,6 +67,10 @@ def test_a_file_that_cannot_be_written_is_said_plainly(tmp_path: Path) -> None:
         append_rows(tmp_path, [row("a")])
     with pytest.raises(ExportError, match="cannot be read"):
         read_rows(tmp_path)
+    (tmp_path / "file").write_text("mine")
+    for anew in (True, False):
+        with pytest.raises(ExportError, match=r"cannot write into `.*file`.*choose another --out"):
+            begin_rows(tmp_path / "file" / "rows.jsonl", anew)
 
 
 def test_a_key_says_all_that_determines_a_task(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import io
 import json
 import random
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -17,7 +18,7 @@ from grafu.evaluation.methods import Method
 from grafu.evaluation.models_table import models_table
 from grafu.evaluation.motion_table import motion_table
 from grafu.evaluation.ood_table import ood_table
-from grafu.evaluation.output import output_files
+from grafu.evaluation.output import build_tables, output_files
 from grafu.evaluation.plan import TABLES, EvaluationPlan
 from grafu.evaluation.records import (
     CompletenessRecord,
@@ -113,6 +114,10 @@ def results() -> Results:
     return collect(rows, {r.key: r for r in rows.values()})
 
 
+def written(plan: EvaluationPlan, found: Results) -> dict[str, bytes]:
+    return output_files(plan, found, build_tables(plan, found), "grafu evaluate --data data")
+
+
 def test_objects_come_first_and_a_failure_counts_as_standing_still() -> None:
     outcomes = results().outcomes("rule")
     aligned = over_objects(outcomes, "aligned")
@@ -142,26 +147,28 @@ def test_a_twin_and_the_physical_test_make_motions_reasonable() -> None:
     assert aligned is not None
     assert with_twins is not None
     assert with_twins.value == pytest.approx(aligned.value + 0.25 / 3)
-    plausible = PartRecord(part="door_3", raw=measure(RIGHT, aligned=False), plausible=True)
     outcome = next(o for o in lent.outcomes("rule") if o.truth.part == "door_3" and o.model == MODELS[1].id)
     assert not outcome.aligned
     assert outcome.agrees_with_a_twin
-    assert plausible.plausible
+    assert outcome.reasonable
+    alone = replace(outcome, alternatives=())
+    assert not alone.reasonable
+    assert replace(alone, record=outcome.record.model_copy(update={"plausible": True})).reasonable
 
 
 def test_the_order_of_rows_changes_no_byte() -> None:
     rows = run_of_three()
     plan = EvaluationPlan("data", MODELS, (RULE, NETWORK), TABLES, 2, 4)
-    expected = output_files(plan, collect(rows, {r.key: r for r in rows.values()}), "the command")
+    expected = written(plan, collect(rows, {r.key: r for r in rows.values()}))
     shuffled = list(rows.values())
     random.Random(4).shuffle(shuffled)
-    assert output_files(plan, collect(rows, {r.key: r for r in shuffled}), "the command") == expected
+    assert written(plan, collect(rows, {r.key: r for r in shuffled})) == expected
     assert set(expected) == {"index.md", *(f"{t}.{form}" for t in TABLES for form in FORMS)}
 
 
 def test_the_page_says_the_command_the_failures_and_every_table() -> None:
     plan = EvaluationPlan("data", MODELS, (RULE,), TABLES, 2, 4)
-    index = output_files(plan, results(), "grafu evaluate --data data")["index.md"].decode()
+    index = written(plan, results())["index.md"].decode()
     assert "grafu evaluate --data data" in index
     assert "it did not work" in index
     assert all(f"{table}.md" in index for table in TABLES)

@@ -12,6 +12,7 @@ from grafu.cli.pool import CRASHED, run_all
 from grafu.cli.progress import with_progress
 from grafu.cli.run_page import RUN_PAGE
 from grafu.cli.tables import plain_table, wide_console
+from grafu.errors import OptionError
 from grafu.evaluation.bootstrap import Figure
 from grafu.evaluation.dataset import find_models
 from grafu.evaluation.methods import parse_method
@@ -20,7 +21,7 @@ from grafu.evaluation.perform import failed, perform
 from grafu.evaluation.plan import EvaluationPlan
 from grafu.evaluation.records import Row
 from grafu.evaluation.results import Results, collect
-from grafu.evaluation.rows import NAME, append_rows, done, read_rows
+from grafu.evaluation.rows import NAME, append_rows, begin_rows, done
 from grafu.evaluation.table import Table
 from grafu.evaluation.table_forms import shown
 from grafu.evaluation.tasks import Task, key_of
@@ -39,9 +40,7 @@ def run_evaluation(options: argparse.Namespace) -> int:
     """
     plan = _plan(options)
     file = options.out / NAME
-    if options.overwrite:
-        file.unlink(missing_ok=True)
-    rows = read_rows(file)
+    rows = begin_rows(file, anew=options.overwrite)
     jobs = options.jobs or os.cpu_count() or 1
     try:
         first = plan.first_tasks()
@@ -52,16 +51,19 @@ def run_evaluation(options: argparse.Namespace) -> int:
         complain(f"interrupted; {len(rows)} rows stand in {file}, and the same command goes on")
         return EXIT_INTERRUPTED
     results = collect((*first, *pairs), rows)
-    files = ExportFiles(output_files(plan, results, _command(options)))
+    tables = build_tables(plan, results)
+    files = ExportFiles(output_files(plan, results, tables, _command(options)))
     write_files(files, options.out / "tables", overwrite=True)
-    title = f"Evaluation on {plan.data}"
-    write_whole(evaluation_page(title, build_tables(plan, results)), options.out / RUN_PAGE)
-    _say(plan, results, options.out)
+    write_whole(evaluation_page(f"Evaluation on {plan.data}", tables), options.out / RUN_PAGE)
+    _say(tables, results, options.out)
     return EXIT_FAILED if results.failures else EXIT_DONE
 
 
 def _plan(options: argparse.Namespace) -> EvaluationPlan:
     methods = tuple(parse_method(word) for word in _words(options.methods))
+    absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
+    if absent is not None:
+        raise OptionError(f"`{absent.folder}` of the method {absent.name} must be a folder with an entry per model id")
     return EvaluationPlan(options.data, find_models(options.data), methods, _words(options.tables), options.seeds)
 
 
@@ -86,8 +88,8 @@ def _command(options: argparse.Namespace) -> str:
     return shlex.join([*words, "--seeds", str(options.seeds), "--out", str(options.out)])
 
 
-def _say(plan: EvaluationPlan, results: Results, out: Path) -> None:
-    motion = next((table for table in build_tables(plan, results) if table.name == "motion"), None)
+def _say(tables: Sequence[Table], results: Results, out: Path) -> None:
+    motion = next((table for table in tables if table.name == "motion"), None)
     if motion is not None:
         _print_motion(motion)
     for failure in results.failures:

@@ -27,6 +27,7 @@ KINDS: Final[tuple[ModelKind, ...]] = get_args(ModelKind)
 TEST_SEED = 990_002  # of the made furniture that nothing is trained on or chosen by
 _MADE = "synth"
 _TEST_COUNT = 100
+_MOST_MADE = 1_000_000  # more are a slip of the pen: a month of work
 _READERS: Final[dict[str, ModelKind]] = {
     "partnet-mobility": "partnet-mobility",
     "hssd": "hssd",
@@ -86,7 +87,7 @@ def find_models(data: str | Path, split: str = "") -> tuple[ModelRef, ...]:
         split: the name of a split of a release (`full_split`): only its test models. Other datasets have none.
 
     Raises:
-        OptionError: if `synth:...` is not two numbers.
+        OptionError: if `synth:...` is not two numbers, or asks for too many.
         AssetError: if there is nothing that is read, or no such split.
     """
     if str(data) == _MADE or str(data).startswith(f"{_MADE}:"):
@@ -177,6 +178,8 @@ def _made_models(data: str) -> tuple[ModelRef, ...]:
     if len(numbers) != 2 or not all(n.isascii() and n.isdigit() for n in numbers) or int(numbers[1]) < 1:
         raise OptionError(f"made furniture must be asked for as {_MADE}:SEED:COUNT: got {data!r}")
     seed, size = (int(n) for n in numbers)
+    if size > _MOST_MADE:
+        raise OptionError(f"at most {_MOST_MADE:,} models are made: got {data!r}")
     return tuple(ModelRef(f"synth_{seed}_{k:07d}", "made", seed=seed, number=k) for k in range(size))
 
 

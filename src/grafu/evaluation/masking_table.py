@@ -5,7 +5,7 @@ from statistics import fmean, stdev
 
 from grafu.evaluation.bootstrap import Figure, difference_of, mean_of
 from grafu.evaluation.figures import by_object
-from grafu.evaluation.published import MASKING, SOURCE
+from grafu.evaluation.published import MASKING, MODELS, SOURCE
 from grafu.evaluation.results import PartOutcome, Results
 from grafu.evaluation.table import Cell, Column, Table
 
@@ -81,7 +81,7 @@ def _better(later: Mapping[str, float], earlier: Mapping[str, float], better: st
 
 def _published() -> list[tuple[Cell, ...]]:
     rows: list[tuple[Cell, ...]] = []
-    for place, (data, models) in enumerate((("PN-M", 345), ("HSSD", 50))):
+    for place, (data, models) in enumerate(MODELS.items()):
         for rate, figures in MASKING.items():
             rows.append((f"GraFu ({SOURCE}, {data})", rate, 5, models, *figures[place], None, None, None))
     return rows

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from grafu.evaluation.measures import OPENS
 from grafu.evaluation.results import PartOutcome, Results
 from grafu.evaluation.table import Cell, Column, Table
 
@@ -69,6 +70,6 @@ def _faults_of(outcome: PartOutcome) -> list[str]:
         told.append(f"collides in {fixed.collision:.0%} of the poses")
     if not fixed.connected:
         told.append("comes loose")
-    if fixed.aligned and fixed.opening < 0.7:
+    if fixed.aligned and fixed.opening < OPENS:
         told.append(f"opens to {fixed.opening:.0%}")
     return told

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from grafu.evaluation.figures import over_objects, over_parts
-from grafu.evaluation.published import MOTION, SOURCE, PublishedMotion
+from grafu.evaluation.published import MODELS, MOTION, SOURCE, PublishedMotion
 from grafu.evaluation.results import PartOutcome, Results
 from grafu.evaluation.table import Cell, Column, Table
 
@@ -72,6 +72,5 @@ def _published_row(row: PublishedMotion) -> tuple[Cell, ...]:
         "connected": row.connected,
         "connected_fixed": row.connected_fixed,
     }
-    models = 345 if row.data == "PN-M" else 50
     figures = (known.get(column.name) for column in _FIGURES)
-    return (f"{row.method} ({SOURCE})", row.data, "objects", models, None, *figures)
+    return (f"{row.method} ({SOURCE})", row.data, "objects", MODELS[row.data], None, *figures)

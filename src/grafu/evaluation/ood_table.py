@@ -64,5 +64,5 @@ def _correlation(distances: dict[str, float], success: dict[str, float]) -> str:
         return "too few models"
     far, good = np.array(both).T
     if np.ptp(good) == 0 or np.ptp(far) == 0:
-        return "none, for all are equally good"
+        return "none, for all are equally good or equally far"
     return f"{float(spearmanr(far, good).statistic):+.2f}"

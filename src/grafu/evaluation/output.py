@@ -55,9 +55,8 @@ def build_tables(plan: EvaluationPlan, results: Results) -> tuple[Table, ...]:
     return tuple(found)
 
 
-def output_files(plan: EvaluationPlan, results: Results, command: str) -> dict[str, bytes]:
+def output_files(plan: EvaluationPlan, results: Results, tables: tuple[Table, ...], command: str) -> dict[str, bytes]:
     """Returns each file's bytes by its name: `index.md`, and `<table>.md`, `.csv`, `.json` and `.tex` of each table."""
-    tables = build_tables(plan, results)
     files = {f"{table.name}.{form}": write(table).encode() for table in tables for form, write in FORMS.items()}
     return {"index.md": _index(plan, results, tables, command).encode(), **files}
 

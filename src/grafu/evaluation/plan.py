@@ -35,9 +35,10 @@ class EvaluationPlan:
     training: int = TRAINING_COUNT
 
     def __post_init__(self) -> None:
-        for name, values in (("models", self.models), ("methods", self.methods), ("tables", self.tables)):
+        named = ("models", [m.id for m in self.models]), ("methods", [m.spelled for m in self.methods])
+        for name, values in (*named, ("tables", list(self.tables))):
             if not values or len(set(values)) < len(values):
-                raise OptionError(f"`{name}` must be one or more, each once: got {list(values)}")
+                raise OptionError(f"{name} must be one or more, each once: got {', '.join(values) or 'none'}")
         unknown = [table for table in self.tables if table not in TABLES]
         if unknown:
             raise OptionError(f"a table must be one of {', '.join(TABLES)}: got `{unknown[0]}`")

@@ -31,6 +31,21 @@ def read_rows(path: Path) -> dict[str, Row]:
     return found
 
 
+def begin_rows(path: Path, anew: bool = False) -> dict[str, Row]:
+    """Returns the rows of a run that goes on, none of one that begins `anew`; its folder is there then.
+
+    Raises:
+        ExportError: if the folder cannot be made, or the file cannot be read, or taken away.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if anew:
+            path.unlink(missing_ok=True)
+    except OSError as error:
+        raise ExportError(f"cannot write into `{path.parent}` ({error.strerror}): choose another --out") from None
+    return read_rows(path)
+
+
 def append_rows(path: Path, rows: Iterable[Row]) -> None:
     """Adds rows at the end of a file, each with its line break, after whatever half a line a killed run left.
 
@@ -39,7 +54,6 @@ def append_rows(path: Path, rows: Iterable[Row]) -> None:
     """
     text = "".join(f"{row.model_dump_json()}\n" for row in rows)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("a+b") as file:
             if file.seek(0, 2) > 0:
                 file.seek(-1, 2)

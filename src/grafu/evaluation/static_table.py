@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from grafu.evaluation.bootstrap import Figure, mean_of, ratio_of
-from grafu.evaluation.published import HANDLES, INTERIORS, SOURCE, TOPS
+from grafu.evaluation.published import HANDLES, INTERIORS, MODELS, SOURCE, TOPS
 from grafu.evaluation.records import CompletenessRecord
 from grafu.evaluation.results import Results
 from grafu.evaluation.table import Cell, Column, Table
@@ -78,6 +78,6 @@ def _published() -> list[tuple[Cell, ...]]:
     method = f"GraFu ({SOURCE})"
     return [
         (method, "topless models with a top", None, None, TOPS),
-        (method, "models paired with graspable handles", 345, None, HANDLES),
+        (method, "models paired with graspable handles", MODELS["PN-M"], None, HANDLES),
         (method, "models whose compartments are furnished", 268, None, INTERIORS),
     ]
