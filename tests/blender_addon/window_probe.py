@@ -63,6 +63,8 @@ def functionalized(hand):
     yield 1.0
     FACTS["drawn while it ran"] = hand.drawn["GRAFU_PT_main"] - before
     FACTS["ended"] = [session().status, len(session().joints), len(session().sources)]
+    if not session().has_result:
+        raise RuntimeError(f"no result: {session().status}")
 
 
 def changed(hand):

@@ -96,3 +96,14 @@ def test_functions_are_themselves():
     assert content_key(len) == content_key(len)
     assert content_key(len) != content_key(max)
     assert content_key(replace(AUTOMATIC)) == content_key(AUTOMATIC)
+
+
+def test_slotted_dataclasses_of_a_python_that_leaves_a_foreign_descriptor_in_them_have_keys():
+    @dataclass(frozen=True, slots=True)
+    class Slotted:  # as Python 3.11.0 to 3.11.2 make it, whose `__weakref__` is of another class
+        size: int
+
+    Slotted.__weakref__ = vars(type("Other", (), {}))["__weakref__"]
+    with pytest.raises(TypeError):
+        hasattr(Slotted(1), "__weakref__")
+    assert content_key(Slotted(1)) == content_key(Slotted(1)) != content_key(Slotted(2))

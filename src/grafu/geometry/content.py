@@ -22,7 +22,7 @@ def content_key(value: object) -> bytes:
     Fields that begin with `_` are left out: they hold what was worked out meanwhile. Values are taken to be frozen; the
     key of one that lives on is worked out once. What is known by which one it is must live as long as its key is used.
     """
-    remembers = is_dataclass(value) and hasattr(value, "__weakref__")
+    remembers = is_dataclass(value) and type(value).__weakrefoffset__ != 0  # asking for the attribute may raise
     if remembers and id(value) in _known:
         return _known[id(value)]
     key = _digest(value)
