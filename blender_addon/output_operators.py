@@ -1,27 +1,40 @@
 """Output: all checks again and every format into a folder, with the settings that give the same without Blender."""
 
 import json
+import shutil
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from . import objects, work
 from .boxes import remove_boxes
-from .run_operators import active_run
-from .state import session_of, settings_of
+from .run_operators import Applies, active_run
+from .state import session_of, settings_of, shown_slot, slots_in
+
+BLEND = "blend"
+FORMATS = [
+    ("glb", "GLB", "Animated, with its materials: any glTF viewer"),
+    ("urdf", "URDF", "Joints, masses and collision shapes: any robot simulator"),
+    (BLEND, "Blend", "A file of its own with every joint on one property"),
+    ("particulate", "Particulate", "The files that Particulate reads"),
+    ("singapo", "SINGAPO", "The files that SINGAPO reads"),
+]
 
 
-class GRAFU_OT_finalize(bpy.types.Operator):
-    """Runs `grafu functionalize` with what was chosen: files, report and settings go to a folder"""
+class GRAFU_OT_finalize(Applies, bpy.types.Operator):
+    """Runs everything once more from the start: files, report and settings go to a folder"""
 
     bl_idname = "grafu.finalize"
     bl_label = "Finalize"
-    bl_options = {"REGISTER", "UNDO"}
 
     directory: StringProperty(name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"})
-    formats: StringProperty(
-        name="Formats", description="Separated by commas", default="glb,urdf", options={"SKIP_SAVE"}
+    formats: EnumProperty(
+        name="Formats",
+        description="What to write; several with Shift",
+        items=FORMATS,
+        default={"glb", "urdf", BLEND},
+        options={"ENUM_FLAG", "SKIP_SAVE"},
     )
     name: StringProperty(name="Name", description="Of the results: FOLDER/NAME", default="model", options={"SKIP_SAVE"})
     overwrite: BoolProperty(
@@ -33,7 +46,7 @@ class GRAFU_OT_finalize(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Whether there is a result."""
+        """Whether there is a result, and nothing runs."""
         return active_run() is None and session_of(context).has_result
 
     def invoke(self, context, event):
@@ -42,43 +55,67 @@ class GRAFU_OT_finalize(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context):
-        """Writes; the window waits, for it is the last step."""
+        """Starts; in a window the rest goes on behind it."""
         session = session_of(context)
-        name = bpy.path.clean_name(self.name) or "model"
-        run = work.Command()
+        self._scene, self._slot = context.scene.name, shown_slot(context)
+        self._run = work.Command()
         try:
-            sources = objects.sources_of(session)
-            if not sources:
-                raise work.Failed("the objects that were handed over are gone")
-            source, settings = run.folder / f"{name}.glb", run.folder / "settings.json"
-            objects.export_sources(context, sources, source)
-            settings.write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
-            run.start("grafu.cli.main", self._arguments(source, settings))
-            run.wait()
-            run.require_success()
-            target = Path(bpy.path.abspath(self.directory)) / name
-            (target / "source.glb").write_bytes(source.read_bytes())
-            (target / "settings.json").write_bytes(settings.read_bytes())
-            report = json.loads((target / "report.json").read_text(encoding="utf-8"))
+            self._start(context, session)
         except (work.Failed, OSError, RuntimeError) as error:
-            session.status = str(error)
-            self.report({"WARNING"}, session.status)
-            return {"CANCELLED"}
-        finally:
-            run.close()
-        if self.clean:
+            self._run.close()
+            return self._refused(context, str(error))
+        return self._launched(context)
+
+    def _start(self, context, session) -> None:
+        sources, folder = objects.sources_of(session), self._run.folder
+        if not sources:
+            raise work.Failed("the objects that were handed over are gone")
+        self._source = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"
+        self._target = Path(bpy.path.abspath(self.directory)).absolute() / self._source.stem
+        objects.export_sources(context, sources, self._source)
+        settings, order = folder / "settings.json", folder / "order.json"
+        settings.write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
+        wanted = {
+            "source": str(self._source),
+            "settings": str(settings),
+            "out": str(self._target.parent),
+            "formats": [name for name, *_ in FORMATS if name in self.formats and name != BLEND],
+            "overwrite": self.overwrite,
+            "object": str(folder / "object.packed"),
+        }
+        order.write_text(json.dumps(wanted))
+        self._run.start("grafu.cli.finalize", [str(order)])
+
+    def _shown(self, context):
+        scene = bpy.data.scenes.get(self._scene)
+        session = slots_in(scene)[self._slot] if scene is not None else None
+        try:
+            if BLEND in self.formats:
+                self._save_blend()
+            for name in (self._source.name, "settings.json"):
+                end = "source.glb" if name == self._source.name else name
+                shutil.copyfile(self._run.folder / name, self._target / end)
+            report = json.loads((self._target / "report.json").read_text(encoding="utf-8"))
+        except (OSError, RuntimeError) as error:
+            return self._refused(context, f"written to {self._target}, but not whole: {error}")
+        if self.clean and session is not None:
             remove_boxes(session)
-            for source in sources:
+            for source in objects.sources_of(session):
                 bpy.data.objects.remove(source)
             session.sources.clear()
-        session.status = f"written to {target}: {_verdict(report)}"
-        self.report({"INFO"}, session.status)
+        said = f"written to {self._target}: {_verdict(report)}"
+        if session is not None:
+            session.status = said
+        self.report({"INFO"}, said)
         return {"FINISHED"}
 
-    def _arguments(self, source, settings) -> list:
-        out = bpy.path.abspath(self.directory)
-        given = ["functionalize", str(source), "--settings", str(settings), "--out", out, "--formats", self.formats]
-        return [*given, "--overwrite"] if self.overwrite else given
+    def _save_blend(self) -> None:
+        """Writes `model.blend` with this Blender: no other is needed."""
+        from grafu.export.blend.objects import save_object
+
+        made = self._run.folder / "model.blend"
+        save_object(self._run.result(), made)
+        shutil.move(made, self._target / made.name)
 
 
 def _verdict(report) -> str:

@@ -126,7 +126,7 @@ def main():
     view(grafu)
     saved(grafu)
     without_top(grafu)
-    step("finalize", grafu.finalize, directory=out, name="final", formats="glb,urdf")
+    step("finalize", grafu.finalize, directory=out, name="final", formats={"glb", "urdf", "blend"})
     blender_addon.unregister()
     blender_addon.register()
     blender_addon.unregister()

@@ -72,3 +72,4 @@ def test_an_object_is_saved_alone_and_what_was_there_stays(beside, interpreter, 
     assert found["scene"] == (0, 100, "METRIC", 1.0)
     assert len(found["objects"]) == 9 + 3 + 2  # meshes, links, joints, and nothing of the others'
     assert_posed(found, found["frames"][50], cabinet, {"door_1_hinge": 1.75, "drawer_1_rail": 0.28})
+    assert "door_1" in found["objects"]  # as if no namesake stood beside it

@@ -3,6 +3,8 @@
 It works in any scene, beside whatever is there. It reads and writes no files.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, final
@@ -33,6 +35,14 @@ from grafu.export.blend.mesh_arrays import Look, MeshArrays, mesh_arrays
 
 _ARROW_SHARE = 0.15  # of the largest side: seen beside a door, and no longer than it
 _MARK_SHARE = 0.03
+_NAMED = (
+    "scenes",
+    "collections",
+    "objects",
+    "meshes",
+    "materials",
+    "actions",
+)  # images keep theirs: some are Blender's
 
 
 @final
@@ -71,20 +81,35 @@ def set_scene(scene: Any) -> None:
 def save_object(articulated: ArticulatedObject, path: Path) -> None:
     """Writes an object into a `.blend` of its own, from a Blender that holds other things, and leaves these alone.
 
-    What Blender already has a namesake of gets a number behind its name in the file.
+    In the file everything has its own name, whatever namesakes there are.
 
     Raises:
         ArticulationError: if joints wait for one another.
         RuntimeError: if Blender cannot write the file.
     """
-    scene = bpy.data.scenes.new(fitted_name(articulated.name, 4))
-    built = build_object(articulated, scene)
+    with _names_set_aside():
+        scene = bpy.data.scenes.new(fitted_name(articulated.name, 4))
+        built = build_object(articulated, scene)
+        try:
+            set_scene(scene)
+            bpy.data.libraries.write(str(path), {scene}, compress=True)
+        finally:
+            remove_object(built.collection)
+            bpy.data.scenes.remove(scene)
+
+
+@contextmanager
+def _names_set_aside() -> Iterator[None]:
+    """Lets whatever Blender holds go by other names for a while, but for what it has from other files."""
+    kinds = (getattr(bpy.data, kind) for kind in _NAMED)
+    named = [(one, one.name) for kind in kinds for one in kind if one.library is None]
+    for number, (one, _) in enumerate(named):
+        one.name = f"set aside {number}"
     try:
-        set_scene(scene)
-        bpy.data.libraries.write(str(path), {scene}, compress=True)
+        yield
     finally:
-        remove_object(built.collection)
-        bpy.data.scenes.remove(scene)
+        for one, name in named:
+            one.name = name
 
 
 def remove_object(collection: Any) -> None:

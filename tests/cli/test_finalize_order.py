@@ -1,0 +1,58 @@
+"""A job for another program: its stages, what the command writes, the object; or one line that says why not."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from grafu.cli.main import main
+from grafu.export.blend.transport import unpacked
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import Settings
+from grafu.realization.plan import JointChoice
+
+SAMPLE = Path(__file__).parents[2] / "samples" / "chest.glb"
+SETTINGS = Settings(motion=MotionSource.RULE).with_joint("lid", JointChoice(count=2))
+
+
+def finalized(folder: Path, **changes) -> tuple[int, list[str]]:
+    order = {
+        "source": str(SAMPLE),
+        "settings": str(folder / "settings.json"),
+        "out": str(folder / "out"),
+        "formats": ["glb", "singapo"],
+        "overwrite": False,
+        "object": str(folder / "object.packed"),
+    }
+    (folder / "settings.json").write_text(json.dumps(SETTINGS.to_json()))
+    (folder / "order.json").write_text(json.dumps(order | changes))
+    command = [sys.executable, "-m", "grafu.cli.finalize", str(folder / "order.json")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    return done.returncode, done.stdout.splitlines()
+
+
+def test_it_writes_what_the_command_writes_and_hands_the_object_over(tmp_path):
+    code, said = finalized(tmp_path)
+    assert code == 0
+    stages = ["load", "parse", "complete", "plan", "body", "realize", "fittings", "export", "write"]
+    assert said == [*(f"stage {name}" for name in stages), "done"]
+    given = ["functionalize", str(SAMPLE), "--settings", str(tmp_path / "settings.json"), "--formats", "glb,singapo"]
+    assert main([*given, "--out", str(tmp_path / "command")]) == 0
+    ours, commands = tmp_path / "out" / "chest", tmp_path / "command" / "chest"
+    assert {p.name for p in ours.iterdir()} == {p.name for p in commands.iterdir()}
+    assert (ours / "model.glb").read_bytes() == (commands / "model.glb").read_bytes()
+    made = unpacked((tmp_path / "object.packed").read_bytes())
+    assert [joint.child for joint in made.moving_joints] == ["lid"]
+
+
+def test_what_is_wrong_is_one_line_and_nothing_is_written(tmp_path):
+    for changes, why in (
+        ({"formats": ["dxf"]}, "unknown format `dxf`"),
+        ({"source": str(tmp_path / "none.glb")}, "none.glb"),
+        ({"settings": str(tmp_path / "order.json")}, "settings must be"),
+    ):
+        code, said = finalized(tmp_path, **changes)
+        assert code == 2
+        assert said[-1].startswith("error ")
+        assert why in said[-1]
+        assert not (tmp_path / "out").exists()
