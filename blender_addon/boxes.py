@@ -14,7 +14,7 @@ def draw_boxes(session) -> None:
     collection = session.boxes = bpy.data.collections.new(_NAME)
     collection[KIND] = "compartments"
     scene.collection.children.link(collection)
-    root = next(o for o in objects.result_objects(session) if o.get(KIND) == "link" and o.parent is None)
+    root = objects.root_of(session)
     for number, compartment in enumerate(compartments_of(session)):
         collection.objects.link(_box(number, compartment["corners"], root.matrix_world))
 

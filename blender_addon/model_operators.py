@@ -1,12 +1,56 @@
-"""Several models in one scene: which one the sidebar shows, and one taken out again."""
+"""Models as wholes: one opened from a folder of results, which one the sidebar shows, one taken out again."""
+
+from pathlib import Path
 
 import bpy
-from bpy.props import IntProperty
+import mathutils
+from bpy.props import BoolProperty, IntProperty, StringProperty
 
 from . import objects
 from .boxes import remove_boxes
 from .run_operators import active_run
-from .state import clear_slot, fill_slot, session_of, shown_slot, slots_in
+from .state import clear_slot, fill_slot, free_slot, session_of, shown_slot, slots_in, store
+
+
+class GRAFU_OT_open_result(bpy.types.Operator):
+    """Opens a folder that GraFu wrote, with model.glb and report.json, as another model at the 3D cursor"""
+
+    bl_idname = "grafu.open_result"
+    bl_label = "Open result"
+    bl_options = {"REGISTER", "UNDO"}
+
+    directory: StringProperty(name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"})
+    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        """Whether nothing runs."""
+        return active_run() is None
+
+    def invoke(self, context, event):
+        """Asks for the folder."""
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        """Shows what the folder holds."""
+        from grafu.errors import FunctionalizationError
+        from grafu.pipeline.result_folder import read_result
+
+        try:
+            found = read_result(Path(bpy.path.abspath(self.directory)))
+        except FunctionalizationError as error:
+            session_of(context).status = str(error)
+            self.report({"WARNING"}, str(error))
+            return {"CANCELLED"}
+        session = fill_slot(context.scene, free_slot(context.scene))
+        session.source_file, session.fixed = str(found.source or ""), found.fixed
+        objects.show_result(session, found.object, mathutils.Matrix.Translation(context.scene.cursor.location))
+        unit = max(link.mesh.box.size.max() for link in found.object.links if len(link.mesh.faces))
+        store(session, found.settings, found.report.model_dump_json(by_alias=True), "", float(unit))
+        session.status = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
+        self.report({"INFO"}, session.status)
+        return {"FINISHED"}
 
 
 class GRAFU_OT_choose_model(bpy.types.Operator):
@@ -54,4 +98,4 @@ class GRAFU_OT_remove_model(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (GRAFU_OT_choose_model, GRAFU_OT_remove_model)
+CLASSES = (GRAFU_OT_open_result, GRAFU_OT_choose_model, GRAFU_OT_remove_model)

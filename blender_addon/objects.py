@@ -4,13 +4,15 @@ Results are found by their custom properties (docs/exports.md, `model.blend`), n
 """
 
 import json
+import shutil
+from pathlib import Path
 
 import bpy
 import mathutils
 
 from .state import ID, KIND
 
-OBJECT, JOINT = "object", "joint"  # values of the property `grafu`
+OBJECT, LINK, JOINT = "object", "link", "joint"  # values of the property `grafu`
 _UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))  # glTF's Y up to Blender's Z up
 
 
@@ -30,6 +32,23 @@ def common_holder(things) -> str:
 
 def _ancestors(thing) -> list:
     return [thing.parent, *_ancestors(thing.parent)] if thing.parent is not None else []
+
+
+def hand_over(context, sources, file: str, path: Path) -> Path:
+    """Writes mesh objects to `path`, a GLB, and returns it; or a copy of the GLB in `file`; or `file`, of another form.
+
+    Raises:
+        OSError: if the file is gone, or there are no objects.
+    """
+    if not file:
+        if not sources:
+            raise OSError("the objects that were handed over are gone")
+        export_sources(context, sources, path)
+        return path
+    given = Path(bpy.path.abspath(file))
+    if not given.exists():
+        raise OSError(f"the input of this result is gone: {given}")
+    return Path(shutil.copyfile(given, path)) if given.suffix.lower() == ".glb" else given
 
 
 def export_sources(context, objects, path) -> None:
@@ -83,17 +102,22 @@ def _swap_names(names) -> None:
         copy.name = named
 
 
-def show_result(session, articulated, input_to_output) -> None:
-    """Puts a model's result where its sources stand, in the place of the one before; the sources are hidden."""
+def place_of(input_to_output):
+    """Returns the pose of a result that stands where its sources do."""
+    return _UP @ mathutils.Matrix(input_to_output).inverted()
+
+
+def show_result(session, articulated, place) -> None:
+    """Puts a model's result where `place` says (None: where the one before stands), and hides its sources."""
     from grafu.export.blend.objects import build_object
 
     scene, marked = session.id_data, _marked(session)
+    place = root_of(session).matrix_world.copy() if place is None else place
     if not remove_result(session) and not any(c.get(KIND) == OBJECT for c in scene.collection.children):
         _set_frames(scene)
     built = build_object(articulated, scene)
     session.collection = built.collection
-    root = next(empty for empty in built.links.values() if empty.parent is None)
-    root.matrix_world = _UP @ mathutils.Matrix(input_to_output).inverted()
+    root_of(session).matrix_world = place
     for source in sources_of(session):
         source.hide_viewport = source.hide_render = True
     _mark_again(session, *marked)
@@ -146,6 +170,13 @@ def result_objects(session) -> list:
     """Returns all objects of a model's result."""
     collection = result_collection(session)
     return list(collection.all_objects) if collection is not None else []
+
+
+def root_of(session):
+    """Returns the empty of the result's root link: moving it moves the model."""
+    return next(
+        o for o in result_objects(session) if o.get(KIND) == LINK and (o.parent is None or KIND not in o.parent)
+    )
 
 
 def joint_empties(session) -> dict:

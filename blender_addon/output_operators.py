@@ -68,11 +68,11 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
 
     def _start(self, context, session) -> None:
         sources, folder = objects.sources_of(session), self._run.folder
-        if not sources:
-            raise work.Failed("the objects that were handed over are gone")
-        self._source = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"
+        if session.fixed:
+            raise work.Failed(session.fixed)
+        written = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"
+        self._source = objects.hand_over(context, sources, session.source_file, written)
         self._target = Path(bpy.path.abspath(self.directory)).absolute() / self._source.stem
-        objects.export_sources(context, sources, self._source)
         settings, order = folder / "settings.json", folder / "order.json"
         settings.write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
         wanted = {
@@ -92,9 +92,9 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         try:
             if BLEND in self.formats:
                 self._save_blend()
-            for name in (self._source.name, "settings.json"):
-                end = "source.glb" if name == self._source.name else name
-                shutil.copyfile(self._run.folder / name, self._target / end)
+            shutil.copyfile(self._run.folder / "settings.json", self._target / "settings.json")
+            if self._source.parent == self._run.folder:  # else it is the file that was given, where it was
+                shutil.copyfile(self._source, self._target / "source.glb")
             report = json.loads((self._target / "report.json").read_text(encoding="utf-8"))
         except (OSError, RuntimeError) as error:
             return self._refused(context, f"written to {self._target}, but not whole: {error}")

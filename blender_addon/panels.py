@@ -5,7 +5,7 @@ import bpy
 from .lists import LEVEL_ICONS
 from .objects import joint_empties
 from .run_operators import active_run
-from .state import session_of
+from .state import session_of, shown_slot, slots_in
 from .versions import draw_progress
 
 _LETTER = 5.6  # pixels of a letter in the sidebar's font, at Blender's usual size
@@ -39,12 +39,29 @@ class GRAFU_PT_main(_Panel, bpy.types.Panel):
             return
         column = layout.column(align=True)
         column.operator("grafu.functionalize", icon="PLAY")
+        column.operator("grafu.open_result", text="Open result ...", icon="FILE_FOLDER")
         if session.has_result:
-            column.operator("grafu.run_again", icon="FILE_REFRESH")
+            again = column.row(align=True)
+            again.enabled = not session.fixed
+            again.operator("grafu.run_again", icon="FILE_REFRESH")
+            column.operator("grafu.remove_model", icon="TRASH")
+            _draw_models(context, layout)
         elif not session.status:
             draw_text(context, layout, "Select the mesh objects of one piece of furniture: each is a part.")
         if session.status:
             draw_text(context, layout, session.status)
+
+
+def _draw_models(context, layout):
+    """Draws a button for each model, where there are several."""
+    slots = [(slot, one) for slot, one in enumerate(slots_in(context.scene)) if one.has_result]
+    if len(slots) < 2:
+        return
+    column, shown = layout.column(align=True), shown_slot(context)
+    for slot, one in slots:
+        title = one.collection.name if one.collection is not None else "model"
+        button = column.operator("grafu.choose_model", text=title, icon="OUTLINER_COLLECTION", depress=slot == shown)
+        button.slot = slot
 
 
 class GRAFU_PT_joints(_ResultPanel, bpy.types.Panel):
@@ -117,8 +134,9 @@ class GRAFU_PT_view(_ResultPanel, bpy.types.Panel):
         button = column.operator("grafu.colours", icon="COLOR", depress=session.colours)
         button.on = not session.colours
         shown = any(row.object is not None and not row.object.hide_viewport for row in session.sources)
-        button = column.operator("grafu.show_sources", text="What was handed over", icon="HIDE_OFF", depress=shown)
-        button.on = not shown
+        if session.sources:
+            button = column.operator("grafu.show_sources", text="What was handed over", icon="HIDE_OFF", depress=shown)
+            button.on = not shown
 
 
 class GRAFU_PT_additions(_ResultPanel, bpy.types.Panel):

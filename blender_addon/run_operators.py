@@ -52,6 +52,13 @@ class Applies:
         """Returns the objects to work on."""
         return objects.sources_of(session_of(context))
 
+    def file(self, context):
+        """Returns the file to work on instead of objects, of a model that was opened; empty: the objects."""
+        session = session_of(context)
+        if session.fixed:
+            raise work.Failed(session.fixed)
+        return session.source_file
+
     def slot(self, context):
         """Returns the place of the model's session among those of the scene."""
         return shown_slot(context)
@@ -72,12 +79,10 @@ class Applies:
             return self._refused(context, str(error))
         self._run = work.Run(self._settings)
         try:
-            sources = list(self.sources(context))
-            if not sources:
-                raise work.Failed("the objects that were handed over are gone")
+            sources, self._file = list(self.sources(context)), self.file(context)
             self._names = [source.name for source in sources]  # what is undone meanwhile makes other objects of them
-            self._run.source = self._run.folder / f"{bpy.path.clean_name(self.title(context)) or 'model'}.glb"
-            objects.export_sources(context, sources, self._run.source)
+            title = bpy.path.clean_name(self.title(context)) or "model"
+            self._run.source = objects.hand_over(context, sources, self._file, self._run.folder / f"{title}.glb")
             self._run.start()
         except (work.Failed, OSError, RuntimeError) as error:
             self._run.close()
@@ -135,7 +140,8 @@ class Applies:
         session.sources.clear()
         for name in self._names:
             session.sources.add().object = bpy.data.objects.get(name)
-        objects.show_result(session, made, after.frame.input_to_output)
+        session.source_file = self._file
+        objects.show_result(session, made, None if self._file else objects.place_of(after.frame.input_to_output))
         unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
         store(session, self._settings, self._run.text("report.json"), self._run.text("interior.json"), float(unit))
         session.colours = False
@@ -192,6 +198,10 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
     def sources(self, context):
         """Returns the selected objects."""
         return _selected(context)
+
+    def file(self, context):
+        """Returns none: the objects are worked on."""
+        return ""
 
     def slot(self, context):
         """Returns the place of the model that the objects are of, or that of a new one."""

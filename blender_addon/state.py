@@ -72,6 +72,8 @@ class GRAFU_Session(bpy.types.PropertyGroup):
 
     collection: PointerProperty(type=bpy.types.Collection, description="The result")
     boxes: PointerProperty(type=bpy.types.Collection, description="Its compartments, where they are shown")
+    source_file: StringProperty(description="The input, where it is a file and no objects")
+    fixed: StringProperty(description="Why nothing can be changed; empty: all can")
     settings_json: StringProperty()
     report_json: StringProperty()
     interior_json: StringProperty()

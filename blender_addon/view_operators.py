@@ -83,6 +83,9 @@ class GRAFU_OT_show_sources(_Shown, bpy.types.Operator):
     def execute(self, context):
         """Shows the one and hides the other."""
         session = session_of(context)
+        if not objects.sources_of(session):
+            self.report({"WARNING"}, "no objects were handed over: it was opened from a folder")
+            return {"CANCELLED"}
         for source in objects.sources_of(session):
             source.hide_viewport = source.hide_render = not self.on
         collection = objects.result_collection(session)
