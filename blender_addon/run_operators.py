@@ -228,7 +228,8 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
 
 
 def _selected(context):
-    return [o for o in context.selected_objects if o.type == "MESH" and "grafu" not in o]
+    """Returns the selected meshes that are no result's: these say so in words, a GLB of ours that was imported does not."""
+    return [o for o in context.selected_objects if o.type == "MESH" and not isinstance(o.get("grafu"), str)]
 
 
 class GRAFU_OT_run_again(Applies, bpy.types.Operator):

@@ -1,13 +1,15 @@
 """Uses the add-on in a real Blender window as somebody would; writes what it saw. It asserts nothing."""
 
 import json
+import os
+import signal
 from pathlib import Path
 
 import bpy
 from window_hand import ARGUMENTS, FOLDER, Hand, play
 
 import blender_addon
-from blender_addon import lists, panels, run_operators
+from blender_addon import lists, panels, run_operators, work
 
 FACTS: dict = {"version": list(bpy.app.version)}
 DIALOGS = ("set_joint", "set_handle", "set_top", "furnish", "set_label")
@@ -23,6 +25,8 @@ def script():
     bpy.ops.import_scene.gltf(filepath=ARGUMENTS[0])
     for one in bpy.data.objects:
         one.select_set(one.type == "MESH")
+        if one.name == "door_1":
+            one["grafu"] = {"role": "part"}  # as in a GLB that grafu wrote
     hand.call(bpy.ops.ed.undo_push, message="loaded")
     yield from hand.open_tab("GRAFU_PT_main")
     yield from stopped(hand)
@@ -44,9 +48,15 @@ def running():
     return run_operators.active_run() is not None
 
 
+def hold(signal_number=signal.SIGSTOP):
+    """Lets the process stand still amid a run, or go on: what happens meanwhile does not hang on how fast it is."""
+    os.kill(work._staying._running.pid, signal_number)
+
+
 def stopped(hand):
-    """Escape, early in a run."""
+    """Escape during a run."""
     hand.call(bpy.ops.grafu.functionalize, motion="rule")
+    hold()
     yield 0.5
     FACTS["was running"] = running()
     yield from hand.press("ESC")
@@ -57,8 +67,10 @@ def functionalized(hand):
     """A run to its end; what it works on is undone and done again meanwhile."""
     before = hand.drawn["GRAFU_PT_main"]
     FACTS["began"] = hand.call(bpy.ops.grafu.functionalize, motion="rule")
-    yield 0.3
+    hold()
+    yield 0.8
     FACTS["can begin another"] = bpy.ops.grafu.functionalize.poll()
+    hold(signal.SIGCONT)
     yield from hand.wait_while(running)
     yield 1.0
     FACTS["drawn while it ran"] = hand.drawn["GRAFU_PT_main"] - before
@@ -70,9 +82,11 @@ def functionalized(hand):
 def changed(hand):
     """A change that fits, with undo pressed while it is made; and one that does not."""
     hand.call(bpy.ops.grafu.set_joint, "EXEC_DEFAULT", part="door_1", template="piano")
+    hold()
     yield 0.3
     hand.call(bpy.ops.ed.undo_push, message="something else")
     hand.call(bpy.ops.ed.undo)
+    hold(signal.SIGCONT)
     yield from hand.wait_while(running)
     yield 1.0
     row = next(row for row in session().joints if row.part == "door_1")
@@ -112,7 +126,7 @@ def shown(hand):
 
 def finalized(hand):
     """Files, from the window."""
-    hand.call(bpy.ops.grafu.finalize, "EXEC_DEFAULT", directory=FOLDER, name="final", formats="glb")
+    hand.call(bpy.ops.grafu.finalize, "EXEC_DEFAULT", directory=FOLDER, name="final", formats={"glb"})
     yield from hand.wait_while(running)
     yield 0.5
     FACTS["finalized"] = [session().status, sorted(path.name for path in Path(FOLDER, "final").iterdir())]
@@ -121,6 +135,7 @@ def finalized(hand):
 def left(hand):
     """Another file is opened while a run goes on."""
     hand.call(bpy.ops.grafu.run_again)
+    hold()
     yield 0.3
     FACTS["left a run"] = running()
     bpy.ops.wm.read_homefile(use_empty=True)
