@@ -3,7 +3,8 @@
     python scripts/build_blender_addon.py [--python 3.11] [--platform PLATFORM ...] [--out dist]
 
 Wheels are fetched with pip, for Blender's Python (3.11 in 4.2 to 5.0), and are not kept. numpy is Blender's own: the
-others are chosen to go with its version. Without --platform the wheels are for the machine that builds.
+others are chosen to go with the oldest, that of 4.2, and go with the later ones too. Without --platform the wheels are
+for the machine that builds.
 """
 
 import argparse
@@ -16,8 +17,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "blender_addon"
-BUNDLED = ("numpy",)  # what every Blender brings
-NUMPY = "numpy==1.26.4"  # of Blender 4.5 and 5.0
+LEFT_OUT = (
+    "numpy",  # every Blender brings it
+    "cython",  # python-fcl names it, and needs it only where it is compiled
+    *("rich", "pygments", "markdown_it_py", "mdurl"),  # the command's tables; the add-on calls no command
+)
+OLDEST = ("numpy==1.24.3", "scipy<1.16", "shapely<2.1")
+"""numpy of Blender 4.2 and 4.3 (4.4 to 5.0 have 1.26.4), and the last of those that go with it: pip need not search."""
 _PLATFORMS = {"linux": "linux-x64", "manylinux": "linux-x64", "win": "windows-x64", "macosx": "macos-arm64"}
 
 
@@ -63,15 +69,15 @@ def _platforms(platforms: list[str]) -> list[str]:
 
 
 def _wheels(folder: Path, python: str, platforms: list[str]) -> list[str]:
-    """Fetches all wheels into a folder and returns their names, without what Blender brings."""
+    """Fetches all wheels into a folder and returns their names, without what is left out."""
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
     subprocess.run([*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", str(folder), str(ROOT)], check=True)
     (own,) = folder.glob("grafu-*.whl")
     wanted = ["--only-binary", ":all:", "--python-version", python, "--implementation", "cp"]
     wanted += [word for platform in platforms for word in ("--platform", platform)]
-    subprocess.run([*pip, "download", "--quiet", *wanted, "--dest", str(folder), str(own), NUMPY], check=True)
+    subprocess.run([*pip, "download", "--quiet", *wanted, "--dest", str(folder), str(own), *OLDEST], check=True)
     for wheel in folder.glob("*.whl"):
-        if wheel.name.lower().split("-")[0] in BUNDLED:
+        if wheel.name.lower().split("-")[0] in LEFT_OUT:
             wheel.unlink()
     return sorted(wheel.name for wheel in folder.glob("*.whl"))
 
