@@ -228,7 +228,7 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
 
 
 def _selected(context):
-    """Returns the selected meshes that are no result's: these say so in words, a GLB of ours that was imported does not."""
+    """Returns the selected meshes that are no result's: these say so in words, what our own GLB brings does not."""
     return [o for o in context.selected_objects if o.type == "MESH" and not isinstance(o.get("grafu"), str)]
 
 
