@@ -13,13 +13,26 @@ from .run_operators import Applies, active_run
 from .state import session_of, settings_of, shown_slot, slots_in
 
 BLEND = "blend"
-FORMATS = [
-    ("glb", "GLB", "Animated, with its materials: any glTF viewer"),
-    ("urdf", "URDF", "Joints, masses and collision shapes: any robot simulator"),
-    (BLEND, "Blend", "A file of its own with every joint on one property"),
-    ("particulate", "Particulate", "The files that Particulate reads"),
-    ("singapo", "SINGAPO", "The files that SINGAPO reads"),
-]
+USUAL = {"glb", "urdf", BLEND}
+_ABOUT = {
+    "glb": ("GLB", "Animated, with its materials: any glTF viewer"),
+    "urdf": ("URDF", "Joints, masses and collision shapes: any robot simulator"),
+    "mjcf": ("MJCF", "The same for MuJoCo"),
+    BLEND: ("Blend", "A file of its own with every joint on one property"),
+    "particulate": ("Particulate", "The files that Particulate reads"),
+    "singapo": ("SINGAPO", "The files that SINGAPO reads"),
+}
+_items: list = []
+
+
+def format_items(_, __):
+    """Returns all that the package writes for a menu; Blender wants the texts kept."""
+    if not _items:
+        from grafu.export.formats import FORMATS
+
+        named = ((name, *_ABOUT.get(name, (name, ""))) for name in FORMATS)
+        _items.extend((*about, "NONE", 1 << number) for number, about in enumerate(named))
+    return _items
 
 
 class GRAFU_OT_finalize(Applies, bpy.types.Operator):
@@ -31,9 +44,8 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
     directory: StringProperty(name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"})
     formats: EnumProperty(
         name="Formats",
-        description="What to write; several with Shift",
-        items=FORMATS,
-        default={"glb", "urdf", BLEND},
+        description="What to write; several with Shift. Nothing chosen: GLB, URDF and Blend",
+        items=format_items,
         options={"ENUM_FLAG", "SKIP_SAVE"},
     )
     name: StringProperty(name="Name", description="Of the results: FOLDER/NAME", default="model", options={"SKIP_SAVE"})
@@ -51,6 +63,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
 
     def invoke(self, context, event):
         """Asks for the folder."""
+        self.formats = self.formats or USUAL
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -68,6 +81,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
 
     def _start(self, context, session) -> None:
         sources, folder = objects.sources_of(session), self._run.folder
+        self._formats = set(self.formats) or USUAL
         if session.fixed:
             raise work.Failed(session.fixed)
         written = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"
@@ -79,7 +93,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
             "source": str(self._source),
             "settings": str(settings),
             "out": str(self._target.parent),
-            "formats": [name for name, *_ in FORMATS if name in self.formats and name != BLEND],
+            "formats": sorted(self._formats - {BLEND}),
             "overwrite": self.overwrite,
             "object": str(folder / "object.packed"),
         }
@@ -90,7 +104,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         scene = bpy.data.scenes.get(self._scene)
         session = slots_in(scene)[self._slot] if scene is not None else None
         try:
-            if BLEND in self.formats:
+            if BLEND in self._formats:
                 self._save_blend()
             shutil.copyfile(self._run.folder / "settings.json", self._target / "settings.json")
             if self._source.parent == self._run.folder:  # else it is the file that was given, where it was

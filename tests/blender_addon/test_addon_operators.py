@@ -146,3 +146,19 @@ def test_what_is_written_is_whole_and_its_settings_read_back(run):
     settings = settings_from_json(json.loads((folder / "settings.json").read_text()))
     assert settings.additions.compartments
     assert {p.name for p in folder.iterdir()} >= {"model.glb", "model.urdf", "graph.json", "source.glb"}
+    assert (folder / "model.blend").stat().st_size > 10_000
+
+
+def test_source_and_settings_give_the_same_without_blender(run, tmp_path):
+    written, source = run / "final", tmp_path / "final.glb"
+    source.write_bytes((written / "source.glb").read_bytes())
+    given = [str(source), "--settings", str(written / "settings.json"), "--formats", "glb", "--no-page"]
+    command = [find_interpreter(), "-m", "grafu.cli.main", "functionalize", *given, "--out", str(tmp_path / "out")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    again = tmp_path / "out" / "final"
+    assert (again / "model.glb").read_bytes() == (written / "model.glb").read_bytes()
+    reports = [json.loads((folder / "report.json").read_text()) for folder in (again, written)]
+    for report in reports:
+        del report["timings"], report["input"]["path"]
+    assert reports[0] == reports[1]
