@@ -31,21 +31,23 @@ def register():
     """Registers all classes, each module's in its order, and gives every scene its session."""
     import bpy
 
-    from . import state
+    from . import overlay, state
 
     for one in _classes():
         bpy.utils.register_class(one)
     state.attach()
+    overlay.attach()
 
 
 def unregister():
     """Stops what goes on, and takes everything back in the opposite order."""
     import bpy
 
-    from . import run_operators, state, work
+    from . import overlay, run_operators, state, work
 
     run_operators.stop()
     work.end()
+    overlay.detach()
     state.detach()
     for one in reversed(_classes()):
         bpy.utils.unregister_class(one)

@@ -190,6 +190,18 @@ def visual(session, part: str):
     return next((o for o in result_objects(session) if o.get(ID) == part and o.get(KIND) in kinds), None)
 
 
+def joint_part_of(session, thing) -> str:
+    """Returns the id of the moving part whose joint an object of the result is of; empty: of none.
+
+    It hangs on the joint, or is the still half of its hardware, which bears the part's name.
+    """
+    part = moving_part_of(thing)
+    if part or thing is None or thing.get(KIND) != "hardware":
+        return part
+    _, named = thing[ID].split("_", 1)
+    return max((p for p in joint_empties(session) if named.startswith(f"{p}_")), key=len, default="")
+
+
 def moving_part_of(thing) -> str:
     """Returns the id of the moving part whose joint carries an object of the result; empty: it stands still."""
     while thing is not None:

@@ -9,3 +9,11 @@ def draw_progress(layout, share: float, text: str) -> None:
         layout.progress(factor=share, text=text)
     else:
         layout.label(text=f"{round(100 * share)} %  {text}", icon="TIME")
+
+
+def line_shader():
+    """Returns Blender's shader of lines of any width, in one colour; before 4.0 it had another name."""
+    import gpu
+
+    name = "POLYLINE_UNIFORM_COLOR"
+    return gpu.shader.from_builtin(name if bpy.app.version >= (4, 0) else f"3D_{name}")

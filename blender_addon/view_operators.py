@@ -35,14 +35,14 @@ class _Shown:
 
 
 class GRAFU_OT_pick_joint(_Shown, bpy.types.Operator):
-    """Finds the joint that carries the active object"""
+    """Finds the joint of the active object: a part, a handle, either half of a hinge or rail"""
 
     bl_idname = "grafu.pick_joint"
     bl_label = "Joint of the active object"
 
     def execute(self, context):
         """Chooses it in the overview."""
-        part = objects.moving_part_of(context.active_object)
+        part = objects.joint_part_of(session_of(context), context.active_object)
         rows = [row.part for row in session_of(context).joints]
         if part not in rows:
             self.report({"WARNING"}, "the active object hangs on no joint")
