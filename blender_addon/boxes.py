@@ -46,5 +46,5 @@ def _box(number, corners, matrix):
     box = bpy.data.objects.new(f"compartment {number + 1}", mesh)
     box["grafu"], box["number"] = "compartment", number
     box.matrix_world = matrix
-    box.display_type, box.show_name = "WIRE", True
+    box.display_type, box.show_name, box.show_in_front = "WIRE", True, True
     return box

@@ -4,6 +4,7 @@ import bpy
 
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
 _NAMES = 0.5  # of a row
+_LONG_NAMES = 0.6
 
 
 class GRAFU_UL_joints(bpy.types.UIList):
@@ -24,10 +25,10 @@ class GRAFU_UL_additions(bpy.types.UIList):
         row = layout.row(align=True)
         button = row.operator("grafu.set_addition", text="", icon="CHECKBOX_HLT" if item.accepted else "CHECKBOX_DEHLT")
         button.part, button.accepted = item.part, not item.accepted
-        names = row.split(factor=_NAMES, align=True)
+        names = row.split(factor=_LONG_NAMES, align=True)
         names.active = item.accepted
         names.label(text=item.part)
-        names.label(text=item.about)
+        names.label(text=item.about.split(": ")[-1])  # the part's name says what it is
 
 
 class GRAFU_UL_parts(bpy.types.UIList):

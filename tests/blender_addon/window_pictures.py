@@ -1,0 +1,172 @@
+"""Uses the add-on in a real Blender window step by step, and keeps what the screen shows; it runs inside Blender.
+
+Beside each `NAME.xwd` stands `NAME.json`: `box`, the rectangle that matters (left, top, width, height, pixels; null:
+what differs from the picture before it), and `whole`: whether it is a sidebar, whose empty rest does not matter.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import bpy
+from mathutils import Euler
+from window_hand import ARGUMENTS, FOLDER, Hand, play
+
+import blender_addon
+from blender_addon import lists, panels, run_operators
+
+SOURCE, *LEFT_OUT = ARGUMENTS
+_VIEW = Euler((1.2, 0.0, 0.5))  # from the front, a little from the right and from above
+_only: set = set()  # names of the panels that are drawn; empty: all
+
+
+def script():
+    for panel in panels.CLASSES:
+        _let_hide(panel)
+    panels.GRAFU_PT_parts.bl_options = set()
+    blender_addon.register()
+    bpy.context.preferences.system.use_region_overlap = False
+    hand = Hand()
+    hand.watch(panels.CLASSES, lists.CLASSES)
+    load()
+    yield from stage(hand)
+    yield from hand.open_tab("GRAFU_PT_main")
+    yield from run(hand)
+    yield from look(hand)
+    yield from refine(hand)
+    yield from add(hand)
+    yield from end(hand)
+    if hand.faults:
+        sys.exit("\n".join(hand.faults))
+
+
+def _let_hide(panel):
+    asked = panel.poll if "poll" in dir(panel) else None
+
+    def poll(cls, context):
+        return (not _only or cls.__name__ in _only) and (asked is None or asked(context))
+
+    panel.poll = classmethod(poll)
+
+
+def load():
+    """The model's parts, and nothing else in the scene."""
+    for one in list(bpy.data.objects):
+        bpy.data.objects.remove(one)
+    bpy.ops.import_scene.gltf(filepath=SOURCE)
+    for one in list(bpy.data.objects):
+        if one.type == "MESH" and one.name.startswith(tuple(LEFT_OUT)) and LEFT_OUT:
+            bpy.data.objects.remove(one)
+        else:
+            one.select_set(one.type == "MESH")
+
+
+def stage(hand):
+    """A plain view of the model, its materials' colours on it."""
+    space = hand.area.spaces[0]
+    space.overlay.show_cursor = space.overlay.show_floor = False
+    space.overlay.show_axis_x = space.overlay.show_axis_y = space.overlay.show_object_origins = False
+    space.overlay.show_relationship_lines = False
+    space.shading.color_type = "MATERIAL"
+    view = space.region_3d
+    view.view_rotation, view.view_perspective = _VIEW.to_quaternion(), "PERSP"
+    yield 0.3
+    hand.call(bpy.ops.view3d.view_selected, "EXEC_DEFAULT", use_all_regions=True)
+    yield 0.5
+
+
+def run(hand):
+    keep(hand, "start", hand.area)
+    hand.call(bpy.ops.grafu.functionalize)
+    yield 0.5
+    keep(hand, "running", hand.region("UI"), whole=True)
+    yield from hand.wait_while(running)
+    yield 0.6
+
+
+def look(hand):
+    """The result, open; the overview; colours by category."""
+    deselect()
+    hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="all")
+    yield 0.5
+    keep(hand, "result", hand.area)
+    yield from panel(hand, "joints", {"GRAFU_PT_main", "GRAFU_PT_joints"})
+    hand.call(bpy.ops.grafu.colours, "EXEC_DEFAULT", on=True)
+    yield 0.4
+    keep(hand, "categories_seen", hand.area)
+    yield from panel(hand, "show", {"GRAFU_PT_view"})
+    hand.call(bpy.ops.grafu.colours, "EXEC_DEFAULT", on=False)
+    yield 0.3
+
+
+def refine(hand):
+    """The questions about one joint."""
+    part = panels.session_of(bpy.context).joints[0].part
+    hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="closed")
+    yield 0.3
+    yield from question(hand, "hinges", bpy.ops.grafu.set_joint, part=part)
+    yield from question(hand, "handle", bpy.ops.grafu.set_handle, part=part)
+
+
+def add(hand):
+    """What was added; top; compartments."""
+    yield from panel(hand, "added", {"GRAFU_PT_additions", "GRAFU_PT_interior"})
+    yield from question(hand, "top", bpy.ops.grafu.set_top)
+    hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="all")
+    hand.call(bpy.ops.grafu.show_compartments, "EXEC_DEFAULT")
+    boxes = [one for one in bpy.data.objects if one.get("grafu") == "compartment"]
+    for one in boxes[:1]:
+        one.select_set(True)
+    yield 0.5
+    keep(hand, "compartments", hand.area)
+    yield from question(hand, "furnish", bpy.ops.grafu.furnish)
+    hand.call(bpy.ops.grafu.show_compartments, "EXEC_DEFAULT")
+    deselect()
+
+
+def end(hand):
+    yield from panel(hand, "categories", {"GRAFU_PT_parts", "GRAFU_PT_output"})
+
+
+def running():
+    return run_operators.active_run() is not None
+
+
+def deselect():
+    for one in bpy.context.view_layer.objects:
+        one.select_set(False)
+
+
+def panel(hand, name, shown):
+    """Keeps the sidebar with these panels alone."""
+    _only.update(shown)
+    hand.area.tag_redraw()
+    yield 0.5
+    keep(hand, name, hand.region("UI"), whole=True)
+    _only.clear()
+    hand.area.tag_redraw()
+    yield 0.3
+
+
+def question(hand, name, operator, **arguments):
+    """Keeps a question as it is asked."""
+    at = hand.area.x + hand.area.width // 3, hand.area.y + 2 * hand.area.height // 3
+    hand.event("MOUSEMOVE", at=at)
+    yield 0.2
+    keep(hand, f"{name}_before", hand.area)
+    hand.call(operator, **arguments)
+    yield 0.6
+    keep(hand, name, None)
+    yield from hand.press("ESC", at)
+
+
+def keep(hand, name, rectangle, whole=False):
+    """Keeps the screen, and which of it matters."""
+    hand.picture(name)
+    height = hand.window.height
+    r = rectangle
+    box = None if r is None else [r.x, height - r.y - r.height, r.width, r.height]
+    Path(FOLDER, f"{name}.json").write_text(json.dumps({"box": box, "whole": whole}))
+
+
+play(script())
