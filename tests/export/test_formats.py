@@ -13,6 +13,7 @@ def test_every_format_of_the_table_exports(cabinet):
     assert written == {
         "glb": "model.glb",
         "urdf": "model.urdf",
+        "mjcf": "model.xml",
         "particulate": "eval/pred.npz",
         "singapo": "object.json",
     }
@@ -24,7 +25,7 @@ def test_formats_are_exported_together(cabinet):
 
 def test_an_unknown_format_names_the_known_ones(cabinet):
     with pytest.raises(
-        ExportError, match=r"unknown format `fbx`: known formats are glb, urdf, particulate, singapo, blend"
+        ExportError, match=r"unknown format `fbx`: known formats are glb, urdf, mjcf, particulate, singapo, blend"
     ):
         export(cabinet, ["glb", "fbx"])
 

@@ -38,9 +38,10 @@ def run(model: mujoco.MjModel, data: mujoco.MjData, seconds: float) -> None:
     mujoco.mj_step(model, data, round(seconds / model.opt.timestep))
 
 
-def test_it_rests_closed_and_opens_fully(made, tmp_path):
-    write_files(export(made, ["urdf"]), tmp_path / "out")
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "model.urdf"))
+@pytest.mark.parametrize(("kind", "file"), [("urdf", "model.urdf"), ("mjcf", "model.xml")])
+def test_it_rests_closed_and_opens_fully(made, kind, file, tmp_path):
+    write_files(export(made, [kind]), tmp_path / "out")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / file))
     data = mujoco.MjData(model)
 
     run(model, data, 1.0)

@@ -121,6 +121,20 @@ def cleared(
     return {link: tuple(body.shape for body in bodies if body.link == link) for link in shapes}
 
 
+def met_at_rest(shapes: Mapping[str, tuple[CollisionShape, ...]]) -> tuple[tuple[str, str], ...]:
+    """Returns the pairs of links whose shapes share a point at rest, in the order of `shapes`."""
+    bodies = [_Body(link, shape) for link, held in shapes.items() for shape in held]
+    if not bodies:
+        return ()
+    low, high = np.stack([body.bounds for body in bodies], axis=1)
+    near = np.argwhere(np.all((low[:, None] <= high) & (low <= high[:, None]), axis=-1))
+    met: dict[tuple[str, str], None] = {}
+    for a, b in ((bodies[i], bodies[k]) for i, k in near if i < k):
+        if a.link != b.link and (a.link, b.link) not in met and a.meets(b):
+            met[a.link, b.link] = None
+    return tuple(met)
+
+
 def _geometry(corners: Points) -> fcl.CollisionGeometry:
     solid = ConvexSolid.around(corners)
     assert solid is not None, "collision shapes have volume"

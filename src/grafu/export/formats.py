@@ -15,6 +15,7 @@ FORMATS = MappingProxyType(
     {
         "glb": ("grafu.export.glb", "export_glb"),
         "urdf": ("grafu.export.urdf", "export_urdf"),
+        "mjcf": ("grafu.export.mjcf", "export_mjcf"),
         "particulate": ("grafu.export.particulate", "export_particulate"),
         "singapo": ("grafu.export.singapo", "export_singapo"),
         "blend": ("grafu.export.blend.exporter", "export_blend"),

@@ -6,21 +6,30 @@ from typing import final
 
 @final
 class NameBook:
-    """Hands out names that differ from one another in more than case."""
+    """Hands out names that differ from one another, and in more than case unless case counts."""
 
-    def __init__(self) -> None:
+    def __init__(self, case_counts: bool = False) -> None:
         self._taken: set[str] = set()
+        self._case_counts = case_counts
 
     def unique(self, wish: str) -> str:
         """Returns the wished name, or the first of `wish_2`, `wish_3`, ... that is free, and takes it."""
         name, count = wish, 1
-        while name.lower() in self._taken:
+        while self._key(name) in self._taken:
             count += 1
             name = f"{wish}_{count}"
-        self._taken.add(name.lower())
+        self._taken.add(self._key(name))
         return name
+
+    def _key(self, name: str) -> str:
+        return name if self._case_counts else name.lower()
 
 
 def file_safe(name: str) -> str:
     """Returns a name of letters, digits, `_`, `-` and `.` that is no hidden file and never empty."""
     return re.sub(r"[^A-Za-z0-9_.-]+", "_", name).lstrip(".-") or "unnamed"
+
+
+def printable(name: str) -> str:
+    """Returns a name that XML can hold: it has no control characters."""
+    return "".join(c if c.isprintable() else "_" for c in name)

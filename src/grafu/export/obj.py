@@ -82,9 +82,10 @@ class ObjFolder:
             yield "Ke {:.6g} {:.6g} {:.6g}".format(*material.emissive)
             yield f"Pr {material.roughness:.6g}\nPm {material.metallic:.6g}\nillum 2"
             for key, texture in _maps(material):
-                yield f"{key} {self._texture(texture)}"
+                yield f"{key} {self.add_texture(texture)}"
 
-    def _texture(self, texture: Texture) -> str:
+    def add_texture(self, texture: Texture) -> str:
+        """Adds an image, once, and returns the name of its file."""
         key = (texture.data, texture.mime)
         if key not in self._textures:
             stem = file_safe(texture.name.removesuffix(_SUFFIX[texture.mime]))

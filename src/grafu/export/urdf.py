@@ -12,14 +12,15 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
-from grafu.articulation.collision_clearance import ClearanceConfig, cleared
-from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape, collision_shapes
-from grafu.articulation.dynamics import DynamicsConfig, JointDynamics, joint_dynamics
-from grafu.articulation.link_frames import link_origins
-from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link
+from grafu.articulation.collision_shapes import CollisionShape
+from grafu.articulation.dynamics import JointDynamics
+from grafu.articulation.mass import MassProperties
+from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.export.files import ExportFiles
-from grafu.export.obj import ObjFolder
+from grafu.export.names import printable
+from grafu.export.obj_set import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
+from grafu.export.xml_numbers import number, numbers
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.vocabulary import JointType
@@ -30,10 +31,7 @@ from grafu.vocabulary import JointType
 class UrdfConfig:
     """What goes into a URDF. `mujoco` adds the element that tells MuJoCo where the meshes are; others ignore it."""
 
-    mass: MassConfig = field(default_factory=MassConfig)
-    collision: CollisionConfig = field(default_factory=CollisionConfig)
-    clearance: ClearanceConfig = field(default_factory=ClearanceConfig)
-    dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
+    physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     crease_angle: float = CREASE_ANGLE
     mujoco: bool = True
 
@@ -53,15 +51,11 @@ class _UrdfWriter:
     def __init__(self, articulated: ArticulatedObject, config: UrdfConfig) -> None:
         self._object = articulated
         self._config = config
-        self._origins = link_origins(articulated)
-        self._masses = {link.id: mass_of_link(link, config.mass) for link in articulated.links}
-        shapes = {link.id: collision_shapes(link, config.collision) for link in articulated.links}
-        self._shapes = cleared(articulated, shapes, config.clearance)
-        self._meshes = ObjFolder(config.crease_angle)
+        self._physics = physics_of(articulated, config.physics)
+        self._objs = obj_set(articulated, self._physics, config.crease_angle)
 
     def to_files(self) -> ExportFiles:
-        name = "".join(c if c.isprintable() else "_" for c in self._object.name)  # XML has no control characters
-        robot = ET.Element("robot", name=name)
+        robot = ET.Element("robot", name=printable(self._object.name))
         if self._config.mujoco:
             compiler = {"strippath": "false", "discardvisual": "true"}
             ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", compiler)
@@ -71,70 +65,59 @@ class _UrdfWriter:
             self._add_joint(robot, joint)
         ET.indent(robot)
         text = ET.tostring(robot, encoding="utf-8", xml_declaration=True) + b"\n"
-        return ExportFiles({"model.urdf": text} | {f"meshes/{name}": d for name, d in self._meshes.files.items()})
+        meshes = {f"{MESHES}/{name}": data for name, data in self._objs.folder.files.items()}
+        return ExportFiles({"model.urdf": text} | meshes)
 
     def _add_link(self, robot: ET.Element, link: Link) -> None:
         element = ET.SubElement(robot, "link", name=link.id)
-        origin = self._origins[link.id]
-        _add_inertial(element, self._masses[link.id], origin)
-        for visual in link.visuals:
-            if len(visual.mesh.faces):
-                child = ET.SubElement(element, "visual", name=visual.name)
-                _add_mesh(child, self._meshes.add_visual(visual, origin))
-        for number, shape in enumerate(self._shapes[link.id]):
-            self._add_collision(element, f"{link.id}_collision_{number}", shape, origin)
+        _add_inertial(element, self._physics.masses[link.id], self._physics.origins[link.id])
+        for visual, file in self._objs.visuals[link.id]:
+            _add_mesh(ET.SubElement(element, "visual", name=visual.name), file)
+        for place, shape in enumerate(self._physics.shapes[link.id]):
+            self._add_collision(element, link.id, place, shape)
 
-    def _add_collision(self, link: ET.Element, name: str, shape: CollisionShape, origin: Vec3) -> None:
-        element = ET.SubElement(link, "collision", name=name)
+    def _add_collision(self, parent: ET.Element, link: str, place: int, shape: CollisionShape) -> None:
+        element = ET.SubElement(parent, "collision", name=collision_name(link, place))
         if isinstance(shape, OrientedBox):
-            place = {"xyz": _numbers(shape.center - origin), "rpy": _numbers(_roll_pitch_yaw(shape.rotation))}
-            ET.SubElement(element, "origin", place)
-            ET.SubElement(ET.SubElement(element, "geometry"), "box", size=_numbers(2 * shape.half))
+            center = shape.center - self._physics.origins[link]
+            ET.SubElement(element, "origin", xyz=numbers(center), rpy=numbers(_roll_pitch_yaw(shape.rotation)))
+            ET.SubElement(ET.SubElement(element, "geometry"), "box", size=numbers(2 * shape.half))
         else:
-            _add_mesh(element, self._meshes.add_mesh(name, shape.mesh, origin))
+            _add_mesh(element, self._objs.pieces[link, place])
 
     def _add_joint(self, robot: ET.Element, joint: Joint) -> None:
         element = ET.SubElement(robot, "joint", name=joint.id, type=joint.type.value)
-        offset = self._origins[joint.child] - self._origins[joint.parent]
-        ET.SubElement(element, "origin", xyz=_numbers(offset), rpy="0 0 0")
+        offset = self._physics.origins[joint.child] - self._physics.origins[joint.parent]
+        ET.SubElement(element, "origin", xyz=numbers(offset), rpy="0 0 0")
         ET.SubElement(element, "parent", link=joint.parent)
         ET.SubElement(element, "child", link=joint.child)
         if joint.type is not JointType.FIXED:
-            ET.SubElement(element, "axis", xyz=_numbers(joint.axis.direction))
-            dynamics = joint_dynamics(self._object, joint, self._masses, self._config.dynamics)
-            _add_dynamics(element, joint, dynamics)
+            ET.SubElement(element, "axis", xyz=numbers(joint.axis.direction))
+            _add_dynamics(element, joint, self._physics.dynamics[joint.id])
 
 
 def _add_dynamics(element: ET.Element, joint: Joint, dynamics: JointDynamics) -> None:
     limits = {"lower": joint.limits.lower, "upper": joint.limits.upper}
     limits |= {"effort": dynamics.effort, "velocity": dynamics.velocity}
-    ET.SubElement(element, "limit", {key: _number(value) for key, value in limits.items()})
-    resistance = {"damping": _number(dynamics.damping), "friction": _number(dynamics.friction)}
+    ET.SubElement(element, "limit", {key: number(value) for key, value in limits.items()})
+    resistance = {"damping": number(dynamics.damping), "friction": number(dynamics.friction)}
     ET.SubElement(element, "dynamics", resistance)
 
 
 def _add_inertial(link: ET.Element, mass: MassProperties, origin: Vec3) -> None:
     inertial = ET.SubElement(link, "inertial")
-    ET.SubElement(inertial, "origin", xyz=_numbers(mass.center - origin), rpy="0 0 0")
-    ET.SubElement(inertial, "mass", value=_number(mass.mass))
-    terms = {f"i{'xyz'[a]}{'xyz'[b]}": _number(mass.inertia[a, b]) for a in range(3) for b in range(a, 3)}
+    ET.SubElement(inertial, "origin", xyz=numbers(mass.center - origin), rpy="0 0 0")
+    ET.SubElement(inertial, "mass", value=number(mass.mass))
+    terms = {f"i{'xyz'[a]}{'xyz'[b]}": number(mass.inertia[a, b]) for a in range(3) for b in range(a, 3)}
     ET.SubElement(inertial, "inertia", terms)
 
 
 def _add_mesh(element: ET.Element, file: str) -> None:
     ET.SubElement(element, "origin", xyz="0 0 0", rpy="0 0 0")
-    ET.SubElement(ET.SubElement(element, "geometry"), "mesh", filename=f"meshes/{file}")
+    ET.SubElement(ET.SubElement(element, "geometry"), "mesh", filename=f"{MESHES}/{file}")
 
 
 def _roll_pitch_yaw(R: Mat3) -> Vec3:
     """Returns URDF's angles: rotations about the fixed X, then Y, then Z axis, radians."""
     pitch = atan2(-R[2, 0], sqrt(R[0, 0] ** 2 + R[1, 0] ** 2))
     return np.array([atan2(R[2, 1], R[2, 2]), pitch, atan2(R[1, 0], R[0, 0])])
-
-
-def _numbers(values: Vec3) -> str:
-    return " ".join(_number(value) for value in values)
-
-
-def _number(value: float) -> str:
-    return f"{value if abs(value) > 1e-12 else 0.0:.10g}"
