@@ -85,5 +85,13 @@ def test_ids_are_unique_and_the_first_keeps_its_name(names):
         assert ids[0] == safe_id(*names[0])
 
 
+@given(st.text(alphabet="ab _", min_size=200, max_size=400), st.booleans())
+def test_ids_of_long_names_leave_room_in_a_file_name(name, is_handle):
+    first, second = unique_ids([(name, is_handle), (name, is_handle)])
+    assert first != second
+    assert max(len(first), len(second)) < 140
+    assert first.isidentifier()
+
+
 def test_words_part_camel_case_digits_and_signs():
     assert words("SidePanel_02.left-TOPDrawer") == ("side", "panel", "left", "top", "drawer")

@@ -5,7 +5,7 @@ import pytest
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
-from grafu.errors import UnreadableAsset
+from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
 from small_assets import urdf_text, write_urdf
 
@@ -94,6 +94,8 @@ HALF = """<joint name="c4" type="fixed"><parent link="carcass"/></joint>"""
         ("<mujoco/>", "expected <robot>"),
         ('<robot name="r"/>', "no links"),
         (urdf_text().replace("meshes/", "gone/"), "no visual shape"),
+        (urdf_text().replace('<link name="', '<link name="a" was="'), "several links are named 'a'"),
+        ('<robot name="r"><link/><link/></robot>', "several links are named ''"),
         (urdf_text().replace('lower="0"', 'lower="zero"'), "finite numbers"),
         (urdf_text().replace('xyz="0 0 -1"', 'xyz="0 0"'), "expected 3 finite numbers"),
         ('<!DOCTYPE r [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><robot name="&b;"/>', "entities"),
@@ -104,6 +106,12 @@ def test_bad_files_are_refused_in_one_line(tmp_path, text, said):
         load_asset(write_urdf(tmp_path, text))
     assert "\n" not in str(caught.value)
     assert "cabinet.urdf" in str(caught.value)
+
+
+def test_a_model_that_lost_its_meshes_says_which(tmp_path):
+    text = urdf_text().replace("meshes/", "gone/").replace("gone/", "meshes/", 1)
+    with pytest.raises(UnsegmentedAsset, match=r"is one part, `.*` \(mesh gone/.*.obj is missing and was left out\)"):
+        load_asset(write_urdf(tmp_path, text))
 
 
 def test_a_zero_axis_keeps_the_part_in_place(tmp_path):

@@ -130,6 +130,8 @@ def test_the_limit_on_parts_is_named(tmp_path: Path, capsys: pytest.CaptureFixtu
 ODD_NAMES: dict[str, Callable[[str], str]] = {
     "duplicated names": lambda name: {"top_panel": "panel", "divider": "panel"}.get(name, name),
     "spaces, slashes and Unicode": lambda name: f"{name} größe/№ 1 \U0001f6aa",
+    "ways out of the folder": lambda name: f"../../{name}\\..\\<script>",
+    "longer than a file's name may be": lambda name: f"{name} {'long' * 100}",
 }
 
 
@@ -161,7 +163,9 @@ def test_a_file_in_place_of_the_output_folder(tmp_path: Path, capsys: pytest.Cap
     out.write_text("a file")
 
     assert main(["functionalize", str(source), "--out", str(out)]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
+    said = capsys.readouterr().err
+    assert f"--out must be a folder: `{out}` is a file" in said
+    assert said.count("\n") == 1
     assert out.read_text() == "a file"
 
 

@@ -17,7 +17,7 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == f"grafu {__version__}\n"
 
 
-@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates", "synth", "train", "ablate"])
+@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates", "synth", "train", "ablate", "evaluate"])
 def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main([verb, "--help"])

@@ -32,7 +32,15 @@ def test_options_that_settings_hold_are_refused_beside_them(tmp_path, capsys, op
     assert f"`--settings` and `{option[0]}` exclude each other" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("text", "words"), [("{", "must be a JSON file"), ("[]", "must be a JSON object")])
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "must be a JSON file"),
+        ("[" * 100_000, "must be a JSON file"),
+        ("[]", "must be a JSON object"),
+    ],
+    ids=["half", "deep", "a list"],
+)
 def test_a_wrong_file_is_one_line(tmp_path, capsys, text, words):
     (tmp_path / "settings.json").write_text(text)
     model = str(write_cabinet(tmp_path))

@@ -141,11 +141,12 @@ def _files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
 def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
     count = len(reading.parts)
     check_parts(count, path, options.limits)
+    lost = next((f" ({note})" for note in reading.notes if note.endswith("was left out")), "")
     if count == 0:
-        raise UnreadableAsset(f"{path} holds no part with faces: expected {_EXPECTED}")
+        raise UnreadableAsset(f"{path} holds no part with faces{lost}: expected {_EXPECTED}")
     if count == 1:
-        only = reading.parts[0].source.name
-        raise UnsegmentedAsset(f"{path} is one part ({only}): expected several; segment it into parts first")
+        only = f"`{reading.parts[0].source.name}`"
+        raise UnsegmentedAsset(f"{path} is one part, {only}{lost}: expected several; segment it into parts first")
 
 
 def _joined(reading: Reading) -> Reading:

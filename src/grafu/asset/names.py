@@ -9,6 +9,7 @@ _LETTERS = re.compile(r"[a-z]+")
 _UNSAFE = re.compile(r"[^A-Za-z0-9]+")
 
 # The output contract keeps these beginnings for hardware; `handle` begins the names of handles alone.
+_LONGEST = 120  # letters of an id: what is made for a part puts its own words before and behind it
 _HARDWARE = ("hinge_", "rail_", "support_")
 
 
@@ -23,8 +24,11 @@ def words(name: str) -> tuple[str, ...]:
 
 
 def safe_id(name: str, is_handle: bool = False) -> str:
-    """Returns an id of the form `[A-Za-z_][A-Za-z0-9_]*` that does not pass for hardware or, wrongly, for a handle."""
-    base = _UNSAFE.sub("_", plain(name)).strip("_")
+    """Returns an id of the form `[A-Za-z_][A-Za-z0-9_]*` that does not pass for hardware or, wrongly, for a handle.
+
+    Long names are cut: files are called by ids, and no file system takes more than 255 letters.
+    """
+    base = _UNSAFE.sub("_", plain(name)).strip("_")[:_LONGEST].rstrip("_")
     if is_handle and not base.startswith("handle"):
         return f"handle_{base}".rstrip("_")
     reserved = not is_handle and (base.startswith("handle") or f"{base}_".startswith(_HARDWARE))

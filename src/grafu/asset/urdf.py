@@ -4,6 +4,7 @@ Everything comes out in the coordinates of the root link, every joint at zero. I
 """
 
 import math
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, final
@@ -108,9 +109,13 @@ def _read_tree(path: Path, options: LoadOptions) -> _Tree:
         raise UnreadableAsset(
             f"{path} has the root <{robot.tag}>: expected <robot>, a URDF (xacro must be expanded first)"
         )
-    links = {link.get("name", ""): link for link in robot.findall("link")}
+    elements = robot.findall("link")
+    links = {link.get("name", ""): link for link in elements}
     if not links:
         raise UnreadableAsset(f"{path} has no links: expected a URDF with links and visuals")
+    if len(links) < len(elements):
+        twice = next(name for name, count in Counter(e.get("name", "") for e in elements).items() if count > 1)
+        raise UnreadableAsset(f"{path}: several links are named {twice!r}; expected a name of its own for each")
     joints = [_joint_element(element, path) for element in robot.findall("joint")]
     above: dict[str, _JointElement] = {}
     for joint in joints:

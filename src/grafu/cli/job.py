@@ -191,7 +191,9 @@ class _Stopwatch:
 
 
 def _require_absent(job: Job) -> None:
-    """Refuses an existing output before any work is done; `write_files` refuses it again at the end."""
+    """Refuses an output that cannot be written before any work is done; `write_files` refuses it again at the end."""
+    if job.options.out.exists() and not job.options.out.is_dir():
+        raise ExportError(f"--out must be a folder: `{job.options.out}` is a file")
     if not job.options.overwrite and job.folder.is_dir() and any(job.folder.iterdir()):
         raise ExportError(f"the output `{job.folder}` exists already: choose another --out, or give --overwrite")
 

@@ -24,7 +24,7 @@ def read_settings(options: argparse.Namespace) -> "Settings":
     _require_alone(options)
     try:
         data = json.loads(options.settings.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise OptionError(f"`--settings` must be a JSON file: {options.settings}: {error}") from None
     return settings_from_json(data)
 
