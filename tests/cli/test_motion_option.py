@@ -58,7 +58,7 @@ def test_with_several_inputs_one_without_an_entry_fails_alone(
     ("motion", "why"),
     [
         ("particulate", "motions of particulate are read from a file, which must be named: particulate:FILE"),
-        ("grafu:", "motions of grafu-pred are read from a file"),
+        ("grafu-pred:", "motions of grafu-pred are read from a file"),
         ("rule:x.json", "the motion source rule reads no file"),
         ("wind", "must be one of auto, annotation, network, rule, particulate:FILE"),
     ],

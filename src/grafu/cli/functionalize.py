@@ -47,8 +47,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         metavar="SOURCE",
         help="where motions come from: network (trained), rule (labels, boxes and handles), auto (the network, or the "
         "rule without weights), annotation: the input's own joints, which the others do not read, or another system's "
-        "file: particulate:FILE, singapo:FILE, grafu:FILE, urdf:FILE; for several inputs a folder with an entry for "
-        "each name (default: auto)",
+        "file: particulate:FILE, singapo:FILE, grafu-pred:FILE, urdf:FILE; for several inputs a folder with an entry "
+        "for each name (default: auto)",
     )
     parser.add_argument(
         "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"

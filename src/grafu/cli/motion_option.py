@@ -6,7 +6,7 @@ from pathlib import Path
 from grafu.errors import OptionError
 from grafu.pipeline.motion_source import FOREIGN, MotionChoice, MotionSource
 
-_WORDS = {source.value: source for source in MotionSource} | {"grafu": MotionSource.GRAFU_PRED}
+_WORDS = {source.value: source for source in MotionSource}
 
 
 def motion_choice(text: str) -> MotionChoice:
@@ -14,9 +14,8 @@ def motion_choice(text: str) -> MotionChoice:
     word, _, file = text.partition(":")
     source = _WORDS.get(word.strip().lower())
     if source is None:
-        own = [source.value for source in MotionSource if source not in FOREIGN]
-        theirs = [f"{name}:FILE" for name in ("particulate", "singapo", "grafu", "urdf")]
-        raise argparse.ArgumentTypeError(f"must be one of {', '.join(own + theirs)}: got {text!r}")
+        words = [word if source not in FOREIGN else f"{word}:FILE" for word, source in _WORDS.items()]
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(words)}: got {text!r}")
     try:
         return MotionChoice(source, Path(file) if file else None)
     except OptionError as error:
