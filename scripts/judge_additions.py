@@ -57,8 +57,6 @@ COVERED = 0.97  # share of the plan that a top must cover
 OPEN = 0.5  # share of the plan that lies open where there is no top
 SKIN = 0.001  # of the largest side: deeper cuts are cuts
 LEAST_OPENING = 0.999  # of the opening that a joint has without additions; the rest is a sweep's last step
-
-
 MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 DEFAULT = AdditionConfig()
 ALL_KINDS = {**TIDY, **UNTIDY}
@@ -261,8 +259,7 @@ def _grasp_faults(result: Functionalized) -> Iterator[str]:
     grasps = {joint.part: joint.grasp for joint in report_of(result).joints}
     factor = size_factor(largest_side(result.object))
     for joint in result.object.joints:
-        visuals = result.object.link(joint.child).visuals
-        added = [v for v in visuals if v.role is VisualRole.ADDED and v.label is PartLabel.HANDLE]
+        visuals, added = result.object.link(joint.child).visuals, _new_handles(result.object, joint)
         carved = [c for c in result.fittings.carved if c.part.id in {v.name for v in visuals}]
         before = result.fittings.grasps[joint.child]
         if grasps[joint.child] == "none":

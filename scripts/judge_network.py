@@ -2,9 +2,10 @@
 
     python scripts/judge_network.py [--rule] [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
 
-Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints one in
-Markdown beside the paper's column, with the half widths of 95 % intervals from resampled models; then, of the doors as
-they were found, what their handles say of the hinge's side. With --rule the carpenters' rules are judged instead.
+Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints a
+table in Markdown, the paper's column beside ours, with the half widths of 95 % intervals from resampled models; then,
+of the doors as they were found, how many turn as they should, by what their handles say of the hinge's side. With
+--rule the carpenters' rules are judged instead.
 """
 
 import argparse
@@ -24,13 +25,13 @@ from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, NetworkSession, open_network
 from grafu.data.asked import VARIANTS, asked_pairs
 from grafu.data.pair import GraphPair, specimen_pair
+from grafu.evaluation.dataset import TEST_SEED
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Hinge
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import GraphAccuracy, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
 
-TEST_SEED = 990_002  # as in grafu.training.source: kept for reporting
 # Supplement, Loss Ablation: the full loss.
 PAPER = {
     "existence": 0.972,

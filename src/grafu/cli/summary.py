@@ -1,7 +1,6 @@
 """What `functionalize` prints when it is done: what opened, what did not, and where to look. It decides nothing."""
 
 from collections.abc import Sequence
-from math import degrees
 from pathlib import Path
 
 from rich.markup import escape
@@ -10,6 +9,7 @@ from rich.table import Table
 from grafu.cli.job import Failed, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.report_schema import JointRecord, Report
+from grafu.viewer.wording import opening
 from grafu.vocabulary import JointType
 
 
@@ -37,7 +37,13 @@ def _joints_table(report: Report) -> Table:
     table = plain_table("part", "joint", "mechanism", "opening", "notes")
     for joint in report.joints:
         mechanism = f"{joint.count} x {joint.template} ({joint.mechanism})"
-        table.add_row(joint.part, joint.type, mechanism, opening_of(joint), escape("; ".join(_joint_notes(joint))))
+        table.add_row(
+            joint.part,
+            joint.type,
+            mechanism,
+            opening(joint.type, joint.opening),
+            escape("; ".join(_joint_notes(joint))),
+        )
     for skip in report.skipped:
         table.add_row(
             skip.request, "skipped", "", "", escape(f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason)
@@ -68,11 +74,6 @@ def _total(results: Sequence[JobResult]) -> str:
     failed = len(results) - len(done)
     ending = f"; {failed} of {len(results)} inputs failed" if failed else ""
     return f"{joints} joints built, {skipped} skipped in {len(done)} inputs{ending}"
-
-
-def opening_of(joint: JointRecord) -> str:
-    """Returns the opening in the unit that people read: degrees or centimetres."""
-    return f"{degrees(joint.opening):.0f}°" if joint.type is JointType.REVOLUTE else f"{joint.opening * 100:.1f} cm"
 
 
 def _joint_notes(joint: JointRecord) -> list[str]:

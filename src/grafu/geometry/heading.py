@@ -8,9 +8,7 @@ from grafu.geometry.mesh import TriangleMesh
 
 _UPRIGHT = 0.1  # most of a unit normal that may point up or down in an upright face
 _BINS = 90  # of one degree each
-_AS_WELL = (
-    0.6  # of the largest area that must lie along the axes for those to serve: a room's corner has two such pairs
-)
+_AS_WELL = 0.6  # of the largest area must lie along the axes for those to serve: a room's corner has two such pairs
 
 
 def heading_of(meshes: Iterable[TriangleMesh]) -> float:

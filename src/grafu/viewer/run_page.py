@@ -71,7 +71,7 @@ def _row(row: RunRow, columns: tuple[Column, ...], number: int) -> Html:
 
 def _name(row: RunRow) -> Html:
     name = str(row.cells[0])
-    words = tag("a", name, href=quote(row.link)) if row.link else Html(tag("span", name))
+    words = tag("a", name, href=quote(row.link)) if row.link else tag("span", name)
     width, height = THUMBNAIL
     picture = data_uri(row.picture, MIME) if row.picture else ""
     image = [tag("img", src=picture, width=width, height=height, alt="", loading="lazy")] if picture else []

@@ -41,6 +41,8 @@ def views_of(roles: Roles, metre: float, resolution: int = RESOLUTION) -> Views:
 
 def _between(stands: CellMask) -> CellMask:
     """Returns the cells with something on both sides along X or along Y, or on themselves."""
-    sides = [np.logical_or.accumulate(m, axis=a) for a in (0, 1) for m in (stands,)]
-    backs = [np.flip(np.logical_or.accumulate(np.flip(stands, a), axis=a), a) for a in (0, 1)]
-    return (sides[0] & backs[0]) | (sides[1] & backs[1])
+    found = stands.copy()
+    for axis in (0, 1):
+        before = np.logical_or.accumulate(stands, axis=axis)
+        found |= before & np.flip(np.logical_or.accumulate(np.flip(stands, axis), axis=axis), axis)
+    return found
