@@ -8,13 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.completion.decode_config import ADDABLE, DecodeConfig
+from grafu.completion.doors import hang_door
+from grafu.completion.drawers import run_drawer
 from grafu.completion.features import FeatureConfig, GraphFeatures
 from grafu.completion.network import complete_by_network
+from grafu.completion.scene import Scene
 from grafu.completion.scores import Scores
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import KINDS, LABELS
-from grafu.graph.completion import GraphCompletion
+from grafu.graph.completion import GraphCompletion, RefusedMotion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -209,8 +212,30 @@ def test_an_unlikely_edge_is_taken_where_no_better_one_is() -> None:
     assert [(r.parent, r.child) for r in completion.completed.rails] == [("right", "drawer")]
 
 
-def test_what_nothing_carries_is_refused_with_the_reason() -> None:
+def test_what_nothing_seen_carries_moves_as_a_carpenter_finds() -> None:
     completion = complete(cupboard(), Answers())
+    scene = Scene(completion.completed)
+    hung, run = (rule(completion.completed.node(i), scene) for rule, i in ((hang_door, "door"), (run_drawer, "drawer")))
+
+    assert not isinstance(hung, RefusedMotion)
+    assert not isinstance(run, RefusedMotion)
+    assert set(completion.completed.hinges) | set(completion.completed.rails) == {*hung[0], *run[0]}
+    assert {d.question for d in completion.decisions if d.part == "door"} == {"border", "sign", "mount"}
+
+
+def test_a_network_that_is_unsure_what_carries_a_door_leaves_its_side_to_the_carpenter() -> None:
+    def side(logit: float) -> int:
+        said = replace(told(), kinds={("door", "right"): {HINGE: logit}}, mounts={("door", "right"): SURE})
+        return complete(cupboard(), replace(said, hinges={"door": (1, 1)})).completed.hinges[0].border
+
+    assert (side(9.0), side(3.0)) == (1, 0)
+
+
+def test_what_nothing_carries_is_refused_with_the_reason() -> None:
+    graph = cupboard()
+    far = Box(np.array([0.0, -9.0, 9.0]), np.array([0.4, -8.98, 9.6]))
+    graph = replace(graph, nodes=tuple(replace(n, box=far) if n.label.is_movable else n for n in graph.nodes))
+    completion = complete(graph, Answers())
 
     assert [r.part for r in completion.refused] == ["door", "drawer"]
     assert all("the network sees no part that carries it" in r.why for r in completion.refused)

@@ -41,7 +41,12 @@ class DecodeConfig:
     """A mount or parent farther away is not asked where nearer ones are: no hinge bridges that."""
 
     least_edge: float = 0.02
-    """Below this probability of every hinge (or rail), a part moves on nothing: it is refused with the reason."""
+    """Below this probability of every hinge (or rail), nothing that the network sees carries a part: it moves as a
+    carpenter finds, or is refused with the reason."""
+
+    sure: float = 0.5
+    """Below this probability of every hinge a carpenter says how a door hangs: with sides missing from real cabinets
+    the network was right about 2 of 22 such doors, the carpenter about all. On whole furniture it is above 0.9."""
 
     second_rail: float = 0.3
     """The rail on a drawer's other flank is taken from this probability on."""
@@ -64,7 +69,7 @@ class DecodeConfig:
 
     def __post_init__(self) -> None:
         shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
-        if not all(0.0 <= share <= 1.0 for share in (*shares, self.no_parent)):
+        if not all(0.0 <= share <= 1.0 for share in (*shares, self.sure, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
         if min(self.rounds, self.reach, self.outward, self.carpenter) < 0:
             raise ValueError(f"`rounds`, `reach`, `outward` and `carpenter` must not be negative: got {self}")

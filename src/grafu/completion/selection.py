@@ -9,8 +9,8 @@ import numpy as np
 from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.ballot import Verdict, verdict_of
 from grafu.completion.beliefs import softmax
-from grafu.completion.doors import plain_flap, vote_border, vote_front, vote_mount
-from grafu.completion.drawers import vote_way
+from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_front, vote_mount
+from grafu.completion.drawers import run_drawer, vote_way
 from grafu.completion.scene import Scene
 from grafu.completion.view import View
 from grafu.geometry.arrays import Indices, Scalars
@@ -50,13 +50,16 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
 def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none.
 
-    The network decides, but for flaps that are plain to see. `scene` is the same graph with its handles attached: where
-    they sit says which face is the front.
+    The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
+    missing it never saw any, and a carpenter hangs them on what there is. `scene` is the same graph with its handles
+    attached: where they sit says which face is the front.
     """
     if not len(view.supports):
         return RefusedMotion(door.id, _NO_SUPPORT)
     slot, slots = view.place[door.id], view.within_reach(door, view.supports)
     hinged = view.beliefs.edge[slot, slots, HINGE]
+    if hinged.max() < view.config.sure and (answer := _on_given(hang_door(door, scene), view)) is not None:
+        return answer
     if hinged.max() < view.config.least_edge:
         return RefusedMotion(door.id, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}")
     mounts = softmax(view.beliefs.mount[slot, slots]) * hinged
@@ -85,7 +88,9 @@ def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
     slot, slots = view.place[drawer.id], view.within_reach(drawer, view.supports)
     railed = view.beliefs.edge[slot, slots, RAIL]
     if railed.max() < view.config.least_edge:
-        return RefusedMotion(drawer.id, f"the network sees no part that carries it: rails at most {railed.max():.2f}")
+        answer = _on_given(run_drawer(drawer, scene), view)
+        why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
+        return RefusedMotion(drawer.id, why) if answer is None else answer
     shares = (railed @ view.beliefs.slide[slot, slots] / railed.sum()) * _clear_way(drawer, view, scene)
     slide = verdict_of(SIGNED_AXES, shares)
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
@@ -95,6 +100,16 @@ def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
         for group in groups
     )
     return rails, (decision_of(drawer.id, "slide", slide), *mounts)
+
+
+def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
+    """Returns a carpenter's answer without what hangs on parts that the input lacks; None where nothing is left."""
+    if isinstance(answer, RefusedMotion):
+        return None
+    edges, decisions = answer
+    kept = tuple(edge for edge in edges if isinstance(edge, Hinge | Rail) and edge.parent in view.given)
+    said = tuple(d for d in decisions if d.question != "mount" or d.choice in view.given)
+    return (kept, said) if kept else None
 
 
 def _plain_flap(door: PartNode, said: HingeBorder, scene: Scene) -> Verdict[HingeBorder] | None:
