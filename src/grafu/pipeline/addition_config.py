@@ -48,6 +48,8 @@ class AdditionConfig:
     """
 
     top: TopConfig | None = field(default_factory=TopConfig)
+    replaces_top: bool = False
+    """Whether an added top takes the place of one that is there."""
     drawer_boxes: DrawerBoxConfig | None = field(default_factory=DrawerBoxConfig)
     carcass: CarcassConfig | None = None
     handles: HandleConfig | None = field(default_factory=HandleConfig)

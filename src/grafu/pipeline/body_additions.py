@@ -16,13 +16,17 @@ from grafu.realization.plan import RealizationPlan
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.top.complete import TopVerdict, missing_tops
 from grafu.realization.top.config import DEFAULT_TOP
+from grafu.realization.top.replace import ReplacedTop, replace_top
 from grafu.vocabulary import PartLabel
 
 
 @final
 @dataclass(frozen=True)
 class Body:
-    """The asset and the plan with what was added, and what was found on the way, wanted or not."""
+    """The asset and the plan with what was added, and what was found on the way, wanted or not.
+
+    `removed` names the parts of the input that were replaced.
+    """
 
     asset: Asset
     plan: RealizationPlan
@@ -31,15 +35,16 @@ class Body:
     drawers: DrawerBoxes
     additions: tuple[Addition, ...]
     skipped: tuple[Skipped, ...]
+    removed: frozenset[str] = frozenset()
 
 
 def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPlan, config: AdditionConfig) -> Body:
     """Returns the asset with the top, boards and drawer boxes that it lacks and may have."""
-    top = missing_tops(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
-    if config.top is None:
-        top = replace(top, addition=None, others=())
+    chosen = _top(asset, completion, plan, config)
+    top = chosen.verdict
     above = _kept(top.additions, config)
-    grown = _with(asset, above)
+    removed = chosen.removed if above else frozenset()
+    grown = _with(replace(asset, parts=tuple(p for p in asset.parts if p.id not in removed)), above)
     boxes = config.drawer_boxes
     drawers = complete_drawers(grown.parts, plan, *(() if boxes is None else (boxes,)), build=boxes is not None)
     drawers = replace(drawers, additions=_kept(drawers.additions, config))
@@ -51,10 +56,22 @@ def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPl
     carcass = replace(carcass, additions=_kept(carcass.additions, config))
     skipped = [Skipped(r.part, SkipReason.NOT_ADDED, r.why) for r in carcass.refused]
     skipped += [Skipped(r.part, SkipReason.NOT_ADDED, f"no drawer box: {r.why}") for r in drawers.refused]
-    if config.top is not None and top.missing and top.addition is None:
-        skipped.append(Skipped(PartLabel.TOP_PANEL.value, SkipReason.NOT_ADDED, top.why))
+    if chosen.refused:
+        skipped.append(Skipped(PartLabel.TOP_PANEL.value, SkipReason.NOT_ADDED, chosen.refused))
     additions = (*above, *drawers.additions, *carcass.additions)
-    return Body(_with(grown, carcass.additions), plan, top, carcass, drawers, additions, tuple(skipped))
+    return Body(_with(grown, carcass.additions), plan, top, carcass, drawers, additions, tuple(skipped), removed)
+
+
+def _top(asset: Asset, completion: GraphCompletion, plan: RealizationPlan, config: AdditionConfig) -> ReplacedTop:
+    """Returns whether there is a top, and the one to add or to put in its place."""
+    if config.top is not None and config.replaces_top:
+        nodes = completion.completed.nodes
+        called = [node.id for node in nodes if node.label is PartLabel.TOP_PANEL]
+        return replace_top(asset.parts, plan.joints, called, config.top, _predicted_top(completion))
+    top = missing_tops(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
+    if config.top is None:
+        return ReplacedTop(replace(top, addition=None, others=()))
+    return ReplacedTop(top, frozenset(), top.why if top.missing and top.addition is None else "")
 
 
 def _kept(additions: Sequence[Addition], config: AdditionConfig) -> tuple[Addition, ...]:

@@ -4,16 +4,16 @@ Where a part was built for a node that the network had added, what was decided a
 builds nothing.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Attached, Contact, Edge, ends_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of
 from grafu.graph.edit import with_edges, without_nodes
-from grafu.graph.functional_graph import PartNode
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import ParsingConfig, near_pairs
 from grafu.graph.touching import touching_pairs
 from grafu.realization.addition import Addition
@@ -41,14 +41,25 @@ def as_built(
     return replace(completion, completed=graph, added=tuple(p.id for p in new), decisions=decisions, refused=refused)
 
 
-def without_removed(completion: GraphCompletion, removed: Collection[str]) -> GraphCompletion:
-    """Returns the completion without parts of the input that were replaced, and what was decided about them."""
+def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs: Sequence[str] = ()) -> GraphCompletion:
+    """Returns the completion without parts of the input that were replaced, and what was decided about them.
+
+    What they carried hangs on the nearest of the `heirs`.
+    """
     if not removed:
         return completion
-    given, completed = (without_nodes(graph, removed) for graph in (completion.input, completion.completed))
+    graph = completion.completed
+    carried = [e for e in graph.edges if isinstance(e, Hinge | Rail) and e.parent in removed]
+    graph = with_edges(graph, [replace(e, parent=_nearest(heirs, e.parent, graph)) for e in carried if heirs])
+    given, completed = (without_nodes(g, removed & {n.id for n in g.nodes}) for g in (completion.input, graph))
     decisions = tuple(d for d in completion.decisions if d.part not in removed)
     refused = tuple(r for r in completion.refused if r.part not in removed)
     return replace(completion, input=given, completed=completed, decisions=decisions, refused=refused)
+
+
+def _nearest(names: Sequence[str], other: str, graph: FunctionalGraph) -> str:
+    middle = graph.node(other).box.center
+    return min(names, key=lambda name: float(np.linalg.norm(graph.node(name).box.center - middle)))
 
 
 def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, str]:

@@ -83,6 +83,11 @@ class Functionalized:
         """All parts that the input did not have."""
         return (*self.body.additions, *self.fittings.additions)
 
+    @property
+    def removed(self) -> frozenset[str]:
+        """The ids of the input's parts that were replaced."""
+        return self.body.removed | self.fittings.removed
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -176,8 +181,10 @@ def functionalize(
     return Functionalized(
         asset,
         chosen,
-        as_built(
-            without_removed(completion, fittings.removed), asset, (*body.additions, *fittings.additions), config.parsing
+        without_removed(
+            as_built(completion, asset, (*body.additions, *fittings.additions), config.parsing),
+            body.removed | fittings.removed,
+            [addition.part.id for addition in body.additions if addition.part.label is PartLabel.TOP_PANEL],
         ),
         body.plan,
         fitted_object(realized.object, fittings),

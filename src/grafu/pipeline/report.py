@@ -53,16 +53,16 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
 
 
 def _with_removed(result: Functionalized) -> FunctionalGraph:
-    """Returns the completed graph, with the nodes of handles that were replaced: what was lacking was so before."""
+    """Returns the completed graph, with the nodes of parts that were replaced: what was lacking was so before."""
     graph = result.completion.completed
-    gone = tuple(PartNode(p.id, p.label, p.box) for p in result.asset.parts if p.id in result.fittings.removed)
+    gone = tuple(PartNode(p.id, p.label, p.box) for p in result.asset.parts if p.id in result.removed)
     return replace(graph, nodes=(*graph.nodes, *gone)) if gone else graph
 
 
 def _part_records(result: Functionalized) -> tuple[PartRecord, ...]:
     link_of = {visual.name: link.id for link in result.object.links for visual in link.visuals}
     category_of = {node.id: node.label for node in result.completion.completed.nodes}
-    link_of |= dict.fromkeys(result.fittings.removed, "")
+    link_of |= dict.fromkeys(result.removed, "")
     return tuple(
         _part_record(part, category_of.get(part.id, part.label), link_of.get(part.id, result.object.root))
         for part in result.asset.parts

@@ -1,5 +1,6 @@
 """Which joints of a report need somebody's eye: ok, warning or error, and why. It measures nothing anew."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
@@ -71,12 +72,26 @@ def _state(joint: JointRecord, unit: float) -> JointState:
     return JointState(joint.part, joint.id, level, "; ".join((*wrong, *minor)))
 
 
-def lost(before: Report, after: Report) -> tuple[str, ...]:
-    """Returns for joints that stood before and do not after a change, each part and why, in words."""
-    moving = {joint.part for joint in after.joints}
-    why = {skip.request: skip.detail or skip.reason.value for skip in after.skipped}
+def lost(before: Report, after: Report, besides: Collection[str] = ()) -> tuple[str, ...]:
+    """Returns for joints that stood before and do not after a change, each part and why, in words.
+
+    `besides` are parts that may lose theirs: the change was about them.
+    """
+    moving = {joint.part for joint in after.joints} | set(besides)
     gone = (joint.part for joint in before.joints if joint.part not in moving)
-    return tuple(f"{part}: {why.get(part, 'it does not move any more')}" for part in gone)
+    return tuple(_why_not(after, part, "it does not move any more") for part in gone)
+
+
+def not_built(after: Report, part: str) -> tuple[str, ...]:
+    """Returns why a part has no joint, in words; empty where it has one."""
+    if part in {joint.part for joint in after.joints}:
+        return ()
+    return (_why_not(after, part, "nobody says how it moves: state a motion, or correct its category"),)
+
+
+def _why_not(report: Report, part: str, otherwise: str) -> str:
+    why = {skip.request: skip.detail or skip.reason.value for skip in report.skipped}
+    return f"{part}: {why.get(part, otherwise)}"
 
 
 def newly_skipped(before: Report, after: Report) -> tuple[str, ...]:

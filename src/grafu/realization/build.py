@@ -122,13 +122,13 @@ def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path
 def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Skipped:
     """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
     box = scene.parts[request.moving].box
+    what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     if not any(o.collider.box.overlaps(box, config.contact * scene.unit) for o in scene.static_obstacles):
-        detail = "no static part is near enough to carry a mechanism"
+        detail = f"no static part is near enough to carry a {what}"
         return Skipped(request.moving, SkipReason.NO_FACING_SURFACES, detail)
     if free < 0.3:
         detail = "it cannot move freely about any candidate axis, not even with the clearance allowed"
         return Skipped(request.moving, SkipReason.BLOCKED, detail)
-    what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     detail = f"no {what} finds a hold on both sides without cutting into parts"
     return Skipped(request.moving, SkipReason.NO_ROOM, detail)
 

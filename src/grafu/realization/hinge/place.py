@@ -11,6 +11,7 @@ from functools import cache, partial
 from typing import final
 
 from grafu.articulation.articulated_object import Visual
+from grafu.geometry.mesh import merge_meshes
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.realization.hinge.fit import fit_hinge, hinge_heights, hinge_size
 from grafu.realization.hinge.hardware import InstalledHinge, Site, install, judged_hinge
@@ -129,11 +130,17 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[
     door = search.scene.parts[search.request.moving].mesh
     ends = pivot_ends(search.frame, judged.pin, door, search.carriers, 0.2 * search.frame.length)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
-    held = [hinge for hinge in judgements if hinge is not None]
+    held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
     free = [hinge for hinge in held if not hinge.struck_by]
     if held:
         placement = _placement(judged, PIVOT, upper, free or held, search)
         yield _Try(placement, lambda: placement)
+
+
+def _is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
+    """Whether the static end sits on the mount that was chosen, if any."""
+    static = merge_meshes(hinge.static_meshes)
+    return not site.mount or site.scene.is_near_static(static, site.anchor, site.mount)
 
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
