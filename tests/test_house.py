@@ -17,7 +17,7 @@ from grafu.version import __version__
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
-BLENDERS = {"bpy"}  # what only grafu.export.blend imports, in a process of its own
+OPTIONAL = {"bpy", "pxr"}  # what only grafu.export.blend, in a process of its own, and grafu.export.usd import
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.
 ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")
@@ -110,8 +110,8 @@ def test_the_base_install_is_what_is_imported() -> None:
     modules = {"python-fcl": "fcl", "pillow": "PIL", "mapbox-earcut": "mapbox_earcut"}
     names = {re.split(r"[<>=]", line)[0] for line in stated}
 
-    assert {modules.get(name, name) for name in names} == imported_packages(to_train=False) - BLENDERS
-    assert not names & {"torch", "bpy"}
+    assert {modules.get(name, name) for name in names} == imported_packages(to_train=False) - OPTIONAL
+    assert not names & {"torch", "bpy", "usd-core"}
 
 
 def test_what_training_imports_is_stated_too() -> None:

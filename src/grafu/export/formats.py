@@ -16,12 +16,20 @@ FORMATS = MappingProxyType(
         "glb": ("grafu.export.glb", "export_glb"),
         "urdf": ("grafu.export.urdf", "export_urdf"),
         "mjcf": ("grafu.export.mjcf", "export_mjcf"),
+        "usd": ("grafu.export.usd.exporter", "export_usd"),
+        "usdz": ("grafu.export.usd.exporter", "export_usdz"),
         "particulate": ("grafu.export.particulate", "export_particulate"),
         "singapo": ("grafu.export.singapo", "export_singapo"),
         "blend": ("grafu.export.blend.exporter", "export_blend"),
     }
 )
-_NEEDS = MappingProxyType({"blend": ("grafu.export.blend.exporter", "find_interpreter")})
+_NEEDS = MappingProxyType(
+    {
+        "blend": ("grafu.export.blend.exporter", "find_interpreter"),
+        "usd": ("grafu.export.usd.exporter", "require_pxr"),
+        "usdz": ("grafu.export.usd.exporter", "require_pxr"),
+    }
+)
 """What finds, or else refuses, what an optional format cannot do without."""
 
 

@@ -1,0 +1,157 @@
+"""Materials as UsdPreviewSurface, which every viewer shows; images stay byte for byte. It knows no meshes."""
+
+from typing import Any, final
+
+from pxr import Gf, Sdf, Usd, UsdShade
+
+from grafu.export.names import NameBook, file_safe
+from grafu.export.usd.names import Siblings
+from grafu.geometry.appearance import Material, Surface, Texture
+
+_SUFFIX = {"image/png": ".png", "image/jpeg": ".jpg"}
+_FLOAT, _COLOR, _TOKEN = Sdf.ValueTypeNames.Float, Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Token
+Key = tuple[Material, bool, bool]
+
+
+@final
+class UsdLooks:
+    """Writes each material, and each image, once."""
+
+    def __init__(self, stage: Usd.Stage, scope: Sdf.Path) -> None:
+        self.images: dict[str, bytes] = {}
+        self._stage, self._scope = stage, scope
+        self._siblings, self._files = Siblings(), NameBook()
+        self._made: dict[Key, UsdShade.Material] = {}
+        self._file_of: dict[tuple[bytes, str], str] = {}
+
+    def material_of(self, surface: Surface) -> UsdShade.Material:
+        """Returns the material of a surface; without coordinates in images it has no images.
+
+        Colours of vertices (`displayColor`) stand for its colour where no image does.
+        """
+        textured = surface.uv is not None
+        pictured = textured and surface.material.base_color_texture is not None
+        key = (surface.material, textured, surface.colors is not None and not pictured)
+        if key not in self._made:
+            self._made[key] = _Shading(self, key).material
+        return self._made[key]
+
+    def new_material(self, name: str) -> UsdShade.Material:
+        """Returns a new, empty material."""
+        material = UsdShade.Material.Define(self._stage, self._scope.AppendChild(self._siblings.unique(name)))
+        if material.GetPrim().GetName() != name and name:
+            material.GetPrim().SetDisplayName(name)
+        return material
+
+    def shader(self, material: UsdShade.Material, name: str, kind: str) -> UsdShade.Shader:
+        """Returns a new node of a material."""
+        shader = UsdShade.Shader.Define(self._stage, material.GetPath().AppendChild(name))
+        shader.CreateIdAttr(kind)
+        return shader
+
+    def file_of(self, texture: Texture) -> str:
+        """Returns the name of an image's file, relative to the scene's."""
+        key = (texture.data, texture.mime)
+        if key not in self._file_of:
+            stem = file_safe(texture.name.removesuffix(_SUFFIX[texture.mime]))
+            self._file_of[key] = f"textures/{self._files.unique(stem)}{_SUFFIX[texture.mime]}"
+            self.images[self._file_of[key]] = texture.data
+        return self._file_of[key]
+
+
+@final
+class _Shading:
+    """One material being built."""
+
+    def __init__(self, looks: UsdLooks, key: Key) -> None:
+        source, self._textured, from_vertices = key
+        self._looks = looks
+        self.material = looks.new_material(source.name)
+        self._surface = looks.shader(self.material, "surface", "UsdPreviewSurface")
+        self.material.CreateSurfaceOutput().ConnectToSource(self._surface.ConnectableAPI(), "surface")
+        self._st: UsdShade.Shader | None = None
+        self._add_color(source, from_vertices)
+        self._add_gloss(source)
+        self._add_normal(source.normal_texture)
+        self._add_occlusion(source.occlusion_texture)
+        self._add_emission(source)
+
+    def _add_color(self, source: Material, from_vertices: bool) -> None:
+        r, g, b, alpha = source.base_color
+        opaque = source.alpha_mode == "OPAQUE"
+        image = self._image("color", source.base_color_texture, Gf.Vec4f(r, g, b, 1.0 if opaque else alpha), "sRGB")
+        color = self._surface.CreateInput("diffuseColor", _COLOR)
+        if image is not None:
+            color.ConnectToSource(image.ConnectableAPI(), "rgb")
+        elif from_vertices:
+            reader = self._looks.shader(self.material, "vertex_color", "UsdPrimvarReader_float3")
+            reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("displayColor")
+            reader.CreateOutput("result", Sdf.ValueTypeNames.Float3)
+            color.ConnectToSource(reader.ConnectableAPI(), "result")
+        else:
+            color.Set(Gf.Vec3f(r, g, b))
+        if opaque:
+            return
+        opacity = self._surface.CreateInput("opacity", _FLOAT)
+        if image is not None:
+            image.CreateOutput("a", _FLOAT)
+            opacity.ConnectToSource(image.ConnectableAPI(), "a")
+        else:
+            opacity.Set(alpha)
+        if source.alpha_mode == "MASK":
+            self._surface.CreateInput("opacityThreshold", _FLOAT).Set(source.alpha_cutoff)
+
+    def _add_gloss(self, source: Material) -> None:
+        roughness, metallic = source.roughness, source.metallic
+        image = self._image("gloss", source.metallic_roughness_texture, Gf.Vec4f(1.0, roughness, metallic, 1.0), "raw")
+        for name, value, channel in (("roughness", roughness, "g"), ("metallic", metallic, "b")):
+            slot = self._surface.CreateInput(name, _FLOAT)
+            if image is None:
+                slot.Set(value)
+            else:
+                image.CreateOutput(channel, _FLOAT)
+                slot.ConnectToSource(image.ConnectableAPI(), channel)
+
+    def _add_normal(self, texture: Texture | None) -> None:
+        image = self._image("normal", texture, Gf.Vec4f(2.0, 2.0, 2.0, 1.0), "raw")
+        if image is not None:
+            image.CreateInput("bias", Sdf.ValueTypeNames.Float4).Set(Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
+            slot = self._surface.CreateInput("normal", Sdf.ValueTypeNames.Normal3f)
+            slot.ConnectToSource(image.ConnectableAPI(), "rgb")
+
+    def _add_occlusion(self, texture: Texture | None) -> None:
+        image = self._image("occlusion", texture, Gf.Vec4f(1.0), "raw")
+        if image is not None:
+            image.CreateOutput("r", _FLOAT)
+            self._surface.CreateInput("occlusion", _FLOAT).ConnectToSource(image.ConnectableAPI(), "r")
+
+    def _add_emission(self, source: Material) -> None:
+        image = self._image("emission", source.emissive_texture, Gf.Vec4f(*source.emissive, 1.0), "sRGB")
+        if image is not None:
+            slot = self._surface.CreateInput("emissiveColor", _COLOR)
+            slot.ConnectToSource(image.ConnectableAPI(), "rgb")
+        elif any(source.emissive):
+            self._surface.CreateInput("emissiveColor", _COLOR).Set(Gf.Vec3f(*source.emissive))
+
+    def _image(self, name: str, texture: Texture | None, scale: Any, space: str) -> UsdShade.Shader | None:
+        """Returns the node of an image; None where there is none, or no coordinates to lay it on."""
+        if texture is None or not self._textured:
+            return None
+        image = self._looks.shader(self.material, name, "UsdUVTexture")
+        file = image.CreateInput("file", Sdf.ValueTypeNames.Asset)
+        file.Set(Sdf.AssetPath(f"./{self._looks.file_of(texture)}"))
+        image.CreateInput("sourceColorSpace", _TOKEN).Set(space)
+        for wrap in ("wrapS", "wrapT"):
+            image.CreateInput(wrap, _TOKEN).Set("repeat")
+        image.CreateInput("scale", Sdf.ValueTypeNames.Float4).Set(scale)
+        image.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
+        slot = image.CreateInput("st", Sdf.ValueTypeNames.Float2)
+        slot.ConnectToSource(self._coordinates().ConnectableAPI(), "result")
+        return image
+
+    def _coordinates(self) -> UsdShade.Shader:
+        if self._st is None:
+            self._st = self._looks.shader(self.material, "coordinates", "UsdPrimvarReader_float2")
+            self._st.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
+            self._st.CreateOutput("result", Sdf.ValueTypeNames.Float2)
+        return self._st

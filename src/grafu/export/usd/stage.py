@@ -1,0 +1,197 @@
+"""An articulated object as one OpenUSD scene: bodies side by side under one prim, joints between them.
+
+The prim of a link stands on its joint's axis, parallel to the object frame at rest (metres, kilograms, Z up, front -Y);
+the root's is the object frame, and a fixed joint holds it to the prim above, wherever that is placed. Angles of joints
+are degrees, as OpenUSD has them.
+"""
+
+from math import degrees, radians
+from typing import Any, final
+
+import numpy as np
+from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.dynamics import JointDynamics
+from grafu.articulation.mass import MassProperties
+from grafu.articulation.physics import physics_of
+from grafu.export.usd.config import UsdConfig
+from grafu.export.usd.looks import UsdLooks
+from grafu.export.usd.meshes import add_collision, add_surface, quaternion
+from grafu.export.usd.names import Siblings, identifier
+from grafu.geometry.arrays import Mat3, Vec3
+from grafu.version import __version__
+from grafu.vocabulary import JointType, PartLabel
+
+_AXES = (UsdPhysics.Tokens.x, UsdPhysics.Tokens.y, UsdPhysics.Tokens.z)
+
+
+def build_stage(articulated: ArticulatedObject, config: UsdConfig) -> tuple[Usd.Stage, dict[str, bytes]]:
+    """Returns the scene, in memory, and the images that it names by relative paths."""
+    return _StageBuilder(articulated, config).build()
+
+
+@final
+class _StageBuilder:
+    """Fills one scene."""
+
+    def __init__(self, articulated: ArticulatedObject, config: UsdConfig) -> None:
+        self._object, self._config = articulated, config
+        self._physics = physics_of(articulated, config.physics)
+        self._stage = Usd.Stage.CreateInMemory()
+        self._top = Sdf.Path.absoluteRootPath.AppendChild(identifier(articulated.name))
+        self._looks = UsdLooks(self._stage, self._top.AppendChild("Looks"))
+        siblings = Siblings("Looks", "joints")
+        self._paths = {link.id: self._top.AppendChild(siblings.unique(link.id)) for link in articulated.links_from_root}
+        joints = Siblings("root_fixed")
+        self._joints = {
+            j.id: self._top.AppendPath("joints").AppendChild(joints.unique(j.id)) for j in articulated.joints
+        }
+
+    def build(self) -> tuple[Usd.Stage, dict[str, bytes]]:
+        self._add_top()
+        for link in self._object.links_from_root:
+            self._add_link(link)
+        UsdGeom.Scope.Define(self._stage, self._top.AppendChild("joints"))
+        self._add_root_joint()
+        for joint in self._object.joints:
+            self._add_joint(joint)
+        for first, second in self._physics.touching:
+            filtered = UsdPhysics.FilteredPairsAPI.Apply(self._stage.GetPrimAtPath(self._paths[first]))
+            filtered.CreateFilteredPairsRel().AddTarget(self._paths[second])
+        return self._stage, self._looks.images
+
+    def _add_top(self) -> None:
+        stage = self._stage
+        UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+        UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+        UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
+        stage.GetRootLayer().customLayerData = {"creator": f"grafu {__version__}"}
+        top = self._define(UsdGeom.Xform, self._top, self._object.name)
+        stage.SetDefaultPrim(top)
+        Usd.ModelAPI(top).SetKind(Kind.Tokens.component)
+        UsdPhysics.ArticulationRootAPI.Apply(top)
+        UsdGeom.Scope.Define(stage, self._top.AppendChild("Looks"))
+
+    def _define(self, schema: Any, path: Sdf.Path, name: str) -> Usd.Prim:
+        """Returns a new prim; a name that no prim can have is what it shows to people."""
+        prim = schema.Define(self._stage, path).GetPrim()
+        if path.name != name and name:
+            prim.SetDisplayName(name)
+        return prim
+
+    def _add_link(self, link: Link) -> None:
+        path, origin = self._paths[link.id], self._physics.origins[link.id]
+        prim = self._define(UsdGeom.Xform, path, link.id)
+        UsdGeom.Xformable(prim).AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
+        UsdPhysics.RigidBodyAPI.Apply(prim)
+        _add_mass(prim, self._physics.masses[link.id], origin)
+        visuals, siblings = UsdGeom.Xform.Define(self._stage, path.AppendChild("visuals")).GetPath(), Siblings()
+        for visual in link.visuals:
+            if len(visual.mesh.faces):
+                self._add_visual(visuals.AppendChild(siblings.unique(visual.name)), visual, origin)
+        collisions = UsdGeom.Xform.Define(self._stage, path.AppendChild("collisions"))
+        collisions.CreatePurposeAttr(UsdGeom.Tokens.guide)
+        for place, shape in enumerate(self._physics.shapes[link.id]):
+            add_collision(self._stage, collisions.GetPath().AppendChild(f"collision_{place}"), shape, origin)
+
+    def _add_visual(self, path: Sdf.Path, visual: Visual, origin: Vec3) -> None:
+        """Adds a part: one mesh where it has one surface, else a prim with a mesh for each."""
+        drawn = [surface for surface in visual.surfaces if not surface.is_empty]
+        places = [path] if len(drawn) == 1 else [path.AppendChild(f"surface_{k}") for k in range(len(drawn))]
+        prim = self._define(UsdGeom.Mesh if len(drawn) == 1 else UsdGeom.Xform, path, visual.name)
+        for place, surface in zip(places, drawn, strict=True):
+            add_surface(self._stage, place, surface, origin, self._looks, self._config.crease_angle)
+        if visual.label is not PartLabel.UNKNOWN:
+            UsdSemantics.LabelsAPI.Apply(prim, "class").CreateLabelsAttr([visual.label.value])
+        prim.CreateAttribute("grafu:role", Sdf.ValueTypeNames.Token).Set(visual.role.value)
+
+    def _add_root_joint(self) -> None:
+        """Holds the root to the prim above all: with no first body it would stay where the world's origin is."""
+        joint = UsdPhysics.FixedJoint.Define(self._stage, self._top.AppendPath("joints/root_fixed"))
+        _join(joint, self._top, self._paths[self._object.root], np.zeros(3), np.eye(3))
+
+    def _add_joint(self, joint: Joint) -> None:
+        path, still = self._joints[joint.id], joint.type is JointType.FIXED or joint.limits.range <= 0
+        turns = joint.type is JointType.REVOLUTE
+        kind = UsdPhysics.FixedJoint if still else UsdPhysics.RevoluteJoint if turns else UsdPhysics.PrismaticJoint
+        prim = self._define(kind, path, joint.id)
+        along, R = _frame(joint.axis.direction)
+        offset = self._physics.origins[joint.child] - self._physics.origins[joint.parent]
+        _join(kind(prim), self._paths[joint.parent], self._paths[joint.child], offset, np.eye(3) if still else R)
+        if still:
+            return
+        made = kind(prim)
+        made.CreateAxisAttr(_AXES[along])
+        made.CreateLowerLimitAttr(degrees(joint.limits.lower) if turns else joint.limits.lower)
+        made.CreateUpperLimitAttr(degrees(joint.limits.upper) if turns else joint.limits.upper)
+        self._add_resistance(prim, self._physics.dynamics[joint.id], turns)
+        if joint.after:
+            before = prim.CreateRelationship("grafu:after")
+            before.SetTargets([self._joints[other] for other in joint.after])
+
+    def _add_resistance(self, prim: Usd.Prim, dynamics: JointDynamics, turns: bool) -> None:
+        """Adds a drive that only damps, and what PhysX knows beside it; whoever gives it stiffness has a servo."""
+        way = "angular" if turns else "linear"
+        drive = UsdPhysics.DriveAPI.Apply(prim, way)
+        drive.CreateTypeAttr(UsdPhysics.Tokens.force)
+        drive.CreateStiffnessAttr(0.0)
+        drive.CreateDampingAttr(radians(dynamics.damping) if turns else dynamics.damping)  # for each degree per second
+        drive.CreateMaxForceAttr(dynamics.effort)
+        drive.CreateTargetPositionAttr(0.0)
+        drive.CreateTargetVelocityAttr(0.0)
+        if not self._config.physx:
+            return
+        prim.AddAppliedSchema(f"PhysxJointAxisAPI:{way}")
+        inertia = dynamics.damping * self._config.physics.dynamics.settling
+        values = {
+            "staticFrictionEffort": dynamics.friction,
+            "dynamicFrictionEffort": dynamics.friction,
+            "maxJointVelocity": degrees(dynamics.velocity) if turns else dynamics.velocity,
+            "armature": self._config.armature * inertia,
+        }
+        for name, value in values.items():
+            prim.CreateAttribute(f"physxJointAxis:{way}:{name}", Sdf.ValueTypeNames.Float, False).Set(value)
+
+
+def _join(joint: Any, first: Sdf.Path, second: Sdf.Path, offset: Vec3, R: Mat3) -> None:
+    """Gives a joint its bodies and its frame, seen from each; the second body stands at `offset` from the first."""
+    turn = Gf.Quatf(quaternion(R))
+    joint.CreateBody0Rel().SetTargets([first])
+    joint.CreateBody1Rel().SetTargets([second])
+    joint.CreateLocalPos0Attr(Gf.Vec3f(*offset.tolist()))
+    joint.CreateLocalPos1Attr(Gf.Vec3f(0.0))
+    joint.CreateLocalRot0Attr(turn)
+    joint.CreateLocalRot1Attr(turn)
+
+
+def _frame(direction: Vec3) -> tuple[int, Mat3]:
+    """Returns which axis of a frame points in a direction, and the frame: the object's own where that will do.
+
+    The axis is the one that is nearest; the frame's turn is exact for directions along axes.
+    """
+    along = int(np.argmax(np.abs(direction)))
+    axis = np.eye(3)[along]
+    if direction @ axis < 0:  # half a turn about the next axis first
+        half = np.diag(np.where(np.arange(3) == (along + 1) % 3, 1.0, -1.0))
+        return along, _shortest(-axis, direction) @ half
+    return along, _shortest(axis, direction)
+
+
+def _shortest(start: Vec3, end: Vec3) -> Mat3:
+    """Returns the shortest turn from one unit vector to another that is no further than a right angle."""
+    v = np.cross(start, end)
+    K = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+    return np.eye(3) + K + K @ K / (1.0 + float(start @ end))
+
+
+def _add_mass(prim: Usd.Prim, mass: MassProperties, origin: Vec3) -> None:
+    values, axes = np.diag(mass.inertia), np.eye(3)
+    if np.abs(mass.inertia - np.diag(values)).max() > 1e-9 * values.max():
+        values, axes = np.linalg.eigh(mass.inertia)
+        axes = axes * np.sign(np.linalg.det(axes))
+    made = UsdPhysics.MassAPI.Apply(prim)
+    made.CreateMassAttr(mass.mass)
+    made.CreateCenterOfMassAttr(Gf.Vec3f(*(mass.center - origin).tolist()))
+    made.CreateDiagonalInertiaAttr(Gf.Vec3f(*values.tolist()))
+    made.CreatePrincipalAxesAttr(Gf.Quatf(quaternion(axes)))
