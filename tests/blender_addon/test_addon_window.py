@@ -14,7 +14,7 @@ def folder(tmp_path_factory):
     if why:
         pytest.skip(why)
     made = tmp_path_factory.mktemp("window")
-    done = run_in_window(ROOT / "tests/blender_addon/window_probe.py", [str(SAMPLE)], made, 300.0)
+    done = run_in_window(ROOT / "tests/blender_addon/window_probe.py", [str(SAMPLE)], made, 900.0)
     assert done.returncode == 0, (done.stdout + done.stderr)[-3000:]
     return made
 
