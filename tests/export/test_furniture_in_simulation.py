@@ -55,6 +55,20 @@ def test_it_rests_closed_and_opens_fully(made, kind, file, tmp_path):
     assert np.all(data.qpos >= 0.95 * model.jnt_range[:, 1])
 
 
+def test_the_open_pose_stays_as_it_is_but_for_gravity(made, tmp_path):
+    write_files(export(made, ["mjcf"]), tmp_path / "out")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "model.xml"))
+    model.opt.gravity[:] = 0.0  # a flap that opens upwards falls shut
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("open").id)
+    opened = data.qpos.copy()
+
+    run(model, data, 1.0)
+
+    assert np.all(opened > 0)
+    assert np.allclose(data.qpos, opened, atol=2e-3)
+
+
 def test_the_official_validator_finds_no_error(made, tmp_path):
     issues = issues_of(export(made, ["glb"])["model.glb"], tmp_path)
 

@@ -6,15 +6,14 @@ doors open or stop drawers. They are cut back where it takes the least surface a
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import final
 
-import fcl
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, corners_of, extent_of
 from grafu.articulation.kinematics import link_poses
+from grafu.articulation.shape_body import ShapeBody
 from grafu.articulation.sweep import values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
@@ -46,34 +45,6 @@ _REST: Mat4 = np.eye(4)
 
 
 @final
-class _Body:
-    """One shape of one link, with its bounds at rest; its collision object is made when first needed. Not a value."""
-
-    def __init__(self, link: str, shape: CollisionShape) -> None:
-        self.link = link
-        self.shape = shape
-        self.corners: Points = corners_of(shape)
-        self.bounds = np.stack([self.corners.min(axis=0), self.corners.max(axis=0)])
-
-    @cached_property
-    def _object(self) -> fcl.CollisionObject:
-        return fcl.CollisionObject(_geometry(self.corners))
-
-    def place(self, T: Mat4) -> None:
-        """Poses the body at T for the queries that follow."""
-        self._object.setTransform(fcl.Transform(T[:3, :3], T[:3, 3]))
-
-    def bounds_at(self, Ts: np.ndarray) -> np.ndarray:
-        """Returns the axis-aligned bounds in poses (n, 4, 4) as (n, 2, 3)."""
-        corners = self.corners @ Ts[:, :3, :3].swapaxes(1, 2) + Ts[:, None, :3, 3]
-        return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
-
-    def meets(self, other: "_Body") -> bool:
-        """Whether the two, as posed, share a point."""
-        return bool(fcl.collide(self._object, other._object, fcl.CollisionRequest(), fcl.CollisionResult()))
-
-
-@final
 @dataclass(frozen=True, slots=True)
 class _Motion:
     """One joint's way from rest to full.
@@ -94,8 +65,8 @@ class _Conflict:
     `still_moves` says that the second moves with another joint.
     """
 
-    moving: _Body
-    still: _Body
+    moving: ShapeBody
+    still: ShapeBody
     still_moves: bool
     Ts_moving_still: tuple[Mat4, ...]
 
@@ -109,9 +80,9 @@ def cleared(
 
     Joints move one at a time from rest to full, those they wait for open; shapes are in the object frame at rest.
     """
-    bodies = [_Body(link, shape) for link, held in shapes.items() for shape in held]
+    bodies = [ShapeBody(link, shape) for link, held in shapes.items() for shape in held]
     motions = [_motion(articulated, joint, config.poses) for joint in articulated.moving_joints]
-    settled: frozenset[_Body] = frozenset()
+    settled: frozenset[ShapeBody] = frozenset()
     for left in reversed(range(config.rounds)):
         conflicts = [found for motion in motions for found in _conflicts(motion, bodies, settled, articulated.root)]
         if not conflicts:
@@ -119,27 +90,6 @@ def cleared(
         settled = frozenset(bodies)
         bodies = _resolved(bodies, conflicts, config if left else None)
     return {link: tuple(body.shape for body in bodies if body.link == link) for link in shapes}
-
-
-def met_at_rest(shapes: Mapping[str, tuple[CollisionShape, ...]]) -> tuple[tuple[str, str], ...]:
-    """Returns the pairs of links whose shapes share a point at rest, in the order of `shapes`."""
-    bodies = [_Body(link, shape) for link, held in shapes.items() for shape in held]
-    if not bodies:
-        return ()
-    low, high = np.stack([body.bounds for body in bodies], axis=1)
-    near = np.argwhere(np.all((low[:, None] <= high) & (low <= high[:, None]), axis=-1))
-    met: dict[tuple[str, str], None] = {}
-    for a, b in ((bodies[i], bodies[k]) for i, k in near if i < k):
-        if a.link != b.link and (a.link, b.link) not in met and a.meets(b):
-            met[a.link, b.link] = None
-    return tuple(met)
-
-
-def _geometry(corners: Points) -> fcl.CollisionGeometry:
-    solid = ConvexSolid.around(corners)
-    assert solid is not None, "collision shapes have volume"
-    faces = np.column_stack([np.full(len(solid.faces), 3), solid.faces]).ravel()
-    return fcl.Convex(solid.vertices, len(solid.faces), faces)
 
 
 def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _Motion:
@@ -162,11 +112,13 @@ def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
     return found
 
 
-def _conflicts(motion: _Motion, bodies: list[_Body], settled: frozenset[_Body], root: str) -> Iterator[_Conflict]:
+def _conflicts(
+    motion: _Motion, bodies: list[ShapeBody], settled: frozenset[ShapeBody], root: str
+) -> Iterator[_Conflict]:
     """Yields the pairs that meet on one joint's way, except those of which both are settled: they have been asked."""
     moving = [body for body in bodies if body.link in motion.Ts_object_carried]
     still = [body for body in bodies if body.link not in motion.Ts_object_carried]
-    met: dict[tuple[_Body, _Body], list[Mat4]] = {}
+    met: dict[tuple[ShapeBody, ShapeBody], list[Mat4]] = {}
     for pose, a, b in _near(motion, moving, still):
         mover, other = moving[a], still[b]
         if mover in settled and other in settled:
@@ -181,7 +133,7 @@ def _conflicts(motion: _Motion, bodies: list[_Body], settled: frozenset[_Body], 
         yield _Conflict(mover, other, other.link != root, tuple(Ts))
 
 
-def _near(motion: _Motion, moving: list[_Body], still: list[_Body]) -> np.ndarray:
+def _near(motion: _Motion, moving: list[ShapeBody], still: list[ShapeBody]) -> np.ndarray:
     """Returns the rows (pose, moving body, still body) in which the bounds of the two overlap, in that order."""
     if not moving or not still:
         return np.zeros((0, 3), dtype=np.int64)
@@ -190,45 +142,45 @@ def _near(motion: _Motion, moving: list[_Body], still: list[_Body]) -> np.ndarra
     return np.argwhere(np.all((a[..., 0, :] <= b[:, 1]) & (b[:, 0] <= a[..., 1, :]), axis=-1))
 
 
-def _bounds_of_still(motion: _Motion, body: _Body) -> np.ndarray:
+def _bounds_of_still(motion: _Motion, body: ShapeBody) -> np.ndarray:
     T = motion.T_object_still.get(body.link)
     return body.bounds if T is None else body.bounds_at(T[None])[0]
 
 
-def _resolved(bodies: list[_Body], conflicts: list[_Conflict], config: ClearanceConfig | None) -> list[_Body]:
+def _resolved(bodies: list[ShapeBody], conflicts: list[_Conflict], config: ClearanceConfig | None) -> list[ShapeBody]:
     """Returns the bodies after one cut per conflict; with no config one of the two is left out instead.
 
     A body that has been cut already waits for the next round: the cut may have settled its other conflicts.
     """
-    changed: dict[_Body, CollisionShape | None] = {}
+    changed: dict[ShapeBody, CollisionShape | None] = {}
     for conflict in conflicts:
         if conflict.moving in changed or conflict.still in changed:
             continue
         body, shape = _cut(conflict, config) if config is not None else (_left_out(conflict), None)
         changed[body] = shape
     kept = ((body, changed[body]) if body in changed else (body, body.shape) for body in bodies)
-    return [body if body.shape is shape else _Body(body.link, shape) for body, shape in kept if shape is not None]
+    return [body if body.shape is shape else ShapeBody(body.link, shape) for body, shape in kept if shape is not None]
 
 
-def _left_out(conflict: _Conflict) -> _Body:
+def _left_out(conflict: _Conflict) -> ShapeBody:
     if not conflict.still_moves:
         return conflict.still
     return min(conflict.moving, conflict.still, key=lambda body: extent_of(body.shape))
 
 
-def _cut(conflict: _Conflict, config: ClearanceConfig) -> tuple[_Body, CollisionShape | None]:
+def _cut(conflict: _Conflict, config: ClearanceConfig) -> tuple[ShapeBody, CollisionShape | None]:
     """Returns the body that gives way and what is left of it: whatever takes the least surface away."""
     moving, still = conflict.moving, conflict.still
     onto_moving = np.vstack([transform_points(T, still.corners) for T in conflict.Ts_moving_still])
     onto_still = np.vstack([transform_points(invert(T), moving.corners) for T in conflict.Ts_moving_still])
-    options: list[tuple[_Body, CollisionShape | None]] = [(_left_out(conflict), None)]
+    options: list[tuple[ShapeBody, CollisionShape | None]] = [(_left_out(conflict), None)]
     for body, obstacle in ((moving, onto_moving), (still, onto_still)):
         rest = _cut_back(body.shape, obstacle, config)
         options += [(body, rest)] if rest is not None else []
     return min(options, key=lambda option: _loss(*option))
 
 
-def _loss(body: _Body, rest: CollisionShape | None) -> float:
+def _loss(body: ShapeBody, rest: CollisionShape | None) -> float:
     return extent_of(body.shape) - (0.0 if rest is None else extent_of(rest))
 
 

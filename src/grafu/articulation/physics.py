@@ -9,11 +9,12 @@ from typing import final
 from weakref import WeakKeyDictionary
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.articulation.collision_clearance import ClearanceConfig, cleared, met_at_rest
+from grafu.articulation.collision_clearance import ClearanceConfig, cleared
 from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape, collision_shapes
 from grafu.articulation.dynamics import DynamicsConfig, JointDynamics, joint_dynamics
 from grafu.articulation.link_frames import link_origins
 from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link
+from grafu.articulation.open_together import met_at_rest
 from grafu.geometry.arrays import Vec3
 
 
@@ -67,4 +68,4 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     dynamics = {
         joint.id: joint_dynamics(articulated, joint, masses, config.dynamics) for joint in articulated.moving_joints
     }
-    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, met_at_rest(shapes))
+    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, met_at_rest(articulated, shapes))

@@ -13,6 +13,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.mass import MassProperties
+from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.export.files import ExportFiles
 from grafu.export.mjcf_looks import MjcfLooks
@@ -37,7 +38,8 @@ class MjcfConfig:
 
     `armature` is a share of the inertia (or mass) that a joint moves, added to it: it steadies light parts.
     `actuators` adds a position servo to every joint; without them furniture is passive. A servo has its greatest effort
-    at an error of `servo_error` of the joint's range. `keyframes` adds the poses `closed` and `open`.
+    at an error of `servo_error` of the joint's range. `keyframes` adds the poses `closed` and `open`, in which
+    every joint is as far open as the others leave room.
     """
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
@@ -184,8 +186,9 @@ class _MjcfWriter:
             ET.SubElement(element, "position", attributes | {"forcerange": numbers([-effort, effort])})
 
     def _add_keyframes(self, element: ET.Element) -> None:
-        for name in ("closed", "open"):
-            values = [joint.limits.lower if name == "closed" else joint.limits.upper for joint in self._moving]
+        closed = {joint.id: joint.limits.lower for joint in self._moving}
+        for name, pose in (("closed", closed), ("open", open_together(self._object, self._physics.shapes))):
+            values = [pose[joint.id] for joint in self._moving]
             key = ET.SubElement(element, "key", name=name, qpos=numbers(values))
             if self._config.actuators:
                 key.set("ctrl", numbers(values))
