@@ -90,8 +90,9 @@ def not_built(after: Report, part: str) -> tuple[str, ...]:
 
 
 def _why_not(report: Report, part: str, otherwise: str) -> str:
-    why = {skip.request: skip.detail or skip.reason.value for skip in report.skipped}
-    return f"{part}: {why.get(part, otherwise)}"
+    skips = [skip for skip in report.skipped if skip.request == part]
+    first = min(skips, key=lambda skip: skip.reason is SkipReason.NOT_ADDED, default=None)  # of the joint itself
+    return f"{part}: {otherwise if first is None else first.detail or first.reason.value}"
 
 
 def newly_skipped(before: Report, after: Report) -> tuple[str, ...]:
