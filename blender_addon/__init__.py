@@ -18,6 +18,7 @@ _MODULES = (
     "state",
     "run_operators",
     "joint_operators",
+    "motion_operators",
     "addition_operators",
     "view_operators",
     "output_operators",

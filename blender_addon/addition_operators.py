@@ -91,12 +91,15 @@ class GRAFU_OT_reset_handle(Applies, bpy.types.Operator):
 
 
 class GRAFU_OT_set_top(_Adds, bpy.types.Operator):
-    """Adds a top where none is there, with this shape and size; or adds none"""
+    """Adds a top of this shape and size where none is there, or in the place of the one that is; or adds none"""
 
     bl_idname = "grafu.set_top"
     bl_label = "Top"
 
     add: BoolProperty(name="Add where missing", default=True, options={"SKIP_SAVE"})
+    replaces: BoolProperty(
+        name="Replace", description="Put it in the place of the top that is there", options={"SKIP_SAVE"}
+    )
     shape: EnumProperty(
         name="Shape", items=[(s, s.title(), "") for s in ("rectangle", "rounded", "chamfered")], options={"SKIP_SAVE"}
     )
@@ -115,7 +118,7 @@ class GRAFU_OT_set_top(_Adds, bpy.types.Operator):
 
         sizes = {name: round(getattr(self, name), 6) for name in ("thickness", "front", "side", "back")}
         top = TopConfig(shape=self.shape, **sizes) if self.add else None
-        return replace(settings, additions=replace(settings.additions, top=top))
+        return replace(settings, additions=replace(settings.additions, top=top, replaces_top=self.replaces))
 
 
 class GRAFU_OT_show_compartments(bpy.types.Operator):

@@ -18,6 +18,12 @@ CLASSES = [
     ("centre-mount", "Centre mount", "Rails at half the height of the drawer's sides"),
     ("corner-mount", "Corner mount", "Rails that carry the drawer from below"),
 ]
+SUPPORTS = [
+    (AUTO, "As needed", "The shortest block from a rail to whatever stands there"),
+    ("slab", "Slabs", "A slab as large as the rail, out to the wall beside it"),
+    ("divider", "Dividers", "An upright board along the rail, from what stands below to what stands above"),
+    ("none", "None", "Rails stand only where they touch walls and drawer"),
+]
 _items: dict = {}
 
 
@@ -55,8 +61,9 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
     mount: StringProperty(
-        name="Mount", description="The part that should carry it; empty: what suits", options={"SKIP_SAVE"}
+        name="Mount", description="The part that must carry it; empty: what suits", options={"SKIP_SAVE"}
     )
+    supports: EnumProperty(name="Supports", items=SUPPORTS, options={"SKIP_SAVE"})
 
     def invoke(self, context, event):
         """Asks, with what holds now filled in."""
@@ -68,11 +75,30 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
             self.template = choice.template or AUTO
             self.scale, self.count, self.flipped = choice.scale, choice.count, choice.flipped
             self.opening, self.mount = choice.opening or 0.0, choice.mount
+            self.supports = choice.supports.value
         return context.window_manager.invoke_props_dialog(self)
+
+    def draw(self, context):
+        """Draws what matters for such a joint."""
+        layout, session = self.layout, session_of(context)
+        row = session.joints.get(self.part)
+        slides = row is not None and row.type == "prismatic"
+        layout.use_property_split = True
+        own = ("supports",) if slides else ("scale", "count", "flipped")
+        for name in ("mechanism", "template", *own):
+            layout.prop(self, name)
+        layout.prop(self, "opening", text="Opens by (m)" if slides else "Opens by (radians)")
+        layout.prop_search(self, "mount", session, "parts")
+
+    def unfit(self, before, after):
+        """What stood and is lost, and the joint itself where it is not built as chosen."""
+        from grafu.pipeline.triage import lost, not_built
+
+        return (*lost(before, after, besides=(self.part,)), *not_built(after, self.part))
 
     def changed(self, context, settings):
         """Returns the settings with the choice."""
-        from grafu.realization.plan import JointChoice
+        from grafu.realization.plan import JointChoice, Supports
         from grafu.vocabulary import MechanismClass
 
         return settings.with_joint(
@@ -85,6 +111,7 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
                 flipped=self.flipped,
                 opening=round(self.opening, 6) or None,
                 mount=self.mount,
+                supports=Supports(self.supports),
             ),
         )
 

@@ -38,8 +38,10 @@ class GRAFU_UL_parts(bpy.types.UIList):
         """Draws the part and its category, which a click corrects."""
         row = layout.split(factor=_NAMES, align=True)
         row.label(text=item.part)
+        row = row.row(align=True)
         button = row.operator("grafu.set_label", text=item.category)
         button.part, button.label = item.part, item.category
+        row.operator("grafu.set_motion", text="", icon="CON_ROTLIMIT").part = item.part
 
 
 CLASSES = (GRAFU_UL_joints, GRAFU_UL_additions, GRAFU_UL_parts)

@@ -98,6 +98,7 @@ def _draw_joint(context, box, joint):
     column = box.column(align=True)
     _draw_choice(column, "joint", joint.part, joint.changed, "Hinges or rails", "MODIFIER")
     _draw_choice(column, "handle", joint.part, joint.front_changed, "Handle", "GRIP")
+    _draw_choice(column, "motion", joint.part, joint.motion_changed, "Motion", "CON_ROTLIMIT")
 
 
 def _draw_choice(column, what, part, changed, text, icon):

@@ -41,6 +41,7 @@ class GRAFU_Joint(bpy.types.PropertyGroup):
     figures: StringProperty()
     changed: BoolProperty()
     front_changed: BoolProperty()
+    motion_changed: BoolProperty()
 
 
 class GRAFU_Addition(bpy.types.PropertyGroup):
@@ -207,7 +208,7 @@ def store(session, settings, report_json: str, interior_json: str, unit: float) 
 
 
 def _fill_joints(session, settings, report, unit) -> None:
-    from grafu.pipeline.triage import joint_states
+    from grafu.pipeline.triage import Level, joint_states
     from grafu.realization.plan import AUTOMATIC
 
     records = {joint.part: joint for joint in report.joints}
@@ -218,6 +219,8 @@ def _fill_joints(session, settings, report, unit) -> None:
         row.joint, row.level, row.why = state.joint, state.level.value, state.why
         row.changed = settings.joints.get(state.part, AUTOMATIC) != AUTOMATIC
         row.front_changed = state.part in settings.additions.fronts
+        row.motion_changed = state.part in settings.motions
+        row.mechanism = "stands still" if state.level is Level.OK else ""
         record = records.get(state.part)
         if record is not None:
             row.type, row.template = record.type.value, record.template

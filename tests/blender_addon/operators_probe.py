@@ -8,7 +8,6 @@ import os
 import sys
 import traceback
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 
 import bpy
@@ -16,75 +15,10 @@ import bpy
 addon_parent, sample, out = sys.argv[1:4]
 sys.path.insert(0, addon_parent)
 
+from stepping import FACTS, session, snapshot, step  # noqa: E402
+
 import blender_addon  # noqa: E402
-from blender_addon import objects, state  # noqa: E402
-from grafu.asset.load import load_asset  # noqa: E402
-from grafu.pipeline.functionalize import functionalize  # noqa: E402
-from grafu.templates.gallery import builtin_gallery  # noqa: E402
-
-FACTS = []
-
-
-def session():
-    return state.session_of(bpy.context)
-
-
-def snapshot() -> list:
-    """What stands in the scene: settings, report without timings, and every object of the result."""
-    report = json.loads(session().report_json or "{}")
-    report.pop("timings", None)
-    found = objects.result_objects(session())
-    things = sorted(
-        (o["grafu"], o["id"], round(o.get("upper", 0.0), 6), len(o.data.vertices) if o.data else 0) for o in found
-    )
-    return [session().settings_json, json.dumps(report, sort_keys=True), things]
-
-
-def expected() -> list:
-    """What the library makes of the same sources and settings: links, joints and visuals."""
-    settings = state.settings_of(session())
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "model.glb"
-        objects.export_sources(bpy.context, objects.sources_of(session()), path)
-        asset = load_asset(path, settings.reading.options)
-    made = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline()).object
-    things = [("link", link.id, 0.0) for link in made.links]
-    things += [("joint", j.id, round(j.limits.upper, 4)) for j in made.joints]
-    things += [(v.role.value, v.name, 0.0) for link in made.links for v in link.visuals]
-    return sorted(things)
-
-
-def agrees() -> bool:
-    shown = [(kind, name, round(upper, 4)) for kind, name, upper, _ in snapshot()[2]]
-    return shown == expected()
-
-
-def step(title, operator, **arguments):
-    """Calls an operator as a user would, then takes it back and does it again."""
-    before, began = snapshot(), perf_counter()
-    result = next(iter(operator("EXEC_DEFAULT", True, **arguments)))
-    seconds, after = perf_counter() - began, snapshot()
-    report = json.loads(session().report_json or "{}")
-    fact = {
-        "step": title,
-        "result": result,
-        "status": session().status,
-        "seconds": seconds,
-        "changed": before != after,
-        "agrees": agrees(),
-        "joints": {
-            j["part"]: [j["mechanism"], j["template"], j["count"], j["upper"]] for j in report.get("joints", [])
-        },
-        "added": {a["part"]: a["style"] for a in report.get("added", [])},
-        "rows": {row.part: row.level for row in session().joints},
-    }
-    if result == "FINISHED":
-        bpy.ops.ed.undo()
-        fact["undone"] = snapshot() == before
-        bpy.ops.ed.redo()
-        fact["redone"] = snapshot() == after
-    FACTS.append(fact)
-    return fact
+from blender_addon import objects  # noqa: E402
 
 
 def values() -> dict:

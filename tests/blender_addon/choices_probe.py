@@ -1,0 +1,83 @@
+"""Runs what is decided by hand about motions, mounts, supports and tops in a Blender without a window. Asserts nothing.
+
+Started as `python choices_probe.py ADDON_PARENT SAMPLES FOLDER` by a Python that has `bpy` and `grafu`.
+"""
+
+import json
+import os
+import sys
+import traceback
+from pathlib import Path
+
+import bpy
+
+addon_parent, samples, out = sys.argv[1:4]
+sys.path.insert(0, addon_parent)
+
+from stepping import FACTS, session, step  # noqa: E402
+
+import blender_addon  # noqa: E402
+from blender_addon import objects  # noqa: E402
+
+
+def bring(name):
+    """Takes a sample as objects, all selected, in an empty file."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=str(Path(samples) / f"{name}.glb"))
+    for one in bpy.data.objects:
+        one.select_set(one.type == "MESH")
+    bpy.ops.ed.undo_push(message="start")
+
+
+def hardware(start) -> list:
+    return sorted(o["id"] for o in objects.result_objects(session()) if o.get("id", "").startswith(start))
+
+
+def main():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    blender_addon.register()
+    grafu = bpy.ops.grafu
+    bring("sideboard")
+    step("functionalize", grafu.functionalize, motion="rule")
+    step("reject", grafu.set_motion, part="door_1", moves="not")
+    FACTS[-1]["row"] = next(row.mechanism for row in session().joints if row.part == "door_1")
+    step("hang right", grafu.set_motion, part="door_1", moves="turns", side="right")
+    step("flap", grafu.set_motion, part="door_1", moves="turns", side="bottom")
+    step("no border", grafu.set_motion, part="door_1", moves="turns")
+    step("broad face", grafu.set_motion, part="door_1", moves="turns", side="front")
+    step("wall slides", grafu.set_motion, part="back_panel", moves="slides", side="back")
+    step("nobody", grafu.set_motion, part="nobody", moves="not")
+    step("as found", grafu.reset_motion, part="door_1")
+    active = objects.visual(session(), "door_1")
+    bpy.context.view_layer.objects.active = active
+    step("active", grafu.set_motion, moves="not")
+    step("as found again", grafu.reset_motion, part="door_1")
+    step("mount", grafu.set_joint, part="door_1", mount="divider_1")
+    step("far mount", grafu.set_joint, part="door_1", mount="back_panel")
+    step("moving mount", grafu.set_joint, part="door_1", mount="door_2")
+    step("hinge supports", grafu.set_joint, part="door_1", supports="slab")
+    step("replace top", grafu.set_top, replaces=True, thickness=0.04)
+    step("old top", grafu.set_top)
+    step("divider", grafu.furnish, number=0, shelves=0, dividers=1, thickness=0.012, inset=0.05)
+    bring("dresser")
+    step("dresser", grafu.functionalize, motion="rule")
+    FACTS[-1]["supports"] = hardware("support_drawer_1")
+    for supports in ("none", "slab", "divider"):
+        step(f"supports {supports}", grafu.set_joint, part="drawer_1", supports=supports)
+        FACTS[-1]["supports"] = hardware("support_drawer_1")
+        FACTS[-1]["tallest"] = max(
+            (objects.visual(session(), name).dimensions.z for name in FACTS[-1]["supports"]), default=0.0
+        )
+    step("finalize", grafu.finalize, directory=out, name="final", formats={"glb"})
+    blender_addon.unregister()
+
+
+try:
+    main()
+except BaseException:  # Blender hangs where Python ends by itself
+    traceback.print_exc()
+    sys.stderr.flush()
+    os._exit(1)
+Path(out, "facts.json").write_text(json.dumps(FACTS))
+sys.stdout.flush()
+os._exit(0)

@@ -1,0 +1,97 @@
+"""What is decided by hand in the extension: how parts move, what carries them, what holds rails, another top."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from grafu.errors import ExportError
+from grafu.export.blend.exporter import find_interpreter
+from grafu.pipeline.settings import settings_from_json
+from grafu.realization.plan import Supports
+
+ROOT = Path(__file__).parents[2]
+REFUSED = {
+    "no border": "choose the border",
+    "broad face": "front is a broad face",
+    "wall slides": "back_panel: ",
+    "nobody": "has no nobody",
+    "far mount": "on `back_panel`",
+    "moving mount": "moves itself",
+    "hinge supports": "for rails",
+    "supports none": "supports: none",
+}
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    try:
+        interpreter = find_interpreter()
+    except ExportError as error:
+        pytest.skip(str(error))
+    folder = tmp_path_factory.mktemp("choices")
+    probe = Path(__file__).with_name("choices_probe.py")
+    command = [interpreter, str(probe), str(ROOT), str(ROOT / "samples"), str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return folder
+
+
+@pytest.fixture(scope="module")
+def steps(run):
+    found = json.loads((run / "facts.json").read_text())
+    assert len({fact["step"] for fact in found}) == len(found)
+    return {fact["step"]: fact for fact in found}
+
+
+def test_after_every_step_the_scene_is_what_the_library_makes_of_its_settings(steps):
+    assert [name for name, fact in steps.items() if not fact["agrees"]] == []
+
+
+def test_what_does_not_fit_changes_nothing_and_says_why(steps):
+    refused = {name: fact for name, fact in steps.items() if fact["result"] == "CANCELLED"}
+    assert refused.keys() == REFUSED.keys()
+    for name, words in REFUSED.items():
+        assert words in refused[name]["status"]
+        assert not refused[name]["changed"]
+
+
+def test_every_other_step_is_taken_back_and_done_again(steps):
+    done = {name: fact for name, fact in steps.items() if fact["result"] == "FINISHED"}
+    assert [name for name, fact in done.items() if not (fact["undone"] and fact["redone"])] == []
+
+
+def test_a_rejected_door_stands_still_and_can_be_hung_anew(steps):
+    assert "door_1" not in steps["reject"]["joints"]
+    assert steps["reject"]["rows"]["door_1"] == "ok"
+    assert steps["reject"]["row"] == "stands still"
+    assert steps["hang right"]["mounts"]["door_1"] == "divider_1"
+    assert steps["flap"]["mounts"]["door_1"] == "bottom_panel"
+    assert steps["as found"]["joints"] == steps["as found again"]["joints"] == steps["functionalize"]["joints"]
+    assert "door_1" not in steps["active"]["joints"]
+
+
+def test_a_door_hangs_on_the_part_that_is_chosen(steps):
+    assert steps["functionalize"]["mounts"]["door_1"] == "side_panel_left"
+    assert steps["mount"]["mounts"]["door_1"] == "divider_1"
+
+
+def test_a_top_comes_in_the_place_of_the_old_one_and_goes_again(steps):
+    def tops(name):
+        return [part for part in steps[name]["added"] if part.startswith("top")]
+
+    assert len(tops("replace top")) == 1
+    assert not tops("old top")
+
+
+def test_a_compartment_is_parted_by_upright_panels(steps):
+    assert [part for part in steps["divider"]["added"] if part.startswith("divider")]
+
+
+def test_rails_are_held_as_chosen(steps, run):
+    heights = {name: steps[f"supports {name}"]["tallest"] for name in ("slab", "divider")}
+    assert len(steps["dresser"]["supports"]) == len(steps["supports slab"]["supports"]) == 2
+    assert heights["divider"] > 1.5 * heights["slab"]
+    settings = settings_from_json(json.loads((run / "final" / "settings.json").read_text()))
+    assert settings.joints["drawer_1"].supports is Supports.DIVIDER
