@@ -4,11 +4,13 @@ import json
 from dataclasses import replace
 from itertools import pairwise
 from math import radians
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.pipeline.addition_config import NO_ADDITIONS, HandleChoice
@@ -171,6 +173,19 @@ def test_a_front_can_be_left_without_or_be_carved(asset):
     assert {j.part: j.grasp for j in report_of(bare).joints}[door] == "none"
     carved = run(asset, BASE.with_front(door, HandleChoice("hole")))
     assert [c.part.id for c in carved.fittings.carved] == [door]
+
+
+def test_a_handle_that_finds_no_room_is_told_with_what_took_its_place():
+    sideboard = load_asset(Path(__file__).parents[2] / "samples" / "sideboard.glb")
+    base = Settings(MotionSource.RULE)
+    said = {}
+    for count in (1, 2):
+        result = run(sideboard, base.with_front("door_1", HandleChoice("bail", count)))
+        said[count] = [s.detail for s in result.fittings.skipped if s.request == "door_1"]
+        styles = {style for name, style in added(result).items() if name.startswith("handle")}
+        assert styles == {"bail"} if not said[count] else any(f"it got `{style}`" in said[count][0] for style in styles)
+    assert not said[1]
+    assert "`bail` finds no room" in said[2][0]
 
 
 def test_rejected_additions_are_left_out_and_the_rest_stays(asset):

@@ -77,6 +77,9 @@ def _fitted(
     found = add_handles(done.scene, missing, wanted, hints, own)
     chosen = tuple(replace(addition, why="it was chosen") for addition in found.additions)
     skipped = tuple(_skipped(mover, refused.why) for refused in found.refused)
+    others = sorted({addition.style for addition in chosen} - {choice.style})
+    if choice.style and others:
+        skipped += (_skipped(mover, f"`{choice.style}` finds no room; it got `{'`, `'.join(others)}`"),)
     return Fronts(found.scene, (*done.additions, *chosen), done.carved, (*done.skipped, *skipped))
 
 
