@@ -10,6 +10,7 @@ from grafu.data.pair import GraphPair
 from grafu.graph.edit import as_contacts, without_nodes
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
 from grafu.training.lesson import Lesson, make_lesson
+from grafu.training.padding import ROW_STEP, SLOT_STEP, stepped
 from small_graphs import cabinet
 
 FEATURES = FeatureConfig(points=32, anchors=4, neighbours=4)
@@ -45,8 +46,18 @@ def test_each_graph_is_what_the_network_sees_alone(across: int | None) -> None:
 
 def test_copies_with_one_frame_share_rows_of_points() -> None:
     twice = stack_showings([Showing(LESSON, [LESSON.copies[0], LESSON.copies[0]])], False)
-    assert len(twice.graphs.anchors) == len(TARGET.nodes)
-    assert len(shown(shares_shifted=True).graphs.anchors) <= len(shown().graphs.anchors)
+    assert rows_of(twice) == len(TARGET.nodes)
+    assert rows_of(shown(shares_shifted=True)) <= rows_of(shown())
+
+
+def rows_of(batch: TrainingBatch) -> int:
+    return len(batch.graphs.point_index[batch.graphs.mask].unique())
+
+
+def test_sizes_come_in_steps_and_one_model_alone_fits_its_step() -> None:
+    graphs = shown().graphs
+    assert [graphs.labels.shape[1], len(graphs.anchors), len(graphs.groups)] == [24, ROW_STEP, ROW_STEP]
+    assert [stepped(size, SLOT_STEP) for size in (0, 1, 8, 9)] == [0, 8, 8, 16]
 
 
 def test_answers_go_with_their_graphs() -> None:

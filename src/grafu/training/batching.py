@@ -10,7 +10,7 @@ import torch
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
 from grafu.training.lesson import Copy, Lesson
-from grafu.training.padding import padded
+from grafu.training.padding import ROW_STEP, SLOT_STEP, padded, stepped
 from grafu.training.targets import TargetBatch, mirrored_targets, stack_targets
 
 
@@ -54,15 +54,16 @@ def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> Trainin
     if not views:
         raise ValueError("a batch must hold at least one graph: got none")
     anchors, groups, index = _point_table(showings, shares_shifted)
-    n = max(len(view.labels) for view in views)
+    n = stepped(max(len(view.labels) for view in views), SLOT_STEP)
+    rows = stepped(len(anchors), ROW_STEP)
     graphs = GraphBatch(
         labels=padded([v.labels for v in views], (n,), 0),
         boxes=padded([v.boxes for v in views], (n, 6), 0),
         edges=padded([v.edges for v in views], (n, n), NULL),
         mask=padded([np.ones(len(v.labels), dtype=bool) for v in views], (n,), 0),
         point_index=padded(index, (n,), 0),
-        anchors=torch.from_numpy(anchors),
-        groups=torch.from_numpy(groups),
+        anchors=padded([anchors], (rows, *anchors.shape[1:]), 0)[0],
+        groups=padded([groups], (rows, *groups.shape[1:]), 0)[0],
     )
     return TrainingBatch(graphs, stack_targets([v.targets for v in views]), tuple(v.strategy for v in views))
 

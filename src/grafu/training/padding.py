@@ -1,10 +1,22 @@
-"""Arrays of different lengths as one tensor, filled up behind their ends."""
+"""Arrays of different lengths as one tensor, filled up behind their ends.
+
+Batches of ever new sizes would be slow: for each size of a product oneDNN builds code of its own, keeps a thousand of
+them, and litters the heap with those that it drops. With sizes in steps a few dozen are made once.
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 import torch
 from torch import Tensor
+
+SLOT_STEP = 8  # graphs of a batch have so many nodes, or a multiple
+ROW_STEP = 64  # and their points as many rows
+
+
+def stepped(size: int, step: int) -> int:
+    """Returns the least multiple of `step` that is not below `size`."""
+    return -(-size // step) * step
 
 
 def padded(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: float | int | bool) -> Tensor:
