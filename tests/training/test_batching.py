@@ -56,8 +56,8 @@ def rows_of(batch: TrainingBatch) -> int:
 
 def test_sizes_come_in_steps_and_one_model_alone_fits_its_step() -> None:
     graphs = shown().graphs
-    assert [graphs.labels.shape[1], len(graphs.anchors), len(graphs.groups)] == [24, ROW_STEP, ROW_STEP]
-    assert [stepped(size, SLOT_STEP) for size in (0, 1, 8, 9)] == [0, 8, 8, 16]
+    assert [graphs.labels.shape[1], len(graphs.anchors), len(graphs.groups)] == [20, ROW_STEP, ROW_STEP]
+    assert [stepped(size, SLOT_STEP) for size in (0, 1, 4, 5)] == [0, 4, 4, 8]
 
 
 def test_answers_go_with_their_graphs() -> None:

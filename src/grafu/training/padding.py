@@ -10,7 +10,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-SLOT_STEP = 8  # graphs of a batch have so many nodes, or a multiple
+SLOT_STEP = 4  # graphs of a batch have so many nodes, or a multiple
 ROW_STEP = 64  # and their points as many rows
 
 
