@@ -20,6 +20,7 @@ _MODULES = (
     "joint_operators",
     "motion_operators",
     "addition_operators",
+    "interior_operators",
     "view_operators",
     "output_operators",
     "lists",

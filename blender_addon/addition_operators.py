@@ -1,15 +1,18 @@
-"""What is added: handles and grips front by front, the top, shelves by compartment; accepted or rejected."""
+"""What is added: handles and grips front by front, the top; accepted or rejected."""
 
 from dataclasses import replace
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
-from .boxes import boxes_of, draw_boxes, remove_boxes
+from .questions import ask, chosen_or, draw_number, draw_part, fill, own_switch, split
 from .run_operators import Applies
-from .state import compartments_of, session_of
+from .state import session_of, settings_of
 
-SAME = "same"
+SAME, NOTHING = "same", "none"
+GRIPS = [("grip", "Grip that fits"), ("groove", "Groove"), ("edge", "Edge notch"), ("hole", "Hole")]
+_LENGTH = 0.128  # metres: the commonest bow handle, where one is chosen
+_TOP = ("thickness", "front", "side", "back")
 _items: dict = {}
 
 
@@ -18,26 +21,26 @@ def handle_items(_, __):
     if "handles" not in _items:
         from grafu.templates.handles import HANDLES
 
-        grips = [("grip", "Grip that fits"), ("groove", "Groove"), ("edge", "Edge notch"), ("hole", "Hole")]
         _items["handles"] = [
             (SAME, "Like the others", "The style of the model's other handles"),
             *((h.id, h.title, h.family) for h in HANDLES),
-            *((name, title, "carved into the front") for name, title in grips),
-            ("none", "Nothing", "No handle and no grip"),
+            *((name, title, "carved into the front") for name, title in GRIPS),
+            (NOTHING, "Nothing", "No handle and no grip"),
         ]
     return _items["handles"]
 
 
-class _Adds(Applies):
+class Adds(Applies):
     """What does not fit is not built: neither a joint nor anything that was asked for may be lost."""
 
     def unfit(self, before, after):
+        """What stood and is lost, and what was asked for and is not built."""
         from grafu.pipeline.triage import lost, newly_skipped
 
         return lost(before, after) or newly_skipped(before, after)
 
 
-class GRAFU_OT_set_handle(_Adds, bpy.types.Operator):
+class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
     """Gives a door or drawer the handles or the grip that are chosen, whether it had any or not"""
 
     bl_idname = "grafu.set_handle"
@@ -46,6 +49,7 @@ class GRAFU_OT_set_handle(_Adds, bpy.types.Operator):
     part: StringProperty(name="Part", options={"HIDDEN", "SKIP_SAVE"})
     style: EnumProperty(name="Style", items=handle_items, options={"SKIP_SAVE"})
     count: IntProperty(name="Handles", description="0: as usual", default=0, min=0, max=4, options={"SKIP_SAVE"})
+    own_count: own_switch()
     offset: FloatVectorProperty(
         name="Offset", description="To the right, and up", size=2, subtype="TRANSLATION", options={"SKIP_SAVE"}
     )
@@ -57,15 +61,34 @@ class GRAFU_OT_set_handle(_Adds, bpy.types.Operator):
         subtype="DISTANCE",
         options={"SKIP_SAVE"},
     )
+    own_length: own_switch()
     replaces: BoolProperty(
         name="Replace", description="Take away the handles that it has", default=True, options={"SKIP_SAVE"}
     )
 
     def invoke(self, context, event):
-        """Asks."""
-        row = session_of(context).active_joint
+        """Asks, with what holds now filled in."""
+        session = session_of(context)
+        row = session.active_joint
         self.part = self.part or (row.part if row else "")
-        return context.window_manager.invoke_props_dialog(self)
+        choice = settings_of(session).additions.fronts.get(self.part)
+        if choice is not None:
+            self.style, self.offset, self.replaces = choice.style or SAME, choice.offset, choice.replaces
+        fill(self, "count", choice.count if choice is not None else 0, 1)
+        fill(self, "length", choice.length if choice is not None else 0.0, _LENGTH)
+        return ask(self, context)
+
+    def draw(self, context):
+        """Draws what matters for such a handle."""
+        layout = split(self)
+        draw_part(layout, self.part)
+        layout.prop(self, "style")
+        if self.style not in (NOTHING, *dict(GRIPS)):  # what is carved takes its size from the front
+            draw_number(layout, self, "count", "Handles")
+            draw_number(layout, self, "length", "Length")
+            layout.prop(self, "offset", index=0, text="To the right")
+            layout.prop(self, "offset", index=1, text="Up")
+        layout.prop(self, "replaces", text="Replace its handles")
 
     def changed(self, context, settings):
         """Returns the settings with the front's choice."""
@@ -73,7 +96,8 @@ class GRAFU_OT_set_handle(_Adds, bpy.types.Operator):
 
         style = "" if self.style == SAME else self.style
         across, up = (round(v, 6) for v in self.offset)
-        choice = HandleChoice(style, self.count, (across, up), round(self.length, 6), self.replaces)
+        count, length = chosen_or(self, "count", 0), chosen_or(self, "length", 0.0)
+        choice = HandleChoice(style, count, (across, up), length, self.replaces)
         return settings.with_front(self.part, choice)
 
 
@@ -90,7 +114,7 @@ class GRAFU_OT_reset_handle(Applies, bpy.types.Operator):
         return settings.with_front(self.part, None)
 
 
-class GRAFU_OT_set_top(_Adds, bpy.types.Operator):
+class GRAFU_OT_set_top(Adds, bpy.types.Operator):
     """Adds a top of this shape and size where none is there, or in the place of the one that is; or adds none"""
 
     bl_idname = "grafu.set_top"
@@ -109,80 +133,31 @@ class GRAFU_OT_set_top(_Adds, bpy.types.Operator):
     back: FloatProperty(name="Overhang behind", default=0.0, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
 
     def invoke(self, context, event):
-        """Asks."""
-        return context.window_manager.invoke_props_dialog(self)
+        """Asks, with what holds now filled in."""
+        additions = settings_of(session_of(context)).additions
+        self.replaces = additions.replaces_top
+        if additions.top is not None:
+            self.shape = additions.top.shape
+            for name in _TOP:
+                setattr(self, name, getattr(additions.top, name))
+        return ask(self, context)
+
+    def draw(self, context):
+        """Draws the question."""
+        layout = split(self)
+        layout.prop(self, "add")
+        if self.add:
+            layout.prop(self, "replaces", text="Replace the one that is there")
+            for name in ("shape", *_TOP):
+                layout.prop(self, name)
 
     def changed(self, context, settings):
         """Returns the settings with the top."""
         from grafu.realization.top.config import TopConfig
 
-        sizes = {name: round(getattr(self, name), 6) for name in ("thickness", "front", "side", "back")}
-        top = TopConfig(shape=self.shape, **sizes) if self.add else None
+        sizes = {name: round(getattr(self, name), 6) for name in _TOP}
+        top = replace(settings.additions.top or TopConfig(), shape=self.shape, **sizes) if self.add else None
         return replace(settings, additions=replace(settings.additions, top=top, replaces_top=self.replaces))
-
-
-class GRAFU_OT_show_compartments(bpy.types.Operator):
-    """Shows the compartments as boxes of wire, numbered; again: takes them away"""
-
-    bl_idname = "grafu.show_compartments"
-    bl_label = "Show compartments"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        """Whether there is a result."""
-        return session_of(context).has_result
-
-    def execute(self, context):
-        """Draws or removes the boxes."""
-        session = session_of(context)
-        if remove_boxes(session):
-            return {"FINISHED"}
-        if not compartments_of(session):
-            self.report({"WARNING"}, "no compartment was found")
-            return {"CANCELLED"}
-        draw_boxes(session)
-        return {"FINISHED"}
-
-
-class GRAFU_OT_furnish(_Adds, bpy.types.Operator):
-    """Furnishes one compartment with shelves and dividers of its own; the selected boxes, where no number is given"""
-
-    bl_idname = "grafu.furnish"
-    bl_label = "Furnish"
-
-    number: IntProperty(
-        name="Compartment", description="From 0; -1: the selected boxes", default=-1, min=-1, options={"SKIP_SAVE"}
-    )
-    shelves: IntProperty(name="Shelves", default=1, min=0, max=20, options={"SKIP_SAVE"})
-    dividers: IntProperty(name="Dividers", default=0, min=0, max=20, options={"SKIP_SAVE"})
-    thickness: FloatProperty(
-        name="Thickness", description="0: as usual", default=0.0, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"}
-    )
-    inset: FloatProperty(name="Front inset", description="-1: as usual", default=-1.0, min=-1.0, options={"SKIP_SAVE"})
-
-    def invoke(self, context, event):
-        """Asks."""
-        return context.window_manager.invoke_props_dialog(self)
-
-    def changed(self, context, settings):
-        """Returns the settings with what the compartments get."""
-        from grafu.realization.interior.request import CompartmentChoice
-
-        chosen = [self.number] if self.number >= 0 else _selected_numbers(context)
-        if not chosen:
-            raise ValueError("choose a compartment: show them, and select boxes")
-        inset = None if self.inset < 0 else round(self.inset, 6)
-        choice = CompartmentChoice(self.shelves, self.dividers, round(self.thickness, 6) or None, inset)
-        for number in chosen:
-            settings = settings.with_compartment(number, choice)
-        return settings
-
-
-def _selected_numbers(context):
-    shown = boxes_of(session_of(context))
-    own = set(shown.objects) if shown is not None else set()
-    return sorted(o["number"] for o in context.selected_objects if o in own)
 
 
 class GRAFU_OT_set_addition(Applies, bpy.types.Operator):
@@ -203,7 +178,5 @@ CLASSES = (
     GRAFU_OT_set_handle,
     GRAFU_OT_reset_handle,
     GRAFU_OT_set_top,
-    GRAFU_OT_show_compartments,
-    GRAFU_OT_furnish,
     GRAFU_OT_set_addition,
 )

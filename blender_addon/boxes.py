@@ -1,6 +1,7 @@
 """The compartments as boxes of wire, numbered, in the place of the result."""
 
 import bpy
+from mathutils import Matrix, Vector
 
 from . import objects
 from .state import KIND, compartments_of
@@ -42,9 +43,10 @@ def boxes_of(session):
 def _box(number, corners, matrix):
     mesh = bpy.data.meshes.new(f"compartment {number + 1}")
     edges = [(k, k | 1 << axis) for k in range(8) for axis in range(3) if not k >> axis & 1]  # corners count in bits
-    mesh.from_pydata([tuple(corner) for corner in corners], edges, [])
+    middle = sum((Vector(corner) for corner in corners), Vector()) / len(corners)  # where its name stands
+    mesh.from_pydata([Vector(corner) - middle for corner in corners], edges, [])
     box = bpy.data.objects.new(f"compartment {number + 1}", mesh)
     box["grafu"], box["number"] = "compartment", number
-    box.matrix_world = matrix
+    box.matrix_world = matrix @ Matrix.Translation(middle)
     box.display_type, box.show_name, box.show_in_front = "WIRE", True, True
     return box

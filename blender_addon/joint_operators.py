@@ -5,16 +5,18 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from .questions import ask, chosen_or, draw_number, draw_part, fill, own_switch, split
 from .run_operators import Applies
-from .state import session_of, settings_of
+from .state import report_of, session_of, settings_of
 
 AUTO = "auto"
 PIVOT = "pivot"
-CLASSES = [
-    (AUTO, "Automatic", "What fits best: C, then F, then P; for drawers the centre mount, then the corner mount"),
+HINGES = [
     ("C", "C: contact", "Leaves between two faces that touch"),
     ("F", "F: flush", "Leaves on two flush faces"),
     ("P", "P: perpendicular", "Leaves in an inner corner"),
+]
+RAILS = [
     ("centre-mount", "Centre mount", "Rails at half the height of the drawer's sides"),
     ("corner-mount", "Corner mount", "Rails that carry the drawer from below"),
 ]
@@ -24,19 +26,63 @@ SUPPORTS = [
     ("divider", "Dividers", "An upright board along the rail, from what stands below to what stands above"),
     ("none", "None", "Rails stand only where they touch walls and drawer"),
 ]
+_WIDEST = "The widest opening"
+_LIMITED = "Whether you choose the widest opening; off: as far as it goes"
 _items: dict = {}
 
 
-def template_items(_, __):
-    """Returns all hinges and rails for a menu; Blender wants the texts kept."""
-    if "templates" not in _items:
-        from grafu.templates.gallery import builtin_gallery
+def class_items(operator, context):
+    """Returns the classes of hinges and of rails for a menu: those of the joint that is asked about."""
+    return _fitting("classes", _classes, operator, context)
 
-        gallery = builtin_gallery()
-        models = [(m.id, m.title, f"class {m.mechanism.value}") for m in (*gallery.hinges, *gallery.rails)]
-        _items["templates"] = [(AUTO, "Automatic", "The first that fits"), *models]
-        _items["templates"] += [(PIVOT, "Pivots", "Discs at the ends of the door")]
-    return _items["templates"]
+
+def template_items(operator, context):
+    """Returns hinges and rails for a menu: those of the joint and the class that are asked about."""
+    return _fitting("templates", _templates, operator, context)
+
+
+def _fitting(what, make, operator, context):
+    """Returns a menu's items, each with a number of its own; Blender wants the texts kept."""
+    slides = None
+    if operator is not None and operator.asked and context is not None:
+        slides = _slides(context, operator.part)
+    only = operator.mechanism if what == "templates" and slides is not None else AUTO
+    if (what, slides, only) not in _items:
+        usual = (AUTO, "Automatic", "What fits best", 0)
+        rows = [(row, number + 1) for number, row in enumerate(make())]
+        kept = [
+            (*texts, number)
+            for (rail, mechanism, *texts), number in rows
+            if slides in (None, rail) and only in (AUTO, mechanism)
+        ]
+        _items[what, slides, only] = [usual, *kept]
+    return _items[what, slides, only]
+
+
+def _classes() -> list:
+    """Returns rows: whether it is of rails, class, id, name, words."""
+    return [(rail, row[0], *row) for rail, rows in ((False, HINGES), (True, RAILS)) for row in rows]
+
+
+def _templates() -> list:
+    """Returns rows as `_classes` does."""
+    from grafu.templates.gallery import builtin_gallery
+
+    gallery = builtin_gallery()
+    hinges = [(False, m.mechanism.value, m.id, f"{m.title} ({m.mechanism.value})", "") for m in gallery.hinges]
+    rails = [(True, m.mechanism.value, m.id, m.title, "") for m in gallery.rails]
+    return [*hinges, *rails, (False, "", PIVOT, "Pivots", "Discs at the ends of the door")]
+
+
+def _slides(context, part: str):
+    """Returns whether a part slides; None: that is not known, for it has no joint."""
+    row = session_of(context).joints.get(part)
+    return row.type == "prismatic" if row is not None and row.type else None
+
+
+def _class_chosen(operator, _):
+    if not operator.template:  # it is of another class
+        operator.template = AUTO
 
 
 class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
@@ -46,20 +92,25 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
     bl_label = "Refine joint"
 
     part: StringProperty(name="Part", options={"HIDDEN", "SKIP_SAVE"})
-    mechanism: EnumProperty(name="Class", items=CLASSES, options={"SKIP_SAVE"})
+    asked: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
+    mechanism: EnumProperty(name="Class", items=class_items, update=_class_chosen, options={"SKIP_SAVE"})
     template: EnumProperty(name="Template", items=template_items, options={"SKIP_SAVE"})
     scale: FloatProperty(name="Scale", default=1.0, min=0.25, max=4.0, options={"SKIP_SAVE"})
     count: IntProperty(
         name="Hinges", description="0: by the door's height", default=0, min=0, max=12, options={"SKIP_SAVE"}
     )
+    own_count: own_switch()
     flipped: BoolProperty(name="Other side", description="Hang the door on its opposite border", options={"SKIP_SAVE"})
     opening: FloatProperty(
         name="Opens by",
         description="Radians or metres at most; 0: as far as it goes",
         default=0.0,
         min=0.0,
-        options={"SKIP_SAVE"},
+        options={"HIDDEN", "SKIP_SAVE"},
     )
+    limited: BoolProperty(name="Chosen", description=_LIMITED, options={"HIDDEN", "SKIP_SAVE"})
+    angle: FloatProperty(name="Opens by", description=_WIDEST, min=0.0, subtype="ANGLE", options={"SKIP_SAVE"})
+    travel: FloatProperty(name="Opens by", description=_WIDEST, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
     mount: StringProperty(
         name="Mount", description="The part that must carry it; empty: what suits", options={"SKIP_SAVE"}
     )
@@ -67,28 +118,36 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
 
     def invoke(self, context, event):
         """Asks, with what holds now filled in."""
-        row = session_of(context).active_joint
-        self.part = self.part or (row.part if row else "")
-        choice = settings_of(session_of(context)).joints.get(self.part)
+        session = session_of(context)
+        row = session.active_joint
+        self.part, self.asked = self.part or (row.part if row else ""), True
+        built = next((joint for joint in report_of(session).joints if joint.part == self.part), None)
+        choice = settings_of(session).joints.get(self.part)
         if choice is not None:
             self.mechanism = choice.mechanism.value if choice.mechanism else AUTO
             self.template = choice.template or AUTO
-            self.scale, self.count, self.flipped = choice.scale, choice.count, choice.flipped
-            self.opening, self.mount = choice.opening or 0.0, choice.mount
+            self.scale, self.flipped, self.mount = choice.scale, choice.flipped, choice.mount
             self.supports = choice.supports.value
-        return context.window_manager.invoke_props_dialog(self)
+        opening = choice.opening if choice is not None else None
+        fill(self, "count", choice.count if choice is not None else 0, built.count if built else 2)
+        self.limited = opening is not None
+        self.angle = self.travel = opening or (built.upper if built else 0.0)
+        return ask(self, context)
 
     def draw(self, context):
         """Draws what matters for such a joint."""
-        layout, session = self.layout, session_of(context)
-        row = session.joints.get(self.part)
-        slides = row is not None and row.type == "prismatic"
-        layout.use_property_split = True
-        own = ("supports",) if slides else ("scale", "count", "flipped")
-        for name in ("mechanism", "template", *own):
-            layout.prop(self, name)
-        layout.prop(self, "opening", text="Opens by (m)" if slides else "Opens by (radians)")
-        layout.prop_search(self, "mount", session, "parts")
+        layout, slides = split(self), _slides(context, self.part)
+        draw_part(layout, self.part)
+        layout.prop(self, "mechanism")
+        layout.prop(self, "template")
+        if slides is not True:
+            layout.prop(self, "scale")
+            draw_number(layout, self, "count", "Hinges")
+            layout.prop(self, "flipped")
+        if slides is not False:
+            layout.prop(self, "supports")
+        draw_number(layout, self, "travel" if slides else "angle", "Opens by", "limited", "as far as it goes")
+        layout.prop_search(self, "mount", session_of(context), "parts", text="Carried by")
 
     def unfit(self, before, after):
         """What stood and is lost, and the joint itself where it is not built as chosen."""
@@ -101,15 +160,19 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
         from grafu.realization.plan import JointChoice, Supports
         from grafu.vocabulary import MechanismClass
 
+        opening = self.opening
+        if self.asked:
+            opening = (self.travel if _slides(context, self.part) else self.angle) if self.limited else 0.0
+
         return settings.with_joint(
             self.part,
             JointChoice(
                 mechanism=None if self.mechanism == AUTO else MechanismClass(self.mechanism),
                 template="" if self.template == AUTO else self.template,
                 scale=round(self.scale, 6),  # Blender keeps single precision
-                count=self.count,
+                count=chosen_or(self, "count", 0),
                 flipped=self.flipped,
-                opening=round(self.opening, 6) or None,
+                opening=round(opening, 6) or None,
                 mount=self.mount,
                 supports=Supports(self.supports),
             ),
@@ -152,7 +215,15 @@ class GRAFU_OT_set_label(Applies, bpy.types.Operator):
 
     def invoke(self, context, event):
         """Asks."""
-        return context.window_manager.invoke_props_dialog(self)
+        return ask(self, context)
+
+    def draw(self, context):
+        """Draws the question."""
+        layout = split(self)
+        draw_part(layout, self.part)
+        layout.prop(self, "as_read")
+        if not self.as_read:
+            layout.prop(self, "label")
 
     def changed(self, context, settings):
         """Returns the settings with the part's category."""

@@ -3,8 +3,9 @@
 import bpy
 
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
-_NAMES = 0.5  # of a row
+_NAMES = 0.62  # of a row
 _LONG_NAMES = 0.6
+_HALF = 0.5
 
 
 class GRAFU_UL_joints(bpy.types.UIList):
@@ -36,7 +37,7 @@ class GRAFU_UL_parts(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         """Draws the part and its category, which a click corrects."""
-        row = layout.split(factor=_NAMES, align=True)
+        row = layout.split(factor=_HALF, align=True)
         row.label(text=item.part)
         row = row.row(align=True)
         button = row.operator("grafu.set_label", text=item.category)

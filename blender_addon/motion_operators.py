@@ -64,6 +64,8 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
             layout.prop(self, "side", text="Border" if self.moves == TURNS else "To the")
         if self.moves == TURNS:
             layout.prop(self, "inwards")
+            if self.side == USUAL:
+                layout.label(text="Choose the border that it turns about", icon="INFO")
 
     def changed(self, context, settings):
         """Returns the settings with the motion."""

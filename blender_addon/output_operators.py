@@ -18,6 +18,8 @@ _ABOUT = {
     "glb": ("GLB", "Animated, with its materials: any glTF viewer"),
     "urdf": ("URDF", "Joints, masses and collision shapes: any robot simulator"),
     "mjcf": ("MJCF", "The same for MuJoCo"),
+    "usd": ("USD", "Physics and materials for OpenUSD: Isaac, Omniverse"),
+    "usdz": ("USDZ", "The same in one file"),
     BLEND: ("Blend", "A file of its own with every joint on one property"),
     "particulate": ("Particulate", "The files that Particulate reads"),
     "singapo": ("SINGAPO", "The files that SINGAPO reads"),
@@ -66,6 +68,15 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         self.formats = self.formats or USUAL
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
+
+    def draw(self, context):
+        """Draws what is asked beside the folder, each format on a line of its own."""
+        layout = self.layout
+        layout.prop(self, "name", text="Name")
+        layout.label(text="Formats; several with Shift:")
+        layout.column(align=True).prop(self, "formats")
+        layout.prop(self, "overwrite")
+        layout.prop(self, "clean")
 
     def execute(self, context):
         """Starts; in a window the rest goes on behind it."""

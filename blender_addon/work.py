@@ -1,7 +1,8 @@
 """Runs of `grafu` in processes of their own, so that Blender's window goes on: start, look, stop, fetch.
 
 One process stays from run to run, so that a change costs what it changes. Stopping a run ends it at once; the next run
-starts another. It ends with Blender, however that ends, and with the add-on; nothing stays behind.
+starts another. It ends with Blender, however that ends, and with the add-on. A folder that stays behind all the same is
+cleared away at the next start.
 """
 
 import atexit
@@ -13,6 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 from time import monotonic, sleep
+
+from . import leftovers
 
 STAGES = {  # in their order, with what an artist calls them
     "load": "reading the parts",
@@ -37,8 +40,10 @@ class _Process:
     """A process and its folder; what it says goes to a file there."""
 
     def __init__(self) -> None:
-        self.folder = Path(tempfile.mkdtemp(prefix="grafu_"))
+        leftovers.clear()
+        self.folder = Path(tempfile.mkdtemp(prefix=leftovers.PREFIX))
         self._said = open(self.folder / "said.txt", "wb")  # noqa: SIM115  closed in `end`
+        leftovers.hold(self._said)
         self._running = None
 
     def start(self, module, arguments) -> None:

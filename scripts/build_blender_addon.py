@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -40,8 +41,17 @@ def main() -> None:
         manifest = addon / "blender_manifest.toml"
         manifest.write_text(stated(manifest.read_text(), version, wheels, _platforms(options.platform)))
         name = f"grafu-blender-{version}-{_platforms(options.platform)[0]}"
-        made = shutil.make_archive(str(out / name), "zip", addon)
-    print(f"{made}: {len(wheels)} wheels, {Path(made).stat().st_size / 2**20:.0f} MB")
+        made = pack(addon, out / f"{name}.zip")
+    print(f"{made}: {len(wheels)} wheels, {made.stat().st_size / 2**20:.0f} MB")
+
+
+def pack(folder: Path, made: Path) -> Path:
+    """Writes a folder to a zip and returns its path. Wheels are packed already: they are stored."""
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as packed:
+        for path in sorted(folder.rglob("*")):
+            kind = zipfile.ZIP_STORED if path.suffix == ".whl" else zipfile.ZIP_DEFLATED
+            packed.write(path, path.relative_to(folder), kind)
+    return made
 
 
 def stated(manifest: str, version: str, wheels: list[str], platforms: list[str]) -> str:

@@ -25,11 +25,12 @@ LEFT_OUT = ("top_panel", "handle_5", "shelf_3")
 """Parts of the sample that it must do without, so that there is something to add."""
 SHEETS = {
     "panels": ("running", "joints", "show", "added", "categories"),
-    "questions": ("hinges", "handle", "top", "furnish"),
+    "questions": ("hinges", "rails", "handle", "motion"),
+    "added_questions": ("top", "furnish", "finalize"),
 }
 """Pictures that stand side by side in one file."""
 COLOURS = 128  # a palette is a third of the bytes
-_SECONDS = 600.0
+_SECONDS = 1200.0
 _EDGE = 6  # pixels around what a picture is cut out to
 _DARK = 40  # of 255: brighter than a question's ground, darker than everything behind it
 _LEAST = 40  # pixels of a row or column that a question covers

@@ -8,6 +8,7 @@ import os
 import sys
 import traceback
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 
@@ -17,7 +18,7 @@ sys.path.insert(0, addon_parent)
 from stepping import FACTS, session, step  # noqa: E402
 
 import blender_addon  # noqa: E402
-from blender_addon import objects  # noqa: E402
+from blender_addon import joint_operators, objects  # noqa: E402
 
 
 def bring(name):
@@ -31,6 +32,13 @@ def bring(name):
 
 def hardware(start) -> list:
     return sorted(o["id"] for o in objects.result_objects(session()) if o.get("id", "").startswith(start))
+
+
+def offered(part, mechanism="auto") -> list:
+    """What a dialog's menus offer for a part: classes and templates."""
+    question = SimpleNamespace(asked=True, part=part, mechanism=mechanism)
+    menus = (joint_operators.class_items, joint_operators.template_items)
+    return [[item[0] for item in menu(question, bpy.context)] for menu in menus]
 
 
 def main():
@@ -56,6 +64,10 @@ def main():
     step("far mount", grafu.set_joint, part="door_1", mount="back_panel")
     step("moving mount", grafu.set_joint, part="door_1", mount="door_2")
     step("hinge supports", grafu.set_joint, part="door_1", supports="slab")
+    step("drawn", grafu.set_joint, part="door_1", asked=True, own_count=False, count=4, limited=True, angle=0.8)
+    FACTS[-1]["offered"] = {part: offered(part) for part in ("door_1", "drawer_1")}
+    FACTS[-1]["of class P"] = offered("door_1", "P")[1]
+    step("drawn back", grafu.reset_joint, part="door_1")
     step("replace top", grafu.set_top, replaces=True, thickness=0.04)
     step("old top", grafu.set_top)
     step("divider", grafu.furnish, number=0, shelves=0, dividers=1, thickness=0.012, inset=0.05)

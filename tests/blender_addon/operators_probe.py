@@ -18,7 +18,7 @@ sys.path.insert(0, addon_parent)
 from stepping import FACTS, session, snapshot, step  # noqa: E402
 
 import blender_addon  # noqa: E402
-from blender_addon import objects  # noqa: E402
+from blender_addon import objects, state  # noqa: E402
 
 
 def values() -> dict:
@@ -56,7 +56,11 @@ def main():
     step("label", grafu.set_label, part="door_2", label="misc")
     step("label as read", grafu.set_label, part="door_2", as_read=True)
     step("compartments", grafu.show_compartments)
-    FACTS[-1]["boxes"] = [len(o.data.edges) for o in bpy.data.objects if o.get("grafu") == "compartment"]
+    boxes = [o for o in bpy.data.objects if o.get("grafu") == "compartment"]
+    FACTS[-1]["boxes"] = [len(o.data.edges) for o in boxes]
+    FACTS[-1]["compartments"] = [[list(o.matrix_world @ v.co) for v in o.data.vertices] for o in boxes]
+    FACTS[-1]["named at"] = [list(o.matrix_world.translation) for o in boxes]
+    FACTS[-1]["found"] = [one["corners"] for one in state.compartments_of(session())]
     view(grafu)
     saved(grafu)
     without_top(grafu)

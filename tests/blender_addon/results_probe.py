@@ -84,8 +84,17 @@ def main():
     final = {"directory": str(Path(out, "final")), "name": "done", "formats": {"glb"}}
     note("finalized", bpy.ops.grafu.finalize("EXEC_DEFAULT", True, **final))
     note("reopened", opened("final/done"))
+    bpy.ops.ed.undo_push(message="reopened")
+    note("compartments", bpy.ops.grafu.show_compartments("EXEC_DEFAULT", True), boxes=boxes())
+    bpy.ops.ed.undo()
+    note("compartments undone", [], boxes=boxes())
     note("sourceless", opened("sourceless"))
     note("sourceless changed", bpy.ops.grafu.set_joint("EXEC_DEFAULT", True, part=part, count=2))
+
+
+def boxes() -> int:
+    """How many compartments of the model that is shown stand in the scene as boxes."""
+    return len(session().boxes.objects) if session().boxes is not None else 0
 
 
 def opened_facts() -> dict:

@@ -10,6 +10,7 @@ from grafu.errors import ExportError
 from grafu.export.blend.exporter import find_interpreter
 from grafu.pipeline.settings import settings_from_json
 from grafu.realization.plan import Supports
+from grafu.templates.gallery import builtin_gallery
 
 ROOT = Path(__file__).parents[2]
 REFUSED = {
@@ -75,6 +76,23 @@ def test_a_rejected_door_stands_still_and_can_be_hung_anew(steps):
 def test_a_door_hangs_on_the_part_that_is_chosen(steps):
     assert steps["functionalize"]["mounts"]["door_1"] == "side_panel_left"
     assert steps["mount"]["mounts"]["door_1"] == "divider_1"
+
+
+def test_a_dialog_offers_what_fits_the_joint_and_its_class(steps):
+    fact = steps["drawn"]
+    gallery = builtin_gallery()
+    classes, templates = fact["offered"]["door_1"]
+    assert classes == ["auto", "C", "F", "P"]
+    assert templates == ["auto", *(model.id for model in gallery.hinges), "pivot"]
+    rails = [["auto", "centre-mount", "corner-mount"], ["auto", *(model.id for model in gallery.rails)]]
+    assert fact["offered"]["drawer_1"] == rails
+    assert fact["of class P"] == ["auto", *(model.id for model in gallery.hinges if model.mechanism == "P")]
+
+
+def test_a_number_that_a_dialog_leaves_automatic_counts_for_nothing(steps):
+    built, usual = steps["drawn"]["joints"]["door_1"], steps["mount"]["joints"]["door_1"]
+    assert built[2] == usual[2] != 4
+    assert built[3] == pytest.approx(0.8)
 
 
 def test_a_top_comes_in_the_place_of_the_old_one_and_goes_again(steps):

@@ -7,6 +7,7 @@ import json
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from grafu.errors import ExportError
@@ -115,7 +116,17 @@ def test_tops_and_shelves_come_and_go(steps, facts):
     assert tops("accept top")
     assert sum(part.startswith("shelf") for part in steps["selected box"]["added"]) == 2
     assert sum(part.startswith("shelf") for part in steps["own box"]["added"]) == 3
-    assert set(facts["compartments"]["boxes"]) == {12}
+
+
+def test_compartments_are_boxes_named_in_their_middles(facts):
+    fact = facts["compartments"]
+    assert set(fact["boxes"]) == {12}
+    names = np.array(fact["named at"])
+    boxes = np.array(fact["compartments"])
+    assert np.allclose(names, boxes.mean(axis=1), atol=1e-5)
+    assert len({tuple(name) for name in names.round(3)}) == len(boxes) > 1
+    sizes = np.ptp(np.array(fact["found"]), axis=1)
+    assert np.allclose(sorted(map(tuple, np.ptp(boxes, axis=1))), sorted(map(tuple, sizes)), atol=1e-4)
 
 
 def test_modifiers_of_hidden_sources_still_count(steps):

@@ -19,7 +19,7 @@ def folder(tmp_path_factory):
     arguments = ["--motion", "rule", "--formats", "glb", "--no-page", "--out", str(made / "out")]
     assert main(["functionalize", str(sample), *arguments]) == 0
     probe = ROOT / "tests/blender_addon/overlay_probe.py"
-    done = run_in_window(probe, [str(made / "out" / "sideboard")], made, 200.0)
+    done = run_in_window(probe, [str(made / "out" / "sideboard")], made, 600.0)
     assert done.returncode == 0, (done.stdout + done.stderr)[-3000:]
     assert "Traceback" not in done.stdout + done.stderr
     return made

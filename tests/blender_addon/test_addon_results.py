@@ -117,6 +117,13 @@ def test_what_is_finalized_is_opened_again(facts, run):
     assert facts["reopened"]["things"] == facts["finalized"]["things"]
 
 
+def test_compartments_of_an_opened_result_are_found_when_asked_for(facts):
+    assert facts["compartments"]["result"] == ["FINISHED"]
+    assert facts["compartments"]["boxes"] > 0
+    assert facts["compartments"]["things"] == facts["reopened"]["things"]
+    assert facts["compartments undone"]["boxes"] == 0
+
+
 def test_without_its_input_it_is_shown_and_cannot_be_changed(facts):
     assert facts["sourceless"]["result"] == ["FINISHED"]
     assert facts["sourceless"]["models"] == 3

@@ -14,7 +14,7 @@ def folder(tmp_path_factory):
     if why:
         pytest.skip(why)
     made = tmp_path_factory.mktemp("window")
-    done = run_in_window(ROOT / "tests/blender_addon/window_probe.py", [str(SAMPLE)], made, 900.0)
+    done = run_in_window(ROOT / "tests/blender_addon/window_probe.py", [str(SAMPLE)], made, 1200.0)
     assert done.returncode == 0, (done.stdout + done.stderr)[-3000:]
     return made
 
@@ -62,6 +62,8 @@ def test_undo_during_a_run_does_no_harm_and_what_does_not_fit_changes_nothing(fa
 
 def test_every_question_is_closed_by_escape(facts):
     assert facts["asked"] == [False, True]
+    names = ("set_joint", "set_handle", "set_top", "furnish", "set_label", "set_motion")
+    assert [name for name in names if f"GRAFU_OT_{name}" not in facts["drawn"]] == []
 
 
 def test_finalize_writes_from_the_window(facts):

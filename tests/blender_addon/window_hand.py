@@ -60,6 +60,12 @@ class Hand:
         for cls in lists:
             cls.draw_item = self._watched_list(cls.__name__, cls.draw_item)
 
+    def watch_questions(self, operators) -> None:
+        """Notes which dialogs are drawn, and what goes wrong there."""
+        for cls in operators:
+            if "draw" in vars(cls):
+                cls.draw = self._watched_panel(cls.__name__, cls.draw)
+
     def _watched_panel(self, title, draw):
         def watched(panel, context):  # Blender counts a function's arguments
             self._note(title, draw, panel, context)
@@ -91,7 +97,7 @@ class Hand:
                 return
         raise RuntimeError(f"no tab shows `{first_panel}`")
 
-    def wait_while(self, condition, seconds=120.0):
+    def wait_while(self, condition, seconds=400.0):
         """Waits until something is over."""
         left = seconds
         while condition():

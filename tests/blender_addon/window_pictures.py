@@ -17,6 +17,8 @@ from blender_addon import lists, panels, run_operators
 
 SOURCE, *LEFT_OUT = ARGUMENTS
 _VIEW = Euler((1.2, 0.0, 0.5))  # from the front, a little from the right and from above
+_AMID = 0.3  # of a run
+_OPEN = 1.25  # how much more room it takes when it is open
 _only: set = set()  # names of the panels that are drawn; empty: all
 
 
@@ -36,6 +38,7 @@ def script():
     yield from refine(hand)
     yield from add(hand)
     yield from end(hand)
+    yield from beside(hand)
     if hand.faults:
         sys.exit("\n".join(hand.faults))
 
@@ -73,12 +76,15 @@ def stage(hand):
     yield 0.3
     hand.call(bpy.ops.view3d.view_selected, "EXEC_DEFAULT", use_all_regions=True)
     yield 0.5
+    view.view_distance *= _OPEN
+    yield 0.3
 
 
 def run(hand):
     keep(hand, "start", hand.area)
     hand.call(bpy.ops.grafu.functionalize)
-    yield 0.5
+    yield from hand.wait_while(lambda: running() and run_operators.active_run().share < _AMID)
+    yield 0.2
     keep(hand, "running", hand.region("UI"), whole=True)
     yield from hand.wait_while(running)
     yield 0.6
@@ -96,16 +102,26 @@ def look(hand):
     keep(hand, "categories_seen", hand.area)
     yield from panel(hand, "show", {"GRAFU_PT_view"})
     hand.call(bpy.ops.grafu.colours, "EXEC_DEFAULT", on=False)
-    yield 0.3
+    hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="closed")
+    hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="solo")
+    deselect()
+    yield 0.5
+    keep(hand, "overlay", hand.area)
 
 
 def refine(hand):
-    """The questions about one joint."""
-    part = panels.session_of(bpy.context).joints[0].part
+    """The questions about one joint, and how its part moves."""
+    rows = panels.session_of(bpy.context).joints
+    part = next((row.part for row in rows if row.type == "revolute"), rows[0].part)
+    sliding = next((row.part for row in rows if row.type == "prismatic"), part)
     hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="closed")
     yield 0.3
+    bpy.context.scene.grafu_overlay = False
+    yield 0.3
     yield from question(hand, "hinges", bpy.ops.grafu.set_joint, part=part)
+    yield from question(hand, "rails", bpy.ops.grafu.set_joint, part=sliding)
     yield from question(hand, "handle", bpy.ops.grafu.set_handle, part=part)
+    yield from question(hand, "motion", bpy.ops.grafu.set_motion, part=part)
 
 
 def add(hand):
@@ -122,10 +138,44 @@ def add(hand):
     yield from question(hand, "furnish", bpy.ops.grafu.furnish)
     hand.call(bpy.ops.grafu.show_compartments, "EXEC_DEFAULT")
     deselect()
+    bpy.context.scene.grafu_overlay = True
 
 
 def end(hand):
     yield from panel(hand, "categories", {"GRAFU_PT_parts", "GRAFU_PT_output"})
+
+
+def beside(hand):
+    """What Finalize asks; what it wrote, opened beside the model."""
+    preferences = bpy.context.preferences.view
+    preferences.filebrowser_display_type = "SCREEN"
+    hand.call(bpy.ops.grafu.finalize)
+    yield from hand.wait_while(lambda: browser_of(hand) is None)
+    yield 1.0
+    browser = browser_of(hand)
+    asked = next(region for region in browser.regions if region.type == "TOOL_PROPS")
+    keep(hand, "finalize", asked, whole=True)
+    yield from hand.press("ESC", (browser.x + browser.width // 2, browser.y + browser.height // 2))
+    hand.call(bpy.ops.grafu.finalize, "EXEC_DEFAULT", directory=FOLDER, name="final", formats={"glb"})
+    yield from hand.wait_while(running)
+    things = [one for one in bpy.context.view_layer.objects if one.type == "MESH" and one.visible_get()]
+    width = max(one.dimensions.x for one in things)
+    bpy.context.scene.cursor.location.x = 1.3 * width
+    hand.call(bpy.ops.grafu.open_result, "EXEC_DEFAULT", directory=str(Path(FOLDER, "final")))
+    panels.session_of(bpy.context).status = ""  # it names a temporary folder
+    for one in bpy.context.view_layer.objects:
+        one.select_set(one.type == "MESH" and one.visible_get())
+    hand.call(bpy.ops.view3d.view_selected, "EXEC_DEFAULT", use_all_regions=True)
+    deselect()
+    for _ in range(3):  # panels glide to their places
+        hand.area.tag_redraw()
+        yield 0.7
+    keep(hand, "beside", hand.area)
+
+
+def browser_of(hand):
+    """The file browser, or None."""
+    return next((area for area in hand.window.screen.areas if area.type == "FILE_BROWSER"), None)
 
 
 def running():

@@ -9,17 +9,28 @@ import bpy
 from window_hand import ARGUMENTS, FOLDER, Hand, play
 
 import blender_addon
-from blender_addon import lists, panels, run_operators, work
+from blender_addon import (
+    addition_operators,
+    interior_operators,
+    joint_operators,
+    lists,
+    motion_operators,
+    panels,
+    run_operators,
+    work,
+)
 
 FACTS: dict = {"version": list(bpy.app.version)}
-DIALOGS = ("set_joint", "set_handle", "set_top", "furnish", "set_label")
+DIALOGS = ("set_joint", "set_handle", "set_top", "furnish", "set_label", "set_motion")
 
 
 def script():
     panels.GRAFU_PT_parts.bl_options = set()  # open, so that it is drawn
-    blender_addon.register()
     hand = Hand()
     hand.watch(panels.CLASSES, lists.CLASSES)
+    for module in (joint_operators, motion_operators, addition_operators, interior_operators):
+        hand.watch_questions(module.CLASSES)
+    blender_addon.register()
     for one in list(bpy.data.objects):
         bpy.data.objects.remove(one)
     bpy.ops.import_scene.gltf(filepath=ARGUMENTS[0])
