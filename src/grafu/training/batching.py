@@ -65,7 +65,7 @@ def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> Trainin
         anchors=padded([anchors], (rows, *anchors.shape[1:]), 0)[0],
         groups=padded([groups], (rows, *groups.shape[1:]), 0)[0],
     )
-    return TrainingBatch(graphs, stack_targets([v.targets for v in views]), tuple(v.strategy for v in views))
+    return TrainingBatch(graphs, stack_targets([v.targets for v in views], SLOT_STEP), tuple(v.strategy for v in views))
 
 
 def _view(showing: Showing, copy: Copy) -> Copy:

@@ -15,7 +15,7 @@ from torch import Tensor
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.training.padding import SLOT_STEP, padded, stepped
+from grafu.training.padding import padded, stepped
 
 _PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending (official.md 3.2)
 
@@ -112,16 +112,16 @@ def mirrored_targets(targets: GraphTargets, across: int) -> GraphTargets:
     )
 
 
-def stack_targets(graphs: Sequence[GraphTargets]) -> TargetBatch:
-    """Returns the graphs as one padded batch, its sizes in steps; padding is null, `NONE` and not marked in `mask`.
+def stack_targets(graphs: Sequence[GraphTargets], step: int = 1) -> TargetBatch:
+    """Returns the graphs as one padded batch of sizes in steps; padding is null, `NONE` and not marked in `mask`.
 
     Raises:
         ValueError: if there is no graph.
     """
     if not graphs:
         raise ValueError("a batch must hold at least one graph: got none")
-    t = stepped(max(len(g.labels) for g in graphs), SLOT_STEP)
-    n = stepped(max(len(g.anchors) for g in graphs), SLOT_STEP)
+    t = stepped(max(len(g.labels) for g in graphs), step)
+    n = stepped(max(len(g.anchors) for g in graphs), step)
     return TargetBatch(
         labels=padded([g.labels for g in graphs], (t,), UNKNOWN),
         boxes=padded([g.boxes for g in graphs], (t, 6), 0.0),
