@@ -3,10 +3,7 @@
 Started as `python choices_probe.py ADDON_PARENT SAMPLES FOLDER` by a Python that has `bpy` and `grafu`.
 """
 
-import json
-import os
 import sys
-import traceback
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,6 +12,7 @@ import bpy
 addon_parent, samples, out = sys.argv[1:4]
 sys.path.insert(0, addon_parent)
 
+from probe_end import carry_out  # noqa: E402
 from stepping import FACTS, session, step  # noqa: E402
 
 import blender_addon  # noqa: E402
@@ -84,12 +82,4 @@ def main():
     blender_addon.unregister()
 
 
-try:
-    main()
-except BaseException:  # Blender hangs where Python ends by itself
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
-Path(out, "facts.json").write_text(json.dumps(FACTS))
-sys.stdout.flush()
-os._exit(0)
+carry_out(main, out, FACTS)

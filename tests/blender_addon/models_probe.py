@@ -3,16 +3,15 @@
 Started as `python models_probe.py ADDON_PARENT SAMPLE FOLDER` by a Python that has `bpy` and `grafu`.
 """
 
-import json
-import os
 import sys
-import traceback
 from pathlib import Path
 
 import bpy
 
 addon_parent, sample, out = sys.argv[1:4]
 sys.path.insert(0, addon_parent)
+
+from probe_end import carry_out  # noqa: E402
 
 import blender_addon  # noqa: E402
 from blender_addon import boxes, objects, state  # noqa: E402
@@ -142,12 +141,4 @@ def old_file():
     note("old file goes on", bpy.ops.grafu.run_again("EXEC_DEFAULT", True))
 
 
-try:
-    main()
-except BaseException:  # Blender hangs where Python ends by itself
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
-Path(out, "facts.json").write_text(json.dumps(FACTS))
-sys.stdout.flush()
-os._exit(0)
+carry_out(main, out, FACTS)

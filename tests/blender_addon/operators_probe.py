@@ -3,10 +3,7 @@
 Started as `python operators_probe.py ADDON_PARENT SAMPLE FOLDER` by a Python that has `bpy` and `grafu`.
 """
 
-import json
-import os
 import sys
-import traceback
 from pathlib import Path
 from time import perf_counter
 
@@ -15,6 +12,7 @@ import bpy
 addon_parent, sample, out = sys.argv[1:4]
 sys.path.insert(0, addon_parent)
 
+from probe_end import carry_out  # noqa: E402
 from stepping import FACTS, session, snapshot, step  # noqa: E402
 
 import blender_addon  # noqa: E402
@@ -161,12 +159,4 @@ def saved(grafu):
     step("goes on", grafu.set_joint, part="door_1", count=4)
 
 
-try:
-    main()
-except BaseException:  # Blender hangs where Python ends by itself
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
-Path(out, "facts.json").write_text(json.dumps(FACTS))
-sys.stdout.flush()
-os._exit(0)
+carry_out(main, out, FACTS)

@@ -4,16 +4,15 @@ Started as `python results_probe.py ADDON_PARENT SAMPLE FOLDER` by a Python that
 results in `out/` and broken ones in `bad/`.
 """
 
-import json
-import os
 import sys
-import traceback
 from pathlib import Path
 
 import bpy
 
 addon_parent, _, out = sys.argv[1:4]
 sys.path.insert(0, addon_parent)
+
+from probe_end import carry_out  # noqa: E402
 
 import blender_addon  # noqa: E402
 from blender_addon import objects, state  # noqa: E402
@@ -105,12 +104,4 @@ def opened_facts() -> dict:
     return {"frame 50": wide, "end": scene.frame_end}
 
 
-try:
-    main()
-except BaseException:  # Blender hangs where Python ends by itself
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
-Path(out, "facts.json").write_text(json.dumps(FACTS))
-sys.stdout.flush()
-os._exit(0)
+carry_out(main, out, FACTS)

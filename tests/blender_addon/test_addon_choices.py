@@ -1,18 +1,14 @@
 """What is decided by hand in the extension: how parts move, what carries them, what holds rails, another top."""
 
 import json
-import subprocess
-from pathlib import Path
 
 import pytest
+from probe_runs import SAMPLES, facts_in, run_probe
 
-from grafu.errors import ExportError
-from grafu.export.blend.exporter import find_interpreter
 from grafu.pipeline.settings import settings_from_json
 from grafu.realization.plan import Supports
 from grafu.templates.gallery import builtin_gallery
 
-ROOT = Path(__file__).parents[2]
 REFUSED = {
     "no border": "choose the border",
     "broad face": "front is a broad face",
@@ -27,23 +23,14 @@ REFUSED = {
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    try:
-        interpreter = find_interpreter()
-    except ExportError as error:
-        pytest.skip(str(error))
     folder = tmp_path_factory.mktemp("choices")
-    probe = Path(__file__).with_name("choices_probe.py")
-    command = [interpreter, str(probe), str(ROOT), str(ROOT / "samples"), str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
-    assert done.returncode == 0, done.stderr[-3000:]
+    run_probe("choices", SAMPLES, folder)
     return folder
 
 
 @pytest.fixture(scope="module")
 def steps(run):
-    found = json.loads((run / "facts.json").read_text())
-    assert len({fact["step"] for fact in found}) == len(found)
-    return {fact["step"]: fact for fact in found}
+    return facts_in(run)
 
 
 def test_after_every_step_the_scene_is_what_the_library_makes_of_its_settings(steps):

@@ -1,32 +1,16 @@
 """Several models in one scene, each with a session of its own; a scene that was saved with one goes on."""
 
-import json
-import subprocess
-from pathlib import Path
-
 import pytest
+from probe_runs import SAMPLES, facts_in, run_probe
 
-from grafu.errors import ExportError
-from grafu.export.blend.exporter import find_interpreter
-
-ROOT = Path(__file__).parents[2]
 LEFT, RIGHT = "left_chest", "right_chest"
 
 
 @pytest.fixture(scope="module")
 def facts(tmp_path_factory):
-    try:
-        interpreter = find_interpreter()
-    except ExportError as error:
-        pytest.skip(str(error))
     folder = tmp_path_factory.mktemp("models")
-    probe = Path(__file__).with_name("models_probe.py")
-    command = [interpreter, str(probe), str(ROOT), str(ROOT / "samples" / "chest.glb"), str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
-    assert done.returncode == 0, done.stderr[-3000:]
-    found = json.loads((folder / "facts.json").read_text())
-    assert len({fact["step"] for fact in found}) == len(found)
-    return {fact["step"]: fact for fact in found}
+    run_probe("models", SAMPLES / "chest.glb", folder)
+    return facts_in(folder)
 
 
 def model(facts, step, slot):

@@ -5,18 +5,16 @@ The Blender is that of `grafu.export.blend`: an importable `bpy`, or the Python 
 
 import json
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
+from probe_runs import SAMPLES, facts_in, run_probe
 
-from grafu.errors import ExportError
 from grafu.export.blend.exporter import find_interpreter
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import settings_from_json
 
-ROOT = Path(__file__).parents[2]
-SAMPLE = ROOT / "samples" / "sideboard.glb"
+SAMPLE = SAMPLES / "sideboard.glb"
 REFUSED = {
     "class P": "class P",
     "furnish": "room for",
@@ -28,23 +26,14 @@ REFUSED = {
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    try:
-        interpreter = find_interpreter()
-    except ExportError as error:
-        pytest.skip(str(error))
     folder = tmp_path_factory.mktemp("addon")
-    probe = Path(__file__).with_name("operators_probe.py")
-    command = [interpreter, str(probe), str(ROOT), str(SAMPLE), str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
-    assert done.returncode == 0, done.stderr[-3000:]
+    run_probe("operators", SAMPLE, folder)
     return folder
 
 
 @pytest.fixture(scope="module")
 def facts(run):
-    found = json.loads((run / "facts.json").read_text())
-    assert len({fact["step"] for fact in found}) == len(found)
-    return {fact["step"]: fact for fact in found}
+    return facts_in(run)
 
 
 @pytest.fixture(scope="module")

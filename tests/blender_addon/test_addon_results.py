@@ -2,18 +2,15 @@
 
 import json
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
+from probe_runs import SAMPLES, facts_in, run_probe
 
 from grafu.cli.main import main
-from grafu.errors import ExportError
-from grafu.export.blend.exporter import find_interpreter
 from grafu.pipeline.result_folder import read_result
 
-ROOT = Path(__file__).parents[2]
-SAMPLE = ROOT / "samples" / "chest.glb"
+SAMPLE = SAMPLES / "chest.glb"
 BAD = {
     "empty": "no report.json",
     "no glb": "with --formats glb",
@@ -41,24 +38,15 @@ def lay_out(folder: Path) -> None:
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    try:
-        interpreter = find_interpreter()
-    except ExportError as error:
-        pytest.skip(str(error))
     folder = tmp_path_factory.mktemp("results")
     lay_out(folder)
-    probe = Path(__file__).with_name("results_probe.py")
-    command = [interpreter, str(probe), str(ROOT), str(SAMPLE), str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
-    assert done.returncode == 0, done.stderr[-3000:]
+    run_probe("results", SAMPLE, folder)
     return folder
 
 
 @pytest.fixture(scope="module")
 def facts(run):
-    found = json.loads((run / "facts.json").read_text())
-    assert len({fact["step"] for fact in found}) == len(found)
-    return {fact["step"]: fact for fact in found}
+    return facts_in(run)
 
 
 @pytest.mark.parametrize(("name", "words"), BAD.items())
