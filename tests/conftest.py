@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, settings
 settings.register_profile("grafu", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 # The build server draws the same examples every time: a red run is the change's doing. At home every run draws anew.
 settings.register_profile("server", settings.get_profile("grafu"), derandomize=True)
-settings.load_profile("server" if os.environ.get("CI") else "grafu")
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE") or ("server" if os.environ.get("CI") else "grafu"))
 
 
 def pytest_configure(config: pytest.Config) -> None:
