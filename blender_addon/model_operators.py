@@ -46,8 +46,7 @@ class GRAFU_OT_open_result(bpy.types.Operator):
         session = fill_slot(context.scene, free_slot(context.scene))
         session.source_file, session.fixed = str(found.source or ""), found.fixed
         objects.show_result(session, found.object, mathutils.Matrix.Translation(context.scene.cursor.location))
-        unit = max(link.mesh.box.size.max() for link in found.object.links if len(link.mesh.faces))
-        store(session, found.settings, found.report.model_dump_json(by_alias=True), "", float(unit))
+        store(session, found.settings, found.report.model_dump_json(by_alias=True), "", found.object)
         session.status = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
         self.report({"INFO"}, session.status)
         return {"FINISHED"}

@@ -46,12 +46,15 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
     inwards: BoolProperty(name="Inwards", description="It opens to the inside of the furniture", options={"SKIP_SAVE"})
 
     def invoke(self, context, event):
-        """Asks, with what holds now filled in."""
+        """Asks, with what was chosen filled in, else with how the part moves now."""
         self.part = self.part or chosen_part(context)
-        choice = settings_of(session_of(context)).motions.get(self.part)
+        session = session_of(context)
+        choice, row = settings_of(session).motions.get(self.part), session.joints.get(self.part)
         if choice is not None:
             self.moves, self.inwards = choice.moves.value, choice.inwards
             self.side = choice.side.value if choice.side else USUAL
+        elif row is not None and row.moves:
+            self.moves, self.side, self.inwards = row.moves, row.side, row.inwards
         return context.window_manager.invoke_props_dialog(self)
 
     def draw(self, context):

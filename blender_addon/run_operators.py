@@ -142,8 +142,7 @@ class Applies:
             session.sources.add().object = bpy.data.objects.get(name)
         session.source_file = self._file
         objects.show_result(session, made, None if self._file else objects.place_of(after.frame.input_to_output))
-        unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
-        store(session, self._settings, self._run.text("report.json"), self._run.text("interior.json"), float(unit))
+        store(session, self._settings, self._run.text("report.json"), self._run.text("interior.json"), made)
         session.colours = False
         if remove_boxes(session):
             draw_boxes(session)

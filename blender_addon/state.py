@@ -42,6 +42,9 @@ class GRAFU_Joint(bpy.types.PropertyGroup):
     changed: BoolProperty()
     front_changed: BoolProperty()
     motion_changed: BoolProperty()
+    moves: StringProperty(description="How it moves: turns, slides; empty: about no border of its own")
+    side: StringProperty(description="The border that it turns about, the side that it slides to")
+    inwards: BoolProperty()
 
 
 class GRAFU_Addition(bpy.types.PropertyGroup):
@@ -185,14 +188,14 @@ def compartments_of(session) -> list:
     return json.loads(session.interior_json)["compartments"] if session.interior_json else []
 
 
-def store(session, settings, report_json: str, interior_json: str, unit: float) -> None:
-    """Keeps what a run gave, and draws the lists from it."""
+def store(session, settings, report_json: str, interior_json: str, made) -> None:
+    """Keeps what a run gave, and draws the lists from it; `made` is the articulated object."""
     session.settings_json = json.dumps(settings.to_json())
     session.report_json, session.interior_json = report_json, interior_json
     report = report_of(session)
     chosen = session.active_joint.part if session.active_joint else ""
     session.is_filling = True
-    _fill_joints(session, settings, report, unit)
+    _fill_joints(session, settings, report, made)
     _fill_additions(session, settings, report)
     session.parts.clear()
     for part in report.parts:
@@ -207,19 +210,24 @@ def store(session, settings, report_json: str, interior_json: str, unit: float) 
     session.is_filling = False
 
 
-def _fill_joints(session, settings, report, unit) -> None:
+def _fill_joints(session, settings, report, made) -> None:
+    from grafu.pipeline.motion_choices import motions_of
     from grafu.pipeline.triage import Level, joint_states
     from grafu.realization.plan import AUTOMATIC
 
-    records = {joint.part: joint for joint in report.joints}
+    records, motions = {joint.part: joint for joint in report.joints}, motions_of(made)
+    unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
     session.joints.clear()
-    for state in joint_states(report, unit):
+    for state in joint_states(report, float(unit)):
         row = session.joints.add()
         row.name = row.part = state.part
         row.joint, row.level, row.why = state.joint, state.level.value, state.why
         row.changed = settings.joints.get(state.part, AUTOMATIC) != AUTOMATIC
         row.front_changed = state.part in settings.additions.fronts
         row.motion_changed = state.part in settings.motions
+        motion = motions.get(state.part)
+        if motion is not None:
+            row.moves, row.side, row.inwards = motion.moves.value, motion.side.value, motion.inwards
         row.mechanism = "stands still" if state.level is Level.OK else ""
         record = records.get(state.part)
         if record is not None:

@@ -85,7 +85,7 @@ def _wheels(folder: Path, python: str, platforms: list[str]) -> list[str]:
     (own,) = folder.glob("grafu-*.whl")
     wanted = ["--only-binary", ":all:", "--python-version", python, "--implementation", "cp"]
     wanted += [word for platform in platforms for word in ("--platform", platform)]
-    subprocess.run([*pip, "download", "--quiet", *wanted, "--dest", str(folder), str(own), *OLDEST], check=True)
+    subprocess.run([*pip, "download", "--quiet", *wanted, "--dest", str(folder), f"{own}[usd]", *OLDEST], check=True)
     for wheel in folder.glob("*.whl"):
         if wheel.name.lower().split("-")[0] in LEFT_OUT:
             wheel.unlink()

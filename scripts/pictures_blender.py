@@ -4,6 +4,7 @@ It needs `blender` and `Xvfb`, and shows nothing on your own screen.
 
 python scripts/pictures_blender.py                                   the sample, without its top and a handle
 python scripts/pictures_blender.py --model FILE_OR_FOLDER --out DIR  another model, whole
+python scripts/pictures_blender.py --only start result               some of the pictures
 """
 
 import argparse
@@ -44,6 +45,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--model", type=Path, help="another model: a file or folder that grafu reads")
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "images" / "blender")
+    parser.add_argument("--only", nargs="+", metavar="NAME", help="the pictures to write, by their names")
     options = parser.parse_args()
     sys.path.insert(0, str(ROOT / "tests" / "blender_addon"))
     from real_window import missing, run_in_window
@@ -63,7 +65,8 @@ def main() -> int:
             return 1
         options.out.mkdir(parents=True, exist_ok=True)
         for picture, seen in sheets(pictures(folder)).items():
-            write(options.out / f"{picture}.png", seen)
+            if not options.only or picture in options.only:
+                write(options.out / f"{picture}.png", seen)
     return 0
 
 

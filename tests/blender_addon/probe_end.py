@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 
-def carry_out(main: Callable[[], None], folder: str, facts: list) -> None:
+def carry_out(main: Callable[[], None], folder: str, facts: list | dict) -> None:
     """Runs a probe to its end, writes `facts.json`, and ends the process."""
     try:
         main()

@@ -33,6 +33,17 @@ def snapshot() -> list:
     return [session().settings_json, json.dumps(report, sort_keys=True), things]
 
 
+def difference(when: str, wanted: list, found: list) -> list:
+    """What two snapshots do not share, in words."""
+    wrong = []
+    for what, one, other in zip(("settings", "report", "things"), map(str, found), map(str, wanted), strict=True):
+        at = next((k for k, pair in enumerate(zip(one, other, strict=False)) if pair[0] != pair[1]), None)
+        if one != other:
+            seen = slice(max(0, (at or 0) - 60), (at or 0) + 60)
+            wrong.append(f"{when}, {what}: {one[seen]} instead of {other[seen]}")
+    return wrong
+
+
 def expected() -> list:
     """What the library makes of the same sources and settings: links, joints and visuals."""
     settings = state.settings_of(session())
@@ -70,12 +81,13 @@ def step(title, operator, **arguments):
         },
         "mounts": {j["part"]: j["mount"] for j in report.get("joints", [])},
         "added": {a["part"]: a["style"] for a in report.get("added", [])},
+        "motions": {row.part: [row.moves, row.side, row.inwards] for row in session().joints},
         "rows": {row.part: row.level for row in session().joints},
     }
     if result == "FINISHED":
         bpy.ops.ed.undo()
-        fact["undone"] = snapshot() == before
+        wrong = difference("undone", before, snapshot())
         bpy.ops.ed.redo()
-        fact["redone"] = snapshot() == after
+        fact["wrong"] = [*wrong, *difference("redone", after, snapshot())]
     FACTS.append(fact)
     return fact

@@ -14,14 +14,23 @@ from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
 from grafu.pipeline.functionalize import Functionalized, functionalize
-from grafu.pipeline.motion_choices import REJECTED
+from grafu.pipeline.motion_choices import REJECTED, motions_of
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.pipeline.triage import Level, joint_states
-from grafu.realization.motion_choice import DIRECTIONS, STANDS_STILL, MotionChoice, Moves, Side, axis_of_motion
+from grafu.realization.motion_choice import (
+    DIRECTIONS,
+    STANDS_STILL,
+    MotionChoice,
+    Moves,
+    Side,
+    axis_of_motion,
+    motion_as_choice,
+)
 from grafu.realization.plan import JointChoice
 from grafu.synth.cabinet import Cabinet, make_cabinet
 from grafu.synth.case import Case
@@ -83,6 +92,7 @@ def test_a_door_turns_about_the_border_that_is_stated(asset, source, side):
     towards = DIRECTIONS[side]
     off = made.axis.closest_point(box.center) - box.center
     assert made.source == "user"
+    assert motions_of(result.object)[door] == MotionChoice(Moves.TURNS, side)
     assert float(off @ towards) == pytest.approx(float(np.abs(towards) @ box.half), abs=0.03)
     assert opened(result, door)[1] < -0.05
     (edge,) = [h for h in result.completion.completed.hinges if h.child == door]
@@ -182,6 +192,33 @@ def test_an_axis_follows_a_part_that_stands_turned(angle, side, inwards):
     found = axis_of_motion(turned, choice, flat.box)  # its middle lies on the axis of the turn
     assert found.direction == pytest.approx(expected.direction, abs=1e-6)
     assert found.distance_to(expected.point) < 1e-6
+
+
+@pytest.mark.parametrize("inwards", [False, True])
+@pytest.mark.parametrize("side", [Side.LEFT, Side.RIGHT, Side.TOP, Side.BOTTOM])
+@pytest.mark.parametrize("angle", [0.0, 0.3, -0.7])
+def test_a_motion_is_read_back_from_its_axis(angle, side, inwards):
+    flat, _, _, door = _turned_door(angle)
+    choice = MotionChoice(Moves.TURNS, side, inwards)
+    axis = axis_of_motion(door, choice, flat.box)
+    assert motion_as_choice(door.mesh, JointType.REVOLUTE, axis, flat.box) == choice
+    assert motion_as_choice(door.mesh, JointType.REVOLUTE, replace(axis, direction=-axis.direction), flat.box) == (
+        MotionChoice(Moves.TURNS, side, not inwards)
+    )
+
+
+@pytest.mark.parametrize("side", [Side.LEFT, Side.RIGHT, Side.FRONT, Side.BACK])
+def test_a_slide_is_read_back_from_its_axis(side):
+    flat, _, _, door = _turned_door(0.0)
+    choice = MotionChoice(Moves.SLIDES, side)
+    axis = axis_of_motion(door, choice, flat.box)
+    assert motion_as_choice(door.mesh, JointType.PRISMATIC, axis, flat.box) == choice
+
+
+def test_a_board_that_turns_in_its_own_plane_turns_about_no_border():
+    flat, _, _, door = _turned_door(0.0)
+    across = Axis(door.box.center, vec3(0.0, 1.0, 0.0))
+    assert motion_as_choice(door.mesh, JointType.REVOLUTE, across, flat.box) is None
 
 
 @given(st.floats(-1e-4, 1e-4), st.sampled_from([Side.TOP, Side.BOTTOM]))

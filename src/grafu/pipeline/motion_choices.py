@@ -7,15 +7,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import pi
 
+from grafu.articulation.articulated_object import ArticulatedObject, VisualRole
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.completion.handles import attach_handles
 from grafu.errors import GraphError, OptionError
+from grafu.geometry.box import Box
 from grafu.graph.annotated import joint_edges
 from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
-from grafu.realization.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion
+from grafu.realization.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
 from grafu.realization.motion_source import riders_of
 from grafu.realization.plan import JointChoice, JointRequest, RealizationPlan, Refusal
 from grafu.vocabulary import PartLabel
@@ -25,6 +27,16 @@ REJECTED = "it was decided that it stands still"
 _OF_MOTIONS = ("mount", "border", "sign", "slide")
 
 Motions = Mapping[str, MotionChoice]
+
+
+def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
+    """Returns how the parts of an object move, as choices by the id of the part; see `motion_as_choice`."""
+    parts = [v for link in made.links for v in link.visuals if v.role is VisualRole.PART]
+    whole = Box.enclosing([visual.mesh.box for visual in parts])
+    joints = {joint.child: joint for joint in made.moving_joints}
+    movers = [(visual.mesh, joints[visual.name]) for visual in parts if visual.name in joints]
+    found = {joint.child: motion_as_choice(mesh, joint.type, joint.axis, whole) for mesh, joint in movers}
+    return {part: choice for part, choice in found.items() if choice is not None}
 
 
 def with_movers(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel]) -> Asset:

@@ -14,6 +14,7 @@ from grafu.errors import OptionError
 from grafu.geometry.arrays import Mat3, Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.rail.search import slides_in_its_plane
 from grafu.vocabulary import JointType, PartLabel
@@ -115,6 +116,30 @@ def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
     half = np.abs(axes.T @ side) @ local.half
     depth = float(local.half[local.thin_axis])
     return Axis(axes @ local.center + half * side + depth * opens, np.cross(-side, opens))
+
+
+def motion_as_choice(mesh: TriangleMesh, type_: JointType, axis: Axis, whole: Box) -> MotionChoice | None:
+    """Returns the choice that comes nearest to how a part moves; None where it turns about no border of its own.
+
+    `mesh` is the part closed, `axis` that of its joint, positive opens; `whole` is the box of the object.
+    """
+    if type_ is JointType.PRISMATIC:
+        return MotionChoice(Moves.SLIDES, _side_towards(axis.direction))
+    axes = part_axes(mesh)
+    local = Box.around(mesh.vertices @ axes)
+    along = int(np.argmax(np.abs(axes.T @ axis.direction)))
+    if along == local.thin_axis:
+        return None
+    wide = axes[:, 3 - along - local.thin_axis]
+    center = axes @ local.center
+    side = wide * np.copysign(1.0, float(wide @ (axis.point - center)))
+    opens = np.cross(axis.direction, -side)
+    outwards = _outwards(axes[:, local.thin_axis], center - whole.center)
+    return MotionChoice(Moves.TURNS, _side_towards(side), inwards=float(opens @ outwards) < 0)
+
+
+def _side_towards(direction: Vec3) -> Side:
+    return max(DIRECTIONS, key=lambda side: float(DIRECTIONS[side] @ direction))
 
 
 def _direction(choice: MotionChoice) -> Vec3:

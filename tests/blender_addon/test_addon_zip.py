@@ -1,0 +1,82 @@
+"""The built extension in a Blender that knows nothing of this checkout: installed, used, its files written.
+
+It needs the zip that `make blender` builds, in dist/, and a `bpy`; it skips without either.
+"""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from grafu.errors import ExportError
+from grafu.export.blend.exporter import find_interpreter
+
+ROOT = Path(__file__).parents[2]
+ASK = """
+import json, sys
+from importlib.util import find_spec
+print(json.dumps([sys._base_executable, find_spec("bpy").origin, find_spec("numpy").origin]))
+"""
+
+
+def bare_python(interpreter: str, folder: Path) -> tuple[str, str]:
+    """Returns a Python and its path, on which are Blender and the numpy that every Blender brings, and nothing else."""
+    asked = subprocess.run([interpreter, "-c", ASK], capture_output=True, text=True, timeout=300, check=True)
+    base, blender, numpy = json.loads(asked.stdout.splitlines()[-1])
+    for package in (Path(blender).parent, Path(numpy).parent, Path(numpy).parent.with_name("numpy.libs")):
+        if package.exists():
+            (folder / package.name).symlink_to(package)
+    return base, str(folder)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    built = max((ROOT / "dist").glob("grafu-blender-*.zip"), key=lambda path: path.stat().st_mtime, default=None)
+    if built is None:
+        pytest.skip("no extension is built: `make blender`")
+    try:
+        interpreter = find_interpreter()
+    except ExportError as error:
+        pytest.skip(str(error))
+    made, only, profile = (tmp_path_factory.mktemp(name) for name in ("zip", "only", "profile"))
+    python, path = bare_python(interpreter, only)
+    command = [python, "-S", str(Path(__file__).with_name("zip_probe.py"))]
+    done = subprocess.run(
+        [*command, str(built), str(ROOT / "samples" / "sideboard.glb"), str(made)],
+        env={**os.environ, "PYTHONPATH": path, "BLENDER_USER_RESOURCES": str(profile)},
+        cwd=made,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert done.returncode == 0, (done.stdout + done.stderr)[-3000:]
+    (made / "profile").write_text(str(profile))
+    return made
+
+
+@pytest.fixture(scope="module")
+def facts(folder):
+    return json.loads((folder / "facts.json").read_text())
+
+
+def test_it_is_installed_with_its_own_wheels(facts, folder):
+    assert facts["installed"] == ["FINISHED"]
+    assert facts["enabled"]
+    assert facts["package"].startswith((folder / "profile").read_text())
+    assert not facts["torch"]
+
+
+def test_it_makes_the_sample_work(facts):
+    assert facts["ran"] == ["FINISHED"], facts["status"]
+    assert len(facts["joints"]) == 5
+    assert "error" not in facts["joints"]
+
+
+def test_it_writes_every_file(facts, folder):
+    assert facts["finalized"] == ["FINISHED"], facts["said"]
+    written = {path.name for path in (folder / "final").iterdir()}
+    assert written >= {"report.json", "settings.json", "source.glb", "graph.json"}
+    assert written >= {f"model.{form}" for form in ("glb", "urdf", "xml", "usdc", "usdz", "blend")}
