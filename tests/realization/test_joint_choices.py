@@ -1,7 +1,7 @@
 """What is decided about a joint is built so, or not at all: the part stays still and the reason names the choice."""
 
 from dataclasses import replace
-from math import radians
+from math import degrees, radians
 
 import numpy as np
 import pytest
@@ -18,6 +18,7 @@ from grafu.realization.report import Installed, Skipped
 from grafu.vocabulary import MechanismClass
 
 KIND = "overlay pair"
+ALLOWS_NO_MORE = "`butt` or what stands around it allows no more"
 
 
 def chosen(asset: Asset, **choices: JointChoice) -> Realized:
@@ -64,6 +65,13 @@ def test_so_many_hinges_as_are_asked_for(count):
     assert len([v for v in moving if v.name.startswith("hinge_")]) == count
 
 
+def test_a_joint_that_opens_less_than_chosen_says_by_how_much():
+    short = outcome(chosen(made_kind(KIND), door_1=JointChoice(opening=radians(170))), "door_1")
+    assert short.notes == (f"opens by {degrees(short.opening):.0f} of 170 degrees that were chosen: {ALLOWS_NO_MORE}",)
+    slide = outcome(chosen(drawer(), drawer=JointChoice(opening=4.0)), "drawer")
+    assert slide.notes[0].startswith(f"opens by {slide.opening:.3f} of 4.000 m that were chosen: `{slide.template}`")
+
+
 def test_more_hinges_than_find_room_are_refused_not_left_out():
     board = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.04))
     wall = box("side", (-0.02, 0.0, 0.0), (0.0, 0.4, 0.04))
@@ -83,10 +91,11 @@ def test_scale_makes_hinges_larger_and_keeps_the_door_free():
     assert lengths[1.5] == pytest.approx(1.5 * lengths[1.0], rel=0.15)
 
 
-@pytest.mark.parametrize("degrees", [5.0, 45.0, 80.0])
-def test_a_chosen_opening_ends_the_joint_there_and_is_no_restriction(degrees):
-    made = outcome(chosen(made_kind(KIND), door_1=JointChoice(opening=radians(degrees))), "door_1")
-    assert made.opening == pytest.approx(radians(degrees))
+@pytest.mark.parametrize("angle", [5.0, 45.0, 80.0])
+def test_a_chosen_opening_ends_the_joint_there_and_is_no_restriction(angle):
+    made = outcome(chosen(made_kind(KIND), door_1=JointChoice(opening=radians(angle))), "door_1")
+    assert made.opening == pytest.approx(radians(angle))
+    assert made.notes == ()
     assert not made.restricted
 
 

@@ -22,6 +22,7 @@ from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
 from grafu.realization.expectation import expected_ways
 from grafu.realization.hinge.border import part_axes
+from grafu.realization.joint_choice import short_of_chosen
 from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
 from grafu.realization.order import Moving, Order, order_joints
@@ -203,7 +204,7 @@ def _installed(
         largest_gap=gap,
         after=waits,
         clearances=(*closed.get(request.moving, ()), *built.clearances),
-        notes=placement.notes,
+        notes=(*placement.notes, *short_of_chosen(request, placement.template, order.upper)),
     )
 
 
