@@ -92,7 +92,7 @@ def test_rails_that_touch_walls_are_the_same_whatever_supports_are_chosen(suppor
     assert all(np.allclose(a.mesh.vertices, b.mesh.vertices) for a, b in zip(plain, chosen, strict=True))
 
 
-def test_dividers_between_two_drawers_stand_in_no_ones_way():
+def test_two_drawers_one_above_the_other_share_their_dividers():
     low = box("drawer", (-0.2, -0.2, 0.02), (0.2, 0.2, 0.17))
     high = box("drawer_2", (-0.2, -0.2, 0.19), (0.2, 0.2, 0.34))
     sides = [box(f"side_{n}", (x, -0.2, -0.02), (x + 0.02, 0.25, 0.38)) for n, x in (("left", -0.32), ("right", 0.3))]
@@ -104,7 +104,10 @@ def test_dividers_between_two_drawers_stand_in_no_ones_way():
     for made in result.report.installed:
         assert made.collision_share == 0.0
         assert max(swept_collisions(result.object, result.object.joint_of[made.moving]).values(), default=0.0) < 1e-3
-    assert result.report.installed
+    assert len(result.report.installed) == 2
+    boards = [v.mesh.box for v in hardware(result, "drawer")[1] if v.name.startswith("support_")]
+    assert sorted(float(board.center[0]) > 0 for board in boards) == [False, True]
+    assert all(board.size[2] == pytest.approx(0.36, abs=2e-3) for board in boards)
 
 
 def test_hinges_take_no_supports():

@@ -56,6 +56,8 @@ def _fixed(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, mount: st
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
+    if not mount and _meets_divider(end, search):
+        return (rail,)
     walls = search.walls_of(mount) if mount else search.static_rays
     reach = (CHOSEN_REACH if mount else search.config.bridge) * search.scene.unit
     if search.request.choice.supports is Supports.DIVIDER:
@@ -64,6 +66,19 @@ def _fixed(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, mount: st
         footings = _footings(end, T)
         found = shortest_bridge([next(footings)] if _is_slab(search) else footings, walls, reach)
     return None if found is None else (rail, block(f"support_{name}", *found))
+
+
+def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
+    """Whether dividers were chosen and one that was built for another drawer stands right behind a rail."""
+    if search.request.choice.supports is not Supports.DIVIDER:
+        return False
+    near = search.config.anchor * search.scene.unit
+    boards = (o for o in search.scene.static_hardware if o.id.startswith("support_"))
+    rail = MeshCollider(end.mesh)
+    return any(
+        board.collider.box.grown(near).contains(end.snap.center[None]).all() and rail.is_within(near, board.collider)
+        for board in boards
+    )
 
 
 def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tuple[Visual, ...] | None:
