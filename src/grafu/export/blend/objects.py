@@ -100,9 +100,12 @@ def save_object(articulated: ArticulatedObject, path: Path) -> None:
 
 @contextmanager
 def _names_set_aside() -> Iterator[None]:
-    """Lets whatever Blender holds go by other names for a while, but for what it has from other files."""
+    """Lets whatever Blender holds go by other names for a while, but for what it has from other files.
+
+    Full names of such things name the file, too.
+    """
     kinds = (getattr(bpy.data, kind) for kind in _NAMED)
-    named = [(one, one.name) for kind in kinds for one in kind if one.library is None]
+    named = [(one, one.name) for kind in kinds for one in kind if one.name_full == one.name]
     for number, (one, _) in enumerate(named):
         one.name = f"set aside {number}"
     try:
