@@ -142,6 +142,34 @@ def test_missing_and_empty_places_are_told_apart(tmp_path):
         load_asset(tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("name", "way"),
+    [("a.fbx", "export it as GLB"), ("a.USDZ", "export it as GLB"), ("a.zip", "unpack it"), ("a.jpg", "no model")],
+)
+def test_files_of_other_kinds_are_told_a_way_in(tmp_path, name, way):
+    (tmp_path / name).write_bytes(b"\0\1")
+    with pytest.raises(UnreadableAsset, match=way):
+        load_asset(tmp_path / name)
+
+
+def test_a_folder_of_models_names_the_pattern_that_gives_all(tmp_path):
+    for name in ("a/m.glb", "b/m.glb"):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).touch()
+    with pytest.raises(UnreadableAsset, match=r"2 \.glb files \(a/m\.glb, b/m\.glb\): .*/\*$"):
+        load_asset(tmp_path)
+    (tmp_path / "c.glb").touch()
+    (tmp_path / "d.glb").touch()
+    with pytest.raises(UnreadableAsset, match=r"\(c\.glb, d\.glb\): .*/\*\.glb$"):
+        load_asset(tmp_path)
+
+
+def test_one_piece_is_told_how_it_is_divided(tmp_path):
+    trimesh.creation.box().export(tmp_path / "welded.stl")
+    with pytest.raises(UnsegmentedAsset, match="By Loose Parts"):
+        load_asset(tmp_path / "welded.stl")
+
+
 def test_limits_are_named(tmp_path):
     path = write_grouped_obj(tmp_path / "c.obj")
     with pytest.raises(AssetTooLarge, match="11 parts: at most 10"):

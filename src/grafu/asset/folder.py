@@ -13,6 +13,8 @@ from grafu.asset.reading import Convention, Reading
 from grafu.asset.sweethome import is_sweethome, read_sweethome
 from grafu.errors import UnsegmentedAsset
 
+DIVIDE = "divide it first, an object for each part (Blender: Edit Mode, P, By Loose Parts), and export it as GLB"
+
 
 def mesh_files_in(folder: Path) -> list[Path]:
     """Returns the mesh files directly in the folder, or, where there are none, in its only mesh subfolder."""
@@ -76,7 +78,7 @@ def _one_piece(path: Path, found: MeshFile) -> str:
     faces = sum(len(s.mesh.faces) for s in found.surfaces)
     return (
         f"{path} is {kind} of {faces} faces: expected parts (groups in an OBJ, nodes in a GLB, files in a folder); "
-        "segment it first"
+        + DIVIDE
     )
 
 

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.clean import cleaned
-from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.folder import DIVIDE, mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
 from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
@@ -40,6 +40,15 @@ READERS: Final[dict[str, Reader]] = {
 _EXPECTED = (
     "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB or glTF scene, an OBJ with groups, or a folder of meshes"
 )
+
+_AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
+# What people try, by the way it ends, and what they can do with it.
+_WAYS_IN: Final[dict[str, str]] = {
+    **dict.fromkeys((".fbx", ".blend", ".dae", ".3ds", ".max", ".skp", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
+    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".step", ".stp", ".iges", ".igs"), _AS_GLB),
+    **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
+    **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
+}
 
 
 def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
@@ -113,7 +122,8 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "gltf", path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
-    raise UnreadableAsset(f"{path} is not a kind of file that is read: expected {_EXPECTED}")
+    way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""
+    raise UnreadableAsset(f"{path} is not a kind of file that is read: expected {_EXPECTED}{way_in}")
 
 
 def _detect_folder(folder: Path) -> tuple[str, Path]:
@@ -124,12 +134,19 @@ def _detect_folder(folder: Path) -> tuple[str, Path]:
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]
         if len(found) > 1:
-            names = ", ".join(p.name for p in found[:3])
-            raise UnreadableAsset(f"{folder} holds {len(found)} {suffixes[0]} files ({names}): name one of them")
+            raise UnreadableAsset(_several(folder, found))
     if mesh_files_in(folder):
         return "mesh folder", folder
     state = "is empty" if not any(folder.iterdir()) else "holds nothing that is read"
     raise UnreadableAsset(f"{folder} {state}: expected {_EXPECTED}")
+
+
+def _several(folder: Path, found: list[Path]) -> str:
+    """Returns what to do about a folder of models: name one of them, or all by a pattern."""
+    names = ", ".join(str(path.relative_to(folder)) for path in found[:3])
+    kind = found[0].suffix
+    pattern = f"*{kind}" if found[0].parent == folder else "*"
+    return f"{folder} holds {len(found)} {kind} files ({names}): name one, or all of them as {folder}/{pattern}"
 
 
 def _files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
@@ -146,7 +163,7 @@ def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
         raise UnreadableAsset(f"{path} holds no part with faces{lost}: expected {_EXPECTED}")
     if count == 1:
         only = f"`{reading.parts[0].source.name}`"
-        raise UnsegmentedAsset(f"{path} is one part, {only}{lost}: expected several; segment it into parts first")
+        raise UnsegmentedAsset(f"{path} is one part, {only}{lost}: expected several; {DIVIDE}")
 
 
 def _joined(reading: Reading) -> Reading:
