@@ -1,11 +1,12 @@
 """Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
 
 A joint that runs into a closed neighbour waits for it, if the neighbour, open, is out of the way and does not itself
-wait; else its opening ends where the neighbour begins, and the report says so.
+wait; else its opening ends where the neighbour begins, and the report says so. Beyond a quarter turn a door opens only
+as far as it stands in no open neighbour's way, unless a wider opening was chosen.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.articulation.waiting import all_before
@@ -13,18 +14,24 @@ from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.limits import Motion, in_the_way, sweep, swept_box
+from grafu.realization.limits import Motion, in_the_way, is_free, sweep, swept_box
 from grafu.realization.scene import Obstacle, Scene
+
+_SHARES = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, in the order tried
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Moving:
-    """A joint as built so far: the mover, its motion, its opening, and the movers that it meets at rest."""
+    """A joint as built so far: the mover, its motion, its opening, and the movers that it meets at rest.
+
+    `least` is the opening that it keeps, whoever it stands in the way of.
+    """
 
     mover: str
     motion: Motion
     upper: float
+    least: float
     in_way: tuple[str, ...]
 
 
@@ -47,7 +54,11 @@ def order_joints(movings: Sequence[Moving], scene: Scene, config: RealizationCon
         for name in moving.in_way:
             other = by_id.get(name)
             waits_for_us = moving.mover in all_before(name, waits)
-            if other is not None and not waits_for_us and _free_of(moving, _open(other, scene), scene, config):
+            if (
+                other is not None
+                and not waits_for_us
+                and _is_free_of(moving, moving.upper, _open(other, other.upper, scene), scene, config)
+            ):
                 after.append(name)
             else:
                 upper = min(upper, _until(moving, scene.moving_mesh(name), scene, config))
@@ -56,11 +67,47 @@ def order_joints(movings: Sequence[Moving], scene: Scene, config: RealizationCon
     return orders
 
 
-def _open(other: Moving, scene: Scene) -> Obstacle:
+def stand_aside(
+    orders: Mapping[str, Order], movings: Sequence[Moving], scene: Scene, config: RealizationConfig
+) -> dict[str, Order]:
+    """Returns the orders in which doors open no wider than leaves their open neighbours free, if they must.
+
+    A door that stands in somebody's way however little it opens, down to its `least`, opens as wide as before.
+    """
+    settled = {m.mover: orders[m.mover].upper for m in movings}
+    reaches = settled | {m.mover: min(settled[m.mover], m.least) for m in movings}  # of doors to come: what they keep
+    for door in movings:
+        widest, least = settled[door.mover], reaches[door.mover]
+        shares = _SHARES if least < widest else ()
+        uppers = (least + share * (widest - least) for share in shares)
+        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, movings, scene, config))
+        reaches[door.mover] = next(found, widest)
+    return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
+
+
+def _leaves_free(
+    door: Moving,
+    upper: float,
+    reaches: Mapping[str, float],
+    movings: Sequence[Moving],
+    scene: Scene,
+    config: RealizationConfig,
+) -> bool:
+    """Whether nobody runs into a door that stands open by `upper`."""
+    obstacle = _open(door, upper, scene)
+    others = [(other, reaches[other.mover]) for other in movings if other is not door]
+    near = [
+        (other, reach)
+        for other, reach in others
+        if in_the_way([obstacle], swept_box(scene.moving_mesh(other.mover).box, other.motion, reach))
+    ]
+    return all(_is_free_of(other, reach, obstacle, scene, config) for other, reach in near)
+
+
+def _open(other: Moving, upper: float, scene: Scene) -> Obstacle:
     """Returns a neighbour as an obstacle in its open pose, its hardware counted in."""
     meshes = [scene.moving_mesh(other.mover), *(v.mesh for v in scene.hardware_of(other.mover))]
-    opened = merge_meshes(meshes).transformed(other.motion(other.upper))
-    return Obstacle(other.mover, MeshCollider(opened))
+    return Obstacle(other.mover, MeshCollider(merge_meshes(meshes).transformed(other.motion(upper))))
 
 
 def _body(moving: Moving, scene: Scene, config: RealizationConfig) -> MovingBody:
@@ -68,10 +115,8 @@ def _body(moving: Moving, scene: Scene, config: RealizationConfig) -> MovingBody
     return scene.moving_body(moving.mover, config.depth * scene.unit, axes)
 
 
-def _free_of(moving: Moving, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
-    return not sweep(
-        _body(moving, scene, config), moving.motion, moving.upper, [obstacle], config.coarse_poses
-    ).blockers
+def _is_free_of(moving: Moving, upper: float, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
+    return is_free(_body(moving, scene, config), moving.motion, upper, [obstacle], config.coarse_poses)
 
 
 def _until(moving: Moving, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:

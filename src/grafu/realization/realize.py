@@ -7,6 +7,7 @@ not cost the others theirs.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from math import radians
 from time import perf_counter
 from typing import final
 
@@ -25,7 +26,7 @@ from grafu.realization.hinge.border import part_axes
 from grafu.realization.joint_choice import short_of_chosen
 from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
-from grafu.realization.order import Moving, Order, order_joints
+from grafu.realization.order import Moving, Order, order_joints, stand_aside
 from grafu.realization.placement import Placement
 from grafu.realization.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
@@ -166,13 +167,16 @@ def _moved(part: Part, T: np.ndarray) -> Part:
 
 
 def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
-    return order_joints([_moving(b) for b in built], scene, config)
+    movings = [_moving(b) for b in built]
+    return stand_aside(order_joints(movings, scene, config), movings, scene, config)
 
 
 def _moving(built: Built) -> Moving:
     placement = built.placement
     motion = motion_about(placement.axis, built.request.type)
-    return Moving(built.request.moving, motion, placement.upper, placement.in_way)
+    turns = built.request.type is JointType.REVOLUTE
+    least = radians(90) if turns and built.request.choice.opening is None else placement.upper
+    return Moving(built.request.moving, motion, placement.upper, least, placement.in_way)
 
 
 def _installed(
