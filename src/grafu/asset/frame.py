@@ -109,7 +109,8 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
     if not reading.convention.normalised and not is_normalised(reading.parts, whole):
         common = likely_unit(size, estimate)
         if common is not None:
-            return common[1], f"scale {common[1]:g} m per unit: {common[0]} make a {estimate.kind} of plausible size"
+            why = f"{common[0]} make a {estimate.kind} of plausible size; --scale changes it"
+            return common[1], f"scale {common[1]:g} m per unit: {why}"
     return estimate.scale, _estimated(estimate, height)
 
 

@@ -27,6 +27,7 @@ _EXAMPLES = """\
 examples:
   grafu functionalize cabinet.glb --out results
   grafu functionalize models/* --motion annotation --jobs 4 --out results
+  grafu functionalize models/* --out results --resume
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
   grafu functionalize cabinet.obj --motion particulate:eval/pred.npz --out results
   grafu functionalize cabinet.glb --handle knob-round --interior shelves=2 --out results
@@ -66,7 +67,13 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         help="settings.json, as the Blender extension writes it: how the input is read, what is added, and what is "
         "decided of single parts and joints; it takes the place of the options that say so",
     )
-    parser.add_argument("--overwrite", action="store_true", help="replace results that are there already")
+    again = parser.add_mutually_exclusive_group()
+    again.add_argument("--overwrite", action="store_true", help="replace results that are there already")
+    again.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on where a run was stopped: results that are there stay, and are shown with the new ones",
+    )
     add_addition_options(parser)
     add_input_options(parser)
     parser.set_defaults(run=run)
@@ -83,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     from grafu.cli.summary import print_place, print_results
 
     jobs = _jobs(options)
-    results = [_run_one(jobs[0])] if len(jobs) == 1 else _run_several(jobs, options.jobs or os.cpu_count() or 1)
+    results = [_run_alone(jobs[0])] if len(jobs) == 1 else _run_several(jobs, options.jobs or os.cpu_count() or 1)
     print_results(results)
     if len(results) > 1 and not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
@@ -128,15 +135,18 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         additions=addition_config(options, open_handles(options.templates)),
         settings=settings,
         overwrite=options.overwrite,
+        resume=options.resume,
         debug=options.debug,
         alone=alone,
     )
 
 
-def _run_one(job: "Job") -> "JobResult":
-    from grafu.cli.job import run_job
+def _run_alone(job: "Job") -> "JobResult":
+    from grafu.cli.job import Listener, run_job
+    from grafu.cli.progress import with_stages
 
-    return run_job(job)
+    with with_stages(job.name) as on_stage:
+        return run_job(job, Listener(on_stage))
 
 
 def _run_several(jobs: "list[Job]", workers: int) -> "list[JobResult]":
@@ -144,7 +154,13 @@ def _run_several(jobs: "list[Job]", workers: int) -> "list[JobResult]":
     from grafu.cli.progress import with_progress
 
     order = {job.name: i for i, job in enumerate(jobs)}
-    return sorted(with_progress(run_jobs(jobs, workers), len(jobs)), key=lambda result: order[result.job.name])
+    results: list[JobResult] = []
+    try:
+        results.extend(with_progress(run_jobs(jobs, workers), len(jobs)))  # when it is cut, what is done stays
+    except KeyboardInterrupt:
+        complain(f"{len(results)} of {len(jobs)} inputs were done; with --resume the same command goes on from there")
+        raise
+    return sorted(results, key=lambda result: order[result.job.name])
 
 
 def _exit_code(results: "list[JobResult]") -> int:

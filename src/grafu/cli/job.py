@@ -45,6 +45,7 @@ class JobOptions:
     additions: "AdditionConfig | None" = None
     settings: "Settings | None" = None
     overwrite: bool = False
+    resume: bool = False
     debug: bool = False
     alone: bool = True
 
@@ -69,13 +70,15 @@ class Job:
 class Succeeded:
     """The report of a job that is done, and how long it took from reading to writing, in seconds.
 
-    `picture` is a small picture of the result for the page of the run; empty where no page was asked for.
+    `picture` is a small picture of the result for the page of the run; empty where no page was asked for. `earlier`
+    says that an earlier run made it.
     """
 
     job: Job
     report: "Report"
     seconds: float
     picture: bytes = b""
+    earlier: bool = False
 
 
 @final
@@ -110,6 +113,8 @@ NOBODY = Listener()
 def run_job(job: Job, listener: Listener = NOBODY) -> JobResult:
     """Returns what came of a job; a failure is a value, but for an interruption."""
     try:
+        if job.options.resume and (earlier := _earlier(job)):
+            return earlier
         started = perf_counter()
         report, picture = _functionalize(job, listener)
         return Succeeded(job, report, perf_counter() - started, picture)
@@ -119,6 +124,24 @@ def run_job(job: Job, listener: Listener = NOBODY) -> JobResult:
         return Failed(job, "out of memory: simplify the input or run fewer --jobs at once", users_fault=True)
     except Exception as error:  # isolation is this module's task: the next input must still run
         return Failed(job, internal_fault(error, f"`{job.input}`", job.options.debug), users_fault=False)
+
+
+def _earlier(job: Job) -> Succeeded | None:
+    """Returns the results of an earlier run with the same options, or None where there are none.
+
+    Raises:
+        ExportError: if what is there was made with other options.
+    """
+    from grafu.cli.earlier import earlier_report
+    from grafu.viewer.pictures import thumbnail_of_page
+
+    options = job.options
+    report = earlier_report(job.folder, _settings(options), options.formats)
+    if report is None:
+        return None
+    page = job.folder / MODEL_PAGE
+    picture = thumbnail_of_page(page.read_text("utf-8")) if options.page and page.is_file() else b""
+    return Succeeded(job, report, sum(report.timings.values()), picture, earlier=True)
 
 
 def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
@@ -195,7 +218,9 @@ def _require_absent(job: Job) -> None:
     if job.options.out.exists() and not job.options.out.is_dir():
         raise ExportError(f"--out must be a folder: `{job.options.out}` is a file")
     if not job.options.overwrite and job.folder.is_dir() and any(job.folder.iterdir()):
-        raise ExportError(f"the output `{job.folder}` exists already: choose another --out, or give --overwrite")
+        raise ExportError(
+            f"the output `{job.folder}` exists already: choose another --out, or give --overwrite or --resume"
+        )
 
 
 def _json_files(result: "Functionalized", report: "Report", options: JobOptions) -> "ExportFiles":

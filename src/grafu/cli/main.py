@@ -7,9 +7,11 @@ one line on stderr and exit code 2, never in a traceback.
 import argparse
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 
 from grafu.cli import ablate, evaluate, functionalize, inspect, synth, templates, train
 from grafu.cli.input_options import join_directions
+from grafu.cli.interruption import interruption_held
 from grafu.cli.messages import INTERRUPTED, complain, internal_fault
 from grafu.errors import FunctionalizationError
 from grafu.version import __version__
@@ -34,6 +36,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command and returns its exit code (`arguments`: without the program's name; None: the process's)."""
     options = build_parser().parse_args(join_directions(sys.argv[1:] if arguments is None else arguments))
     try:
+        with interruption_held():
+            import_module("trimesh")
         return int(options.run(options))
     except FunctionalizationError as error:
         complain(str(error))

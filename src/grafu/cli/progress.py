@@ -1,7 +1,9 @@
-"""A progress bar on stderr, where it is a terminal. It knows nothing of the work."""
+"""How far the work is, on stderr, where it is a terminal. It knows nothing of the work but the names of its stages."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeVar, final
+from contextlib import contextmanager
+from types import MappingProxyType
+from typing import Final, TypeVar, final
 
 from rich.console import Console
 from rich.progress import (
@@ -9,6 +11,7 @@ from rich.progress import (
     MofNCompleteColumn,
     Progress,
     ProgressColumn,
+    SpinnerColumn,
     Task,
     TextColumn,
     TimeElapsedColumn,
@@ -17,6 +20,20 @@ from rich.progress import (
 from rich.text import Text
 
 T = TypeVar("T")
+_STAGES: Final = MappingProxyType(
+    {
+        "load": "reading",
+        "match": "matching the motions with the parts",
+        "parse": "finding what touches",
+        "complete": "deciding what moves",
+        "plan": "deciding what is built",
+        "body": "adding tops and drawer boxes",
+        "realize": "placing hinges and rails, and opening them",
+        "fittings": "adding handles and shelves",
+        "export": "making the files",
+        "write": "writing",
+    }
+)
 
 
 @final
@@ -46,3 +63,17 @@ def with_progress(
         for item in items:
             progress.advance(task, size(item))
             yield item
+
+
+@contextmanager
+def with_stages(name: str) -> Iterator[Callable[[str], None]]:
+    """Gives a function that is told each stage as it begins, and shows it beside the name and the time gone."""
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.fields[name]}: {task.description}", markup=False),
+        TimeElapsedColumn(),
+    )
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task("starting", total=None, name=name)
+        yield lambda stage: progress.update(task, description=_STAGES.get(stage, stage))

@@ -1,23 +1,28 @@
 """What `functionalize` prints when it is done: what opened, what did not, and where to look. It decides nothing."""
 
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.markup import escape
 from rich.table import Table
 
-from grafu.cli.job import Failed, JobResult, Succeeded
+from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.report_schema import JointRecord, Report
-from grafu.viewer.wording import opening
+from grafu.viewer.wording import counted, listed, opening
 from grafu.vocabulary import JointType
+
+_ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
 
 
 def print_results(results: Sequence[JobResult]) -> None:
     """Prints one input's joints, or one row per input, on stdout; a single failure prints nothing here."""
     console = wide_console()
     if len(results) > 1:
-        console.print(_inputs_table(results))
+        shown = results if len(results) <= _ALL_ROWS else [result for result in results if _is_worth_a_row(result)]
+        if shown:
+            console.print(_inputs_table(shown))
         console.print(_total(results))
     elif isinstance(results[0], Succeeded):
         report = results[0].report
@@ -25,7 +30,21 @@ def print_results(results: Sequence[JobResult]) -> None:
             console.print(_joints_table(report))
         else:
             console.print("nothing moves: no part is a door or a drawer (see `grafu inspect`)")
-        print_place("written to", results[0].job.folder)
+        for line in _said_of_one(report):
+            console.print(line, markup=False, highlight=False)
+        print_place(*_place(results[0].job))
+
+
+def _said_of_one(report: Report) -> list[str]:
+    """Returns what was added, and what was guessed of the input and can be stated instead."""
+    kinds = Counter(added.category.value for added in report.added)
+    added = [f"added: {listed(counted(count, kind) for kind, count in kinds.items())}"] if kinds else []
+    return added + [f"guessed: {line}" for line in report.frame.assumed if "changes it" in line]
+
+
+def _place(job: Job) -> tuple[str, Path]:
+    page = job.folder / MODEL_PAGE
+    return ("look at", page) if job.options.page else ("written to", job.folder)
 
 
 def print_place(what: str, path: Path) -> None:
@@ -44,11 +63,19 @@ def _joints_table(report: Report) -> Table:
             opening(joint.type, joint.opening),
             escape("; ".join(_joint_notes(joint))),
         )
-    for skip in report.skipped:
-        table.add_row(
-            skip.request, "skipped", "", "", escape(f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason)
-        )
+    for why, requests in _skipped(report).items():
+        table.add_row(requests[0], "skipped", "", "", escape(why))
+        if len(requests) > 1:
+            table.add_row("", "", "", "", escape(f"so are {listed(requests[1:])}"))
     return table
+
+
+def _skipped(report: Report) -> dict[str, list[str]]:
+    """Returns what was skipped by why it was."""
+    by_reason = defaultdict[str, list[str]](list)
+    for skip in report.skipped:
+        by_reason[f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason].append(skip.request)
+    return by_reason
 
 
 def _inputs_table(results: Sequence[JobResult]) -> Table:
@@ -59,6 +86,10 @@ def _inputs_table(results: Sequence[JobResult]) -> Table:
         else:
             table.add_row(escape(result.job.name), *_counts(result), escape("; ".join(_report_notes(result.report))))
     return table
+
+
+def _is_worth_a_row(result: JobResult) -> bool:
+    return isinstance(result, Failed) or bool(_report_notes(result.report))
 
 
 def _counts(result: Succeeded) -> tuple[str, str, str, str]:
@@ -73,6 +104,8 @@ def _total(results: Sequence[JobResult]) -> str:
     skipped = sum(len(result.report.skipped) for result in done)
     failed = len(results) - len(done)
     ending = f"; {failed} of {len(results)} inputs failed" if failed else ""
+    earlier = sum(result.earlier for result in done)
+    ending = f" ({earlier} of them done earlier){ending}" if earlier else ending
     return f"{joints} joints built, {skipped} skipped in {len(done)} inputs{ending}"
 
 

@@ -3,6 +3,8 @@
 They are clear around the model, so that they stand on light and on dark paper.
 """
 
+import re
+from base64 import b64decode
 from dataclasses import dataclass
 from io import BytesIO
 from typing import final
@@ -24,6 +26,7 @@ THUMBNAIL = (112, 84)
 MIME = "image/webp"
 _STYLE = PictureStyle(background="transparent")
 _QUALITY = 82
+_OPENED = re.compile(rf'<img src="data:{MIME};base64,(?P<data>[A-Za-z0-9+/=]+)"[^>]* alt="[^">]*: open"')
 
 
 @final
@@ -61,7 +64,17 @@ def _alike(asset: Asset, closed: list[Visual]) -> bool:
 
 def thumbnail(stills: Stills, size: tuple[int, int] = THUMBNAIL) -> bytes:
     """Returns the open picture, made small for a list."""
-    with Image.open(BytesIO(stills.opened)) as image:
+    return _small(stills.opened, size)
+
+
+def thumbnail_of_page(page: str) -> bytes:
+    """Returns the open picture of a model's page, made small for a list; empty where the page holds none."""
+    found = _OPENED.search(page)
+    return _small(b64decode(found["data"]), THUMBNAIL) if found else b""
+
+
+def _small(picture: bytes, size: tuple[int, int]) -> bytes:
+    with Image.open(BytesIO(picture)) as image:
         return _encoded(image.convert("RGBA").resize(size, Image.Resampling.LANCZOS))
 
 

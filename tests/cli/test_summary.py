@@ -1,0 +1,54 @@
+"""What `functionalize` says when it is done: short, and what a person would ask next."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from obj_inputs import CABINET, write_cabinet
+
+from grafu.cli.job import Failed, Job, JobOptions, Succeeded, run_job
+from grafu.cli.summary import print_results
+from grafu.pipeline.report_schema import SkippedRecord
+from grafu.realization.report import SkipReason
+
+
+@pytest.fixture(scope="module")
+def topless(tmp_path_factory: pytest.TempPathFactory) -> Succeeded:
+    folder = tmp_path_factory.mktemp("run")
+    boxes = {name: box for name, box in CABINET.items() if name != "top_panel"}
+    result = run_job(Job(write_cabinet(folder, boxes=boxes), "cabinet", JobOptions(folder / "out", formats=("urdf",))))
+    assert isinstance(result, Succeeded)
+    return result
+
+
+def test_one_result_names_what_was_added_what_was_guessed_and_its_page(
+    topless: Succeeded, capsys: pytest.CaptureFixture[str]
+) -> None:
+    print_results([topless])
+    said = capsys.readouterr().out
+
+    assert "added: 1 top panel" in said
+    assert "guessed: scale 1 m per unit: metres make a storage of plausible size; --scale changes it" in said
+    assert f"look at {topless.job.folder / 'report.html'}" in said
+
+
+def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys: pytest.CaptureFixture[str]) -> None:
+    skipped = tuple(SkippedRecord(request=f"part_{k}", reason=SkipReason.NO_ROOM, detail="narrow") for k in range(3))
+    print_results([replace(topless, report=topless.report.model_copy(update={"skipped": skipped}))])
+    said = capsys.readouterr().out
+
+    assert said.count("narrow") == 1
+    assert "part_1 and part_2" in said
+
+
+def test_of_many_inputs_only_those_to_look_at_have_a_row(
+    topless: Succeeded, capsys: pytest.CaptureFixture[str]
+) -> None:
+    fine = replace(topless, report=topless.report.model_copy(update={"skipped": (), "joints": ()}))
+    bad = Failed(Job(Path("bad.glb"), "bad", fine.job.options), "it is empty", users_fault=True)
+    print_results([fine] * 25 + [bad])
+    said = capsys.readouterr().out
+
+    assert "FAILED: it is empty" in said
+    assert "cabinet" not in said
+    assert "25 inputs; 1 of 26 inputs failed" in said
