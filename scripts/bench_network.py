@@ -19,7 +19,7 @@ SEED = 7
 
 @dataclass(frozen=True)
 class Completing:
-    """Sorted seconds of the processor for each completion, one look at a graph, and how many looks were had."""
+    """Sorted seconds of the processor for each completion, one look at a graph, and how many the network had."""
 
     parts: int
     seconds: list[float]

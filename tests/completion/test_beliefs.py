@@ -8,9 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.completion.beliefs import averaged, beliefs_of, mirrored_back, softmax
-from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features
-from grafu.completion.network import complete_by_network, look
+from grafu.completion.network import complete_by_network, look, with_image
 from grafu.completion.scores import SCORE_NAMES, Scores
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.graph.edit import mirrored as mirrored_graph
@@ -77,7 +76,8 @@ def test_with_the_image_left_and_right_weigh_the_same() -> None:
     """A network that always says one thing, whatever it sees, says nothing about left and right when asked twice."""
     graph = cabinet()
     stubborn = Answers(slides={"drawer_1": 0}).about(graph)
-    beliefs = look(graph, stubborn, FEW, mirror=True)
+    sight, once = look(graph, stubborn, FEW)
+    beliefs = with_image(once, graph, sight, stubborn)
     drawer = [node.id for node in graph.nodes].index("drawer_1")
 
     assert beliefs.slide[drawer, 0, 0] == pytest.approx(beliefs.slide[drawer, 0, 1])
@@ -96,9 +96,8 @@ def test_with_the_image_the_mirrored_graph_is_completed_in_the_mirror() -> None:
         edge[:n, :n, 2] = edge[:n, :n, 0] = 9.0
         return replace(scores, slide=slide, edge=edge)
 
-    config = DecodeConfig(mirror=True)
-    here = complete_by_network(bare, by_place, FEW, config)
-    there = complete_by_network(mirrored_graph(bare, 0), by_place, FEW, config)
+    here = complete_by_network(bare, by_place, FEW)
+    there = complete_by_network(mirrored_graph(bare, 0), by_place, FEW)
     slides = ({rail.child: rail.axis for rail in found.completed.rails} for found in (here, there))
     assert {k: mirror_face(axis, 0) for k, axis in next(slides).items()} == next(slides)
 

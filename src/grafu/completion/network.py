@@ -1,7 +1,8 @@
 """Completes a graph by the trained network: say what each part is, look again, add what is missing, then decide.
 
 Labels come first, because the network sees better what goes where when it is told what the parts are. Free slots are
-asked again, with what they added now seen as parts, until none fires: there is no most of handles.
+asked again, with what they added now seen as parts, until none fires: there is no most of handles. The last look is
+the mean of two, at the graph and at its mirror image: who is right about the one is not always about the other.
 """
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from grafu.completion.beliefs import Beliefs, averaged, beliefs_of, mirrored_back
 from grafu.completion.decode import complete_reading, read_graph
 from grafu.completion.decode_config import DecodeConfig
-from grafu.completion.features import FeatureConfig, graph_features, mirrored
+from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.labelling import choose_labels
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
@@ -37,12 +38,14 @@ def complete_by_network(
     given = frozenset(node.id for node in graph.nodes)
     rounds = 0
     while True:
-        beliefs = look(seen, network, features, config.mirror)
+        sight, beliefs = look(seen, network, features)
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
         reading = read_graph(seen, beliefs, given, parents, config)
         most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND
         found = new_parts(reading.view, reading.held) if rounds < most else ()
         if not found:
+            if config.mirror:
+                reading = read_graph(seen, with_image(beliefs, seen, sight, network), given, parents, config)
             return complete_reading(graph, reading, labelling, added)
         seen, rounds = with_parts(seen, found), rounds + 1
         added += found
@@ -54,16 +57,19 @@ def label_parts(
     """Returns the graph with a label for each unlabelled part, and how sure each is; one look where there is any."""
     if all(node.label is not PartLabel.UNKNOWN for node in graph.nodes):
         return graph, ()
-    labels, decisions = choose_labels(graph, look(graph, network, features, config.mirror), config)
+    _, beliefs = look(graph, network, features)
+    labels, decisions = choose_labels(graph, beliefs, config)
     return relabelled(graph, labels), decisions
 
 
-def look(graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, mirror: bool = False) -> Beliefs:
-    """Returns what a network believes about a graph; with `mirror`, the mean of its beliefs about it and its image."""
-    seen = graph_features(graph, features)
-    beliefs = beliefs_of(network(seen))
-    if not mirror:
-        return beliefs
-    image = beliefs_of(network(mirrored(seen, _ACROSS)))
+def look(graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig) -> tuple[GraphFeatures, Beliefs]:
+    """Returns how a graph is seen, and what a network believes about it."""
+    sight = graph_features(graph, features)
+    return sight, beliefs_of(network(sight))
+
+
+def with_image(beliefs: Beliefs, graph: FunctionalGraph, sight: GraphFeatures, network: GraphNetwork) -> Beliefs:
+    """Returns the mean of what a network believes about a graph, as it is seen, and about its mirror image."""
+    image = beliefs_of(network(mirrored(sight, _ACROSS)))
     thin = np.array([node.box.thin_axis for node in graph.nodes], dtype=np.int64)
     return averaged(beliefs, mirrored_back(image, thin, _ACROSS), len(graph.nodes))
