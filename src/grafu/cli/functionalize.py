@@ -11,6 +11,7 @@ from grafu.cli.gallery import open_gallery, open_handles
 from grafu.cli.input_options import add_input_options, load_options, output_name, positive_count
 from grafu.cli.messages import complain
 from grafu.cli.motion_option import motion_choice
+from grafu.cli.move_option import part_move, with_moves
 from grafu.cli.settings_option import read_settings
 from grafu.errors import AssetError
 from grafu.pipeline.motion_source import MotionChoice
@@ -28,6 +29,7 @@ examples:
   grafu functionalize cabinet.glb --out results
   grafu functionalize models/* --motion annotation --jobs 4 --out results
   grafu functionalize models/* --out results --resume
+  grafu functionalize cabinet.glb --move door_2=right --move board_7=not --out results --overwrite
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
   grafu functionalize cabinet.obj --motion particulate:eval/pred.npz --out results
   grafu functionalize cabinet.glb --handle knob-round --interior shelves=2 --out results
@@ -50,6 +52,15 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "rule without weights), annotation: the input's own joints, which the others do not read, or another system's "
         "file: particulate:FILE, singapo:FILE, grafu-pred:FILE, urdf:FILE; for several inputs a folder with an entry "
         "for each name (default: auto)",
+    )
+    parser.add_argument(
+        "--move",
+        action="append",
+        type=part_move,
+        default=[],
+        metavar="PART=HOW",
+        help="how a part moves, whatever the motion source says: it turns about its left, right, top or bottom side, "
+        "or slides, or not; once for each part",
     )
     parser.add_argument(
         "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"
@@ -124,7 +135,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         exporter_for(name)
     open_gallery(options.templates)
     settings = read_settings(options) if options.settings else None
-    return JobOptions(
+    made = JobOptions(
         out=options.out,
         motion=MotionChoice(settings.motion) if settings else options.motion,
         load=settings.reading.options if settings else load_options(options),
@@ -139,6 +150,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         debug=options.debug,
         alone=alone,
     )
+    return with_moves(made, options.move) if options.move else made
 
 
 def _run_alone(job: "Job") -> "JobResult":

@@ -136,7 +136,7 @@ def _earlier(job: Job) -> Succeeded | None:
     from grafu.viewer.pictures import thumbnail_of_page
 
     options = job.options
-    report = earlier_report(job.folder, _settings(options), options.formats)
+    report = earlier_report(job.folder, settings_of(options), options.formats)
     if report is None:
         return None
     page = job.folder / MODEL_PAGE
@@ -231,13 +231,13 @@ def _json_files(result: "Functionalized", report: "Report", options: JobOptions)
         "graph.json": dump_json(completion_to_json(result.completion)),
         "report.json": dump_json(report.to_json()),
     }
-    settings = _settings(options)
+    settings = settings_of(options)
     if settings is not None:
         texts["settings.json"] = dump_json(settings.to_json())
     return ExportFiles({name: text.encode() for name, text in texts.items()})
 
 
-def _settings(options: JobOptions) -> "Settings | None":
+def settings_of(options: JobOptions) -> "Settings | None":
     """Returns what was chosen, for `--settings`; None where motions are another system's: no setting names these."""
     from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.settings import Reading, Settings
