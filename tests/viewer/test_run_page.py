@@ -46,6 +46,12 @@ def test_the_page_is_worst_first_and_escaped():
     assert len(read.all("rect")) > 5
 
 
+def test_a_few_rows_have_no_histograms():
+    few = Run("A run", (), (RunTable("Models", COLUMNS, ROWS[:3]),))
+
+    assert PageReader(run_page(few)).all("rect") == []
+
+
 def test_every_column_has_a_button_that_sorts():
     heads = PageReader(run_page(RUN)).all("button", type="button")
 

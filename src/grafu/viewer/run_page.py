@@ -15,6 +15,7 @@ from grafu.viewer.textures import data_uri
 _STYLES = ("page.css", "run.css")
 _SCRIPTS = ("run.js",)
 _FILTERED = 8  # rows from which on a table can be searched
+_SPREAD = 8  # and from which on it says something how their numbers are spread
 
 
 def run_page(run: Run) -> str:
@@ -37,7 +38,7 @@ def _table_section(table: RunTable, index: int) -> Html:
     drawn = [
         histogram(column.name, numbers, column.words)
         for k, column in enumerate(table.columns)
-        if column.histogram and (numbers := table.numbers(k))
+        if column.histogram and len(table.rows) >= _SPREAD and (numbers := table.numbers(k))
     ]
     spread = [tag("div", *drawn, class_="histograms")] if drawn else []
     search = [_search(table, index)] if len(table.rows) >= _FILTERED else []
