@@ -6,6 +6,10 @@ from collections.abc import Iterator
 import pytest
 from hypothesis import HealthCheck, settings
 
+from shape_checks import use_in_import_hook
+
+use_in_import_hook()
+
 settings.register_profile("grafu", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 # The build server draws the same examples every time: a red run is the change's doing. At home every run draws anew.
 settings.register_profile("server", settings.get_profile("grafu"), derandomize=True)
