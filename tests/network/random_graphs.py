@@ -11,7 +11,7 @@ from grafu.network.predictions import Predictions
 TINY = GraFuConfig(
     hidden=16, heads=2, encoder_layers=2, decoder_layers=2, edge=12, category=8, points=6, geometry=4, free_slots=3
 )
-ANCHORS, NEIGHBOURS = 5, 4
+POINTS, ANCHORS, NEIGHBOURS = 20, 5, 4
 NODE_FIELDS = ("exists", "category", "centre", "half")
 PAIR_FIELDS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 

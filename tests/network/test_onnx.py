@@ -8,21 +8,11 @@ import onnx
 import onnxruntime
 import pytest
 import torch
-from random_graphs import ANCHORS, NEIGHBOURS, TINY, arrays, tiny_network
+from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, arrays, tiny_network
 
 from grafu.network.batch import one_graph
 from grafu.network.config import GraFuConfig
-from grafu.network.export import OUTPUTS, PAIR_OUTPUTS, onnx_bytes, with_half_weights
-
-
-@pytest.fixture(scope="module")
-def files() -> dict[bool, bytes]:
-    network = tiny_network().train()  # the file is of the network at work, whatever it does now
-    before = torch.get_rng_state()
-    file = onnx_bytes(network, points=20, anchors=ANCHORS, neighbours=NEIGHBOURS, half_weights=False)
-    assert network.training
-    assert torch.equal(torch.get_rng_state(), before)
-    return {False: file, True: with_half_weights(file)}
+from grafu.network.export import OUTPUTS, PAIR_OUTPUTS
 
 
 def farthest(file: bytes, n: int) -> float:
@@ -54,7 +44,7 @@ def test_weights_of_16_bits_take_half_the_space(files: dict[bool, bytes]) -> Non
 
 def test_the_file_says_what_it_holds(files: dict[bool, bytes]) -> None:
     facts = {p.key: json.loads(p.value) for p in onnx.load_from_string(files[True]).metadata_props}
-    assert facts["features"] == {"points": 20, "anchors": ANCHORS, "neighbours": NEIGHBOURS}
+    assert facts["features"] == {"points": POINTS, "anchors": ANCHORS, "neighbours": NEIGHBOURS}
     assert GraFuConfig(**facts["config"]) == TINY
     assert facts["labels"][-1] == "unknown"
 

@@ -1,13 +1,13 @@
 """A network that was exported is asked without torch: the session, and a graph completed from end to end."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import onnx
 import pytest
 import torch
+from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, tiny_network
 
 from grafu.completion.beliefs import beliefs_of
 from grafu.completion.features import FeatureConfig, graph_features
@@ -16,25 +16,21 @@ from grafu.completion.session import NetworkSession, open_network
 from grafu.errors import WeightsError
 from grafu.graph.edit import as_contacts
 from grafu.network.batch import one_graph
-from grafu.network.config import GraFuConfig
-from grafu.network.export import onnx_bytes
 from grafu.network.grafu import GraFu
 from small_graphs import cabinet
 
-TINY = GraFuConfig(hidden=16, heads=2, encoder_layers=1, decoder_layers=1, edge=8, category=8, points=8, geometry=4)
-FEW = FeatureConfig(points=100, anchors=4, neighbours=3)
+FEW = FeatureConfig(points=POINTS, anchors=ANCHORS, neighbours=NEIGHBOURS)
 
 
 @pytest.fixture(scope="module")
 def model() -> GraFu:
-    torch.manual_seed(0)
-    return GraFu(TINY).eval()
+    return tiny_network()
 
 
 @pytest.fixture(scope="module")
-def weights(model: GraFu, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def weights(files: dict[bool, bytes], tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("weights") / "tiny.onnx"
-    path.write_bytes(onnx_bytes(model, **asdict(FEW), half_weights=False))
+    path.write_bytes(files[False])
     return path
 
 
