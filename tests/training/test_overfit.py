@@ -7,7 +7,7 @@ from grafu.completion.features import FeatureConfig, GraphFeatures, graph_featur
 from grafu.graph.edit import as_contacts, mirrored, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import total_accuracy
-from grafu.network.batch import GraphBatch, join_batches, one_graph
+from grafu.network.batch import GraphBatch, one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
 from grafu.network.predictions import Predictions
@@ -15,6 +15,7 @@ from grafu.training.criterion import criterion
 from grafu.training.loss_config import PAPER, LossConfig
 from grafu.training.raw_answers import batch_accuracy
 from grafu.training.targets import GraphTargets, TargetBatch, graph_targets, stack_targets
+from joined_batches import join_batches
 from small_graphs import cabinet
 
 TINY = GraFuConfig(

@@ -6,7 +6,7 @@ from typing import final
 
 from grafu.errors import GraphError
 from grafu.graph.edges import ends_of
-from grafu.graph.edit import as_contacts, mirrored
+from grafu.graph.edit import as_contacts
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.synth.specimen import Specimen
 
@@ -61,15 +61,6 @@ def specimen_pair(specimen: Specimen) -> GraphPair:
 def natural_pair(target: FunctionalGraph) -> GraphPair:
     """Returns the pair of a functional graph and the same parts at rest, whose edges are all contacts."""
     return GraphPair(as_contacts(target), target, NATURAL, target.model_id)
-
-
-def mirrored_pair(pair: GraphPair, across: int) -> GraphPair:
-    """Returns the pair of the mirror images, both across the plane through the origin square to axis 0 (X) or 1 (Y).
-
-    Raises:
-        ValueError: if `across` is not 0 or 1.
-    """
-    return GraphPair(mirrored(pair.input, across), mirrored(pair.target, across), pair.strategy, pair.model_id)
 
 
 def _require_same_box(given: PartNode, wanted: PartNode, model_id: str) -> None:

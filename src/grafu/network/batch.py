@@ -4,16 +4,12 @@ Parts' points stand in a table of their own, and nodes point into it: several co
 rows, so that each part's points are encoded once.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import final
 
 import torch
 from jaxtyping import Bool, Float32, Int64
 from torch import Tensor
-from torch.nn.functional import pad
-
-from grafu.graph.arrays import NULL
 
 
 @final
@@ -49,32 +45,3 @@ def one_graph(
     index = torch.arange(labels.shape[0], device=labels.device)
     mask = torch.ones_like(labels, dtype=torch.bool)
     return GraphBatch(labels[None], boxes[None], edges[None], mask[None], index[None], anchors, groups)
-
-
-def join_batches(batches: Sequence[GraphBatch]) -> GraphBatch:
-    """Returns the graphs of all batches as one, padded to the largest; their tables of points stand one after another.
-
-    Raises:
-        ValueError: if there is no batch.
-    """
-    if not batches:
-        raise ValueError("a batch must hold at least one graph: got none")
-    n = max(batch.labels.shape[1] for batch in batches)
-    starts = [0]
-    for batch in batches:
-        starts.append(starts[-1] + batch.anchors.shape[0])
-    index = [_padded(b.point_index + start, n, 0, dims=1) for b, start in zip(batches, starts, strict=False)]
-    return GraphBatch(
-        labels=torch.cat([_padded(b.labels, n, 0, dims=1) for b in batches]),
-        boxes=torch.cat([pad(b.boxes, (0, 0, 0, n - b.boxes.shape[1])) for b in batches]),
-        edges=torch.cat([_padded(b.edges, n, NULL, dims=2) for b in batches]),
-        mask=torch.cat([_padded(b.mask, n, False, dims=1) for b in batches]),
-        point_index=torch.cat(index),
-        anchors=torch.cat([b.anchors for b in batches]),
-        groups=torch.cat([b.groups for b in batches]),
-    )
-
-
-def _padded(values: Tensor, n: int, fill: int | bool, dims: int) -> Tensor:
-    """Returns the values with their last `dims` dimensions, all of one length, filled up to n."""
-    return pad(values, (0, n - values.shape[-1]) * dims, value=fill)
