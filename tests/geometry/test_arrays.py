@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 import pytest
 
-from grafu.geometry.arrays import ArrayValue, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, extremes, freeze_arrays
 
 
 @final
@@ -48,3 +48,13 @@ def test_values_compare_by_content_and_travel() -> None:
     assert pickle.loads(pickle.dumps(sample())) == sample()
     assert len({sample(), sample()}) == 1
     assert sample() != Sample("two", sample().numbers, sample().codes)
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_extremes_are_those_of_each_column(order: str) -> None:
+    rows = np.asarray(np.random.default_rng(0).normal(size=(50, 3)), order=order)
+    low, high = extremes(rows)
+    np.testing.assert_array_equal(low, rows.min(axis=0))
+    np.testing.assert_array_equal(high, rows.max(axis=0))
+    with pytest.raises(ValueError, match="zero-size"):
+        extremes(rows[:0])

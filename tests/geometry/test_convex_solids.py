@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid, removed_area, subtract
+from grafu.geometry.solids import ConvexSolid, clip, subtract
 
 OAK = Material("oak")
 UNIT = Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0))
@@ -160,12 +160,24 @@ def test_what_overlapping_solids_take_of_a_sheet_goes_once(seed, count):
     taken = np.any([(a[0] < x) & (x < b[0]) & (a[1] < y) & (y < b[1]) for a, b in cells], axis=0)
     left = subtract(sheet(), solids)
     assert left.mesh.area == pytest.approx((~taken).sum() / 100, abs=1e-7)
-    assert removed_area(sheet(), solids) == pytest.approx(taken.sum() / 100, abs=1e-7)
+    clipped = clip(sheet(), solids)
+    assert 1.0 - clipped.mesh.area == pytest.approx(taken.sum() / 100, abs=1e-7)
+    assert subtract(sheet(), solids, clipped) is clipped
     middles = left.mesh.triangles.mean(axis=1)
     for one in solids:
         assert np.all((middles @ one.planes[:, :3].T > one.planes[:, 3] - 1e-7).any(axis=1))
     assert np.all(left.mesh.face_normals[:, 2] > 0.99)  # turned as they were
     np.testing.assert_allclose(left.uv, left.mesh.vertices[:, :2] * [2.0, 3.0], atol=1e-6)
+
+
+def test_a_closed_surface_is_clipped_open_and_cut_closed():
+    corner = [solid((0.5, 0.5, 0.5), (2.0, 2.0, 2.0))]
+    clipped = clip(cube(), corner)
+    assert clipped.mesh.area == pytest.approx(6.0 - 0.75)  # three quarters of a square at the corner
+    assert not clipped.mesh.is_closed
+    cut = subtract(cube(), corner, clipped)
+    assert cut.mesh.is_closed
+    assert cut.mesh.area == pytest.approx(6.0)
 
 
 def test_a_sheet_is_not_shredded_by_many_overlapping_solids():

@@ -23,7 +23,8 @@ def box_mesh(low: tuple[float, float, float], high: tuple[float, float, float]) 
 
 
 CUBE = box_mesh((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
-WALL = MeshCollider(box_mesh((1.0, -5.0, -5.0), (2.0, 5.0, 5.0)))
+WALL_MESH = box_mesh((1.0, -5.0, -5.0), (2.0, 5.0, 5.0))
+WALL = MeshCollider(WALL_MESH)
 
 
 def cube_body(reach: float, depth: float = DEPTH) -> MovingBody:
@@ -162,6 +163,36 @@ def test_the_axes_of_a_turned_body_decide_what_is_flush():
     body.place(HOME)
     assert body.touches(wall)
     assert not body.penetrates(wall)
+
+
+def test_what_is_known_of_one_pose_or_obstacle_is_not_said_of_another():
+    body, far = cube_body(0.2), translation(vec3(-2.0, 0.0, 0.0))
+    posed = MeshCollider(CUBE)
+    for _ in range(2):
+        body.place(HOME)
+        assert body.penetrated([WALL, posed]) == [0, 1]
+        posed.place(far)
+        assert body.penetrated([WALL, posed]) == [0]
+        body.place(far)
+        assert body.penetrated([WALL, posed]) == [1]
+        posed.place(translation(vec3(0.5, 0.5, 0.5)))
+        assert body.penetrated([WALL, posed]) == []
+
+
+def test_an_obstacle_at_rest_is_asked_once_per_pose(monkeypatch):
+    asked = []
+    intersects = MeshCollider.intersects
+    monkeypatch.setattr(MeshCollider, "intersects", lambda *pair: asked.append(pair) or intersects(*pair))
+    body = cube_body(0.2)
+    first = body.penetrated([WALL])
+    count = len(asked)
+    assert count > 0
+    body.place(translation(vec3(0.001, 0.0, 0.0)))
+    assert body.penetrated([WALL]) == first
+    assert len(asked) == 2 * count
+    body.place(HOME)
+    assert body.penetrated([MeshCollider(WALL_MESH)]) == first  # another collider of the same mesh
+    assert len(asked) == 2 * count
 
 
 def test_cutting_faces_are_those_that_cut():

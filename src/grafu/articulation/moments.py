@@ -10,9 +10,9 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
-from grafu.geometry.box import yaw_of
+from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.transform import rotation_matrix
 
 BOARD_THICKNESS = 0.015  # metres: furniture boards come in 15 to 19 mm
@@ -65,7 +65,7 @@ def moments_of(mesh: TriangleMesh, thickness: float = BOARD_THICKNESS) -> Moment
     chosen = np.where(real[:, None], solid, sheet)
     chosen *= np.minimum(1.0, boxes / np.maximum(chosen[:, 0], 1e-300))[:, None]
     total = chosen.sum(axis=0)
-    whole = _box_volumes(np.ptp((triangles @ R).reshape(-1, 3), axis=0)[None], thickness)[0]
+    whole = _box_volumes(Box.around((triangles @ R).reshape(-1, 3)).size[None], thickness)[0]
     total *= min(1.0, whole / max(total[0], 1e-300))
     return Moments(float(total[0]), total[1:4], total[4:].reshape(3, 3))
 
@@ -74,8 +74,9 @@ def _sides(triangles: np.ndarray, patches: Patches) -> np.ndarray:
     """Returns the side lengths of each patch's box, (patches, 3)."""
     order = np.argsort(patches.patch, kind="stable")
     starts = np.searchsorted(patches.patch[order], np.arange(len(patches.closed)))
-    low = np.minimum.reduceat(triangles.min(axis=1)[order], starts, axis=0)
-    high = np.maximum.reduceat(triangles.max(axis=1)[order], starts, axis=0)
+    lows, highs = triangle_bounds(triangles)
+    low = np.minimum.reduceat(lows[order], starts, axis=0)
+    high = np.maximum.reduceat(highs[order], starts, axis=0)
     return high - low
 
 

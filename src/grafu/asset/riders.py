@@ -7,7 +7,7 @@ import trimesh
 
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.vocabulary import PartLabel
 
 # How far a handle may stand off what carries it, in metres: modelling gaps, not real ones.
@@ -53,7 +53,7 @@ def _points(mesh: TriangleMesh) -> np.ndarray:
 
 def surface_gap(points: np.ndarray, mesh: TriangleMesh, region: Box) -> float:
     """Returns the least distance of the points from those faces of the mesh whose boxes reach into `region`."""
-    low, high = mesh.triangles.min(axis=1), mesh.triangles.max(axis=1)
+    low, high = triangle_bounds(mesh.triangles)
     faces = mesh.triangles[np.all((low <= region.high) & (high >= region.low), axis=1)]
     faces = faces[:: max(1, len(faces) // _MOST_FACES)]
     if not len(faces):

@@ -12,6 +12,7 @@ from jaxtyping import Float32
 from grafu.export.camera import Camera
 from grafu.export.light import key_direction, key_share, shade, sky_share
 from grafu.export.ray_scene import Hits, RayScene
+from grafu.geometry.arrays import extremes
 
 Samples = Float32[np.ndarray, "_ _ 4"]
 
@@ -44,9 +45,10 @@ class Exposure:
         rows, columns = np.divmod(np.arange(width * height), width)
         self.pattern = (rows % 4) * 4 + columns % 4
         corners = scene.triangles.reshape(-1, 3)
-        self.low: np.ndarray = corners.min(axis=0) if len(corners) else np.zeros(3)
-        self.high: np.ndarray = corners.max(axis=0) if len(corners) else np.ones(3)
-        self.reach = float(0.35 * np.linalg.norm(self.high - self.low))
+        low, high = extremes(corners) if len(corners) else (np.zeros(3), np.ones(3))
+        self.low: np.ndarray = low
+        self.high: np.ndarray = high
+        self.reach = float(0.35 * np.linalg.norm(high - low))
 
     def samples(self) -> Samples:
         """Returns premultiplied linear RGBA per sample, (height, width, 4). To be called once."""

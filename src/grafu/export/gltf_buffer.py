@@ -4,6 +4,8 @@ from typing import Any, final
 
 import numpy as np
 
+from grafu.geometry.arrays import extremes
+
 _COMPONENT = {"uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
 _TYPE = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
@@ -46,7 +48,8 @@ class GltfBuffer:
         if array.dtype == np.uint8:
             accessor["normalized"] = True
         if bounds:
-            accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
+            low, high = extremes(rows)
+            accessor |= {"min": low.tolist(), "max": high.tolist()}
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 

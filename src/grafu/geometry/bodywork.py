@@ -17,7 +17,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.components import patches_of, welded
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.selection import joined, selected
 from grafu.geometry.solids import ConvexSolid, subtract
 
@@ -128,9 +128,9 @@ def cut_out(body: Bodywork, solids: Sequence[ConvexSolid], union: TriangleMesh |
 def _meet(body: Bodywork, box: Box) -> Mask:
     """Returns which patches' boxes share a point with a box."""
     low, high = np.full((len(body.closed), 3), np.inf), np.full((len(body.closed), 3), -np.inf)
-    corners = body.mesh.vertices[body.faces]
-    np.minimum.at(low, body.patch, corners.min(axis=1))
-    np.maximum.at(high, body.patch, corners.max(axis=1))
+    lows, highs = triangle_bounds(body.mesh.vertices[body.faces])
+    np.minimum.at(low, body.patch, lows)
+    np.maximum.at(high, body.patch, highs)
     return np.asarray(np.all((low <= box.high) & (high >= box.low), axis=1))
 
 

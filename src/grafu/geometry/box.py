@@ -8,7 +8,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, extremes, frozen_array
 from grafu.geometry.transform import from_rotation, transform_points
 
 
@@ -35,7 +35,7 @@ class Box(ArrayValue):
     @classmethod
     def around(cls, points: Points) -> "Box":
         """Returns the smallest box around at least one point."""
-        return cls(points.min(axis=0), points.max(axis=0))
+        return cls(*extremes(points))
 
     @classmethod
     def enclosing(cls, boxes: Iterable["Box"]) -> "Box":
@@ -181,7 +181,8 @@ def yaw_of(points: Points) -> float:
     v = np.outer(cosines, hull[:, 1]) - np.outer(sines, hull[:, 0])
     areas = np.ptp(u, axis=1) * np.ptp(v, axis=1)
     best = int(np.argmin(areas))
-    straight = float(np.prod(np.ptp(flat, axis=0)))
+    low, high = extremes(flat)
+    straight = float(np.prod(high - low))
     return 0.0 if areas[best] >= 0.99 * straight else float(angles[best])
 
 
@@ -189,10 +190,9 @@ def _has_all_corners(flat: Float[np.ndarray, "n 2"]) -> bool:
     """Whether all four corners of the rectangle around points are among them: a quick answer for boards."""
     if not len(flat):
         return False
-    low, high = flat.min(axis=0), flat.max(axis=0)
-    at_low, at_high = flat - low < 1e-9, high - flat < 1e-9
-    left, right = at_low[:, 0], at_high[:, 0]
-    return all(bool((side & end[:, 1]).any()) for side in (left, right) for end in (at_low, at_high))
+    (x, y), (low, high) = flat.T, extremes(flat)
+    sides, ends = (x - low[0] < 1e-9, high[0] - x < 1e-9), (y - low[1] < 1e-9, high[1] - y < 1e-9)
+    return all(bool((side & end).any()) for side in sides for end in ends)
 
 
 def _yaw_of_line(flat: Float[np.ndarray, "n 2"]) -> float:

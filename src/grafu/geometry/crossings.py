@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
+from grafu.geometry.mesh import triangle_bounds
 
 
 @final
@@ -37,7 +38,7 @@ def line_crossings(
 
     Triangles that stand along the lines are never crossed.
     """
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    low, high = triangle_bounds(triangles)
     columns = np.stack([np.searchsorted(first, low[:, 0]), np.searchsorted(first, high[:, 0], "right")])
     rows = np.stack([np.searchsorted(second, low[:, 1]), np.searchsorted(second, high[:, 1], "right")])
     wide, tall = columns[1] - columns[0], rows[1] - rows[0]

@@ -5,7 +5,8 @@ pass through one another cut surfaces, which is what is asked here.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from itertools import count
 from typing import final
 from weakref import finalize
 
@@ -13,7 +14,7 @@ import fcl
 import numpy as np
 from jaxtyping import Int
 
-from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3
+from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3, extremes
 from grafu.geometry.box import Box
 from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh
@@ -22,7 +23,9 @@ from grafu.geometry.transform import transform_points
 # A mesh is never shrunk to less than this share of its side: thin hardware keeps a core.
 _CORE = 0.2
 _MOST_CONTACTS = 5000
+_ANY_CONTACT = fcl.CollisionRequest()
 
+_numbers = count()
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
 
 
@@ -39,6 +42,8 @@ class _Model:
     kept: Indices
     stand_in: Int[np.ndarray, " faces"] | None
     pose: Mat4 | None = None
+    number: int = field(default_factory=_numbers.__next__)
+    """No other mesh ever gets the same."""
 
     def faces(self, hit: set[int]) -> set[int]:
         """Returns the mesh's faces that the BVH's faces stand for."""
@@ -68,16 +73,17 @@ def share_shape(copy: TriangleMesh, original: TriangleMesh, T: Mat4) -> None:
     pose = T if model.pose is None else T @ model.pose
     if id(copy) not in _models:
         finalize(copy, _models.pop, id(copy), None)
-    _models[id(copy)] = replace(model, pose=pose)
+    _models[id(copy)] = replace(model, pose=pose, number=next(_numbers))
 
 
 def _built(mesh: TriangleMesh) -> _Model:
-    count = len(mesh.faces)
-    stand_in = repeated_faces(mesh) if count > _MANY else None
-    kept = np.arange(count) if stand_in is None else np.unique(stand_in)
+    faces = len(mesh.faces)
+    stand_in = repeated_faces(mesh) if faces > _MANY else None
+    kept = np.arange(faces) if stand_in is None else np.unique(stand_in)
+    used, corners = np.unique(mesh.faces[kept], return_inverse=True)  # FCL takes one vertex after the other: few
     bvh = fcl.BVHModel()
-    bvh.beginModel(len(mesh.vertices), len(kept))
-    bvh.addSubModel(mesh.vertices, mesh.faces[kept])
+    bvh.beginModel(len(used), len(kept))
+    bvh.addSubModel(mesh.vertices[used], corners.reshape(-1, 3).tolist())
     bvh.endModel()
     return _Model(bvh, kept, stand_in)
 
@@ -93,10 +99,16 @@ class MeshCollider:
         self.box: Box = mesh.box
         self._mesh = mesh
         self._corners = mesh.box.corners()
-        self._low, self._high = mesh.box.low, mesh.box.high
+        self._low, self._high = mesh.box.low.tolist(), mesh.box.high.tolist()
         self._pose: tuple[Mat3, Vec3] | None = None
         self._made: fcl.CollisionObject | None = None
         self._start: Mat4 | None = None
+        self._is_at_rest = True
+
+    @property
+    def number(self) -> int | None:
+        """The number of the mesh where it stands at rest; None of a posed one, which may stand anywhere."""
+        return _model(self._mesh).number if self._is_at_rest else None
 
     @property
     def _object(self) -> fcl.CollisionObject:
@@ -117,9 +129,10 @@ class MeshCollider:
     def place(self, T: Mat4, shift: Vec3 | None = None) -> None:
         """Poses the mesh at T, then moved by `shift` metres."""
         offset = T[:3, 3] if shift is None else T[:3, 3] + shift
-        self._pose = (T[:3, :3], offset)
+        self._pose, self._is_at_rest = (T[:3, :3], offset), False
         corners = self._corners @ T[:3, :3].T + offset
-        self._low, self._high = corners.min(axis=0), corners.max(axis=0)
+        low, high = extremes(corners)
+        self._low, self._high = low.tolist(), high.tolist()
 
     def posed(self, T: Mat4) -> "MeshCollider":
         """Returns another collider of the same mesh, posed at T."""
@@ -129,13 +142,22 @@ class MeshCollider:
 
     def intersects(self, other: "MeshCollider") -> bool:
         """Whether the two, as posed, share a point."""
-        if (self._low > other._high).any() or (other._low > self._high).any():
+        if self.is_apart(other):
             return False
-        return bool(fcl.collide(self._object, other._object, fcl.CollisionRequest(), fcl.CollisionResult()) > 0)
+        return bool(fcl.collide(self._object, other._object, _ANY_CONTACT, fcl.CollisionResult()) > 0)
+
+    def is_apart(self, other: "MeshCollider") -> bool:
+        """Whether the boxes of the two, as posed, share no point."""
+        # Plain numbers are quicker than numpy: most of the many pairs asked for are apart.
+        (x, y, z), (x_end, y_end, z_end) = self._low, other._high
+        if x > x_end or y > y_end or z > z_end:
+            return True
+        (x, y, z), (x_end, y_end, z_end) = other._low, self._high
+        return bool(x > x_end or y > y_end or z > z_end)
 
     def faces_in_contact(self, other: "MeshCollider") -> set[int]:
         """Returns the numbers of this mesh's faces that intersect the other as posed."""
-        if not self.intersects(other):
+        if self.is_apart(other):
             return set()
         request = fcl.CollisionRequest(num_max_contacts=_MOST_CONTACTS, enable_contact=True)
         result = fcl.CollisionResult()
@@ -144,8 +166,8 @@ class MeshCollider:
 
     def box_gap(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the boxes of the two as posed: at most that of the meshes."""
-        apart = np.maximum(np.maximum(self._low - other._high, other._low - self._high), 0.0)
-        return float(np.linalg.norm(apart))
+        low, high, their_low, their_high = map(np.asarray, (self._low, self._high, other._low, other._high))
+        return float(np.linalg.norm(np.maximum(np.maximum(low - their_high, their_low - high), 0.0)))
 
     def is_within(self, reach: float, other: "MeshCollider") -> bool:
         """Whether the two, as posed, come within `reach` metres of one another."""
@@ -194,17 +216,36 @@ class MovingBody:
         self._plain = [MeshCollider(piece) for piece in pieces or (mesh,)]
         self._shrunk = MeshCollider(shrunk(mesh, depth, axes))
         self._T: Mat4 = np.eye(4)
+        self._pose = 0
+        self._poses: dict[bytes, int] = {np.eye(4).tobytes(): 0}
+        self._known: dict[tuple[int, int, int], bool] = {}
         self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
 
     def place(self, T: Mat4) -> None:
         """Poses the body at T for the queries that follow."""
         self._T = T
+        self._pose = self._poses.setdefault(T.tobytes(), len(self._poses))
         for piece in self._plain:
             piece.place(T)
 
     def touches(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, shares a point with the obstacle."""
-        return any(piece.intersects(obstacle) for piece in self._plain)
+        return any(self._meet(piece, k, obstacle) for k, piece in enumerate(self._plain, len(self._shifts) + 1))
+
+    def _meet(self, own: MeshCollider, step: int, obstacle: MeshCollider) -> bool:
+        """Whether one of the body's own meshes, as posed, intersects an obstacle; `step` tells which, and its shift.
+
+        Sweep after sweep asks for the same poses: what is known of an obstacle at rest is not asked again.
+        """
+        if own.is_apart(obstacle):
+            return False
+        number = obstacle.number
+        if number is None:
+            return own.intersects(obstacle)
+        key = (self._pose, step, number)
+        if key not in self._known:
+            self._known[key] = own.intersects(obstacle)
+        return self._known[key]
 
     def penetrates(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, cuts into the obstacle by more than the depth."""
@@ -218,12 +259,12 @@ class MovingBody:
         if not any(self.touches(obstacle) for obstacle in obstacles):
             return []
         self._shrunk.place(self._T)
-        met = [k for k, obstacle in enumerate(obstacles) if self._shrunk.intersects(obstacle)]
+        met = [k for k, obstacle in enumerate(obstacles) if self._meet(self._shrunk, 0, obstacle)]
         if not met:
             return []
-        for shift in self._shifts:
+        for step, shift in enumerate(self._shifts, 1):
             self._shrunk.place(self._T, shift)
-            if not any(self._shrunk.intersects(obstacle) for obstacle in obstacles):
+            if not any(self._meet(self._shrunk, step, obstacle) for obstacle in obstacles):
                 return []
         return met
 

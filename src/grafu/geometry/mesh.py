@@ -9,7 +9,7 @@ import numpy as np
 import trimesh
 
 from grafu.geometry.arrays import ArrayValue, Faces, Mat4, Points, Scalars, Vec3, frozen_array
-from grafu.geometry.box import Box
+from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import is_mirror, transform_points
 
 
@@ -45,6 +45,11 @@ class TriangleMesh(ArrayValue):
         used = np.zeros(len(self.vertices), dtype=bool)
         used[self.faces] = True
         return Box.around(self.vertices[used])
+
+    @cached_property
+    def yaw(self) -> float:
+        """The rotation about Z, radians, in which the vertices fill the smallest rectangle (see `yaw_of`)."""
+        return yaw_of(self.vertices)
 
     @cached_property
     def triangles(self) -> np.ndarray:
@@ -109,6 +114,12 @@ class TriangleMesh(ArrayValue):
     def box_mesh(cls, box: Box) -> "TriangleMesh":
         """Returns the closed mesh of a box, 12 faces."""
         return cls(box.corners(), np.array(_BOX_FACES))
+
+
+def triangle_bounds(triangles: np.ndarray) -> tuple[Points, Points]:
+    """Returns the lowest and the highest corner of the box around each triangle, (n, 3, 3)."""
+    first, second, third = triangles[:, 0], triangles[:, 1], triangles[:, 2]  # quicker than numpy along the middle
+    return np.minimum(np.minimum(first, second), third), np.maximum(np.maximum(first, second), third)
 
 
 def merge_meshes(meshes: Sequence[TriangleMesh]) -> TriangleMesh:

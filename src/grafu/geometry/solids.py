@@ -5,6 +5,7 @@ by triangle: what lies inside goes, the rest stays as it was, and the cut is lef
 several solids take of one triangle goes at once: one after another they would shred it.
 """
 
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -18,11 +19,9 @@ from scipy.spatial import ConvexHull, QhullError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, frozen_array
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.plane_split import NOTHING, split_by_planes
 from grafu.geometry.remainder import remainder
-
-# Shorter than this is nothing: clipped slivers below it are dropped, hulls flatter than it are thickened.
-_SLIVER = 1e-7
 
 
 @final
@@ -62,30 +61,39 @@ class ConvexSolid(ArrayValue):
         return TriangleMesh(self.vertices, self.faces)
 
 
-def subtract(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
-    """Returns the surface without what lies inside the solids; the very same surface where nothing does."""
-    near = [solid for solid in solids if solid.box.overlaps(surface.mesh.box)]
-    if not near:
-        return surface
-    if surface.mesh.is_closed:
+def subtract(surface: Surface, solids: Sequence[ConvexSolid], clipped: Surface | None = None) -> Surface:
+    """Returns the surface without what lies inside the solids; the very same surface where nothing does.
+
+    `clipped` is what `clip` gave of the same, where that is known.
+    """
+    near = _near(surface, solids)
+    if near and surface.mesh.is_closed:
         cut = _subtract_closed(surface, near)
         if cut is not None:
             return cut
-    return _clip(surface, near)
+    return clip(surface, near) if clipped is None else clipped
 
 
-def removed_area(surface: Surface, solids: Sequence[ConvexSolid]) -> float:
-    """Returns how much of the surface, in square metres, lies inside the solids: what `subtract` takes away of it."""
-    near = [solid for solid in solids if solid.box.overlaps(surface.mesh.box)]
-    return surface.mesh.area - _clip(surface, near).mesh.area if near else 0.0
+def clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
+    """Returns the surface, taken for an open one, without the parts of its triangles inside the solids.
+
+    What is less of its area is what lies inside the solids, also where the surface is closed.
+    """
+    near = _near(surface, solids)
+    return _clip(surface, near) if near else surface
+
+
+def _near(surface: Surface, solids: Sequence[ConvexSolid]) -> list[ConvexSolid]:
+    return [solid for solid in solids if solid.box.overlaps(surface.mesh.box)]
 
 
 def _merged_planes(equations: np.ndarray) -> np.ndarray:
     """Returns the hull's planes, those of one flat face (triangulated, with rounding errors) as one, the outermost."""
-    _, group = np.unique(np.round(equations[:, :3], 4), axis=0, return_inverse=True)
-    order = np.lexsort((equations[:, 3], group.reshape(-1)))
-    first = np.unique(group.reshape(-1)[order], return_index=True)[1]
-    return equations[order[first]]
+    x, y, z = np.round(equations[:, :3], 4).T
+    order = np.lexsort((equations[:, 3], z, y, x))
+    normals = np.stack([x, y, z], axis=1)[order]
+    is_first = np.append(True, (normals[1:] != normals[:-1]).any(axis=1))
+    return equations[order[is_first]]
 
 
 def _cross(triangles: np.ndarray) -> Points:
@@ -169,14 +177,21 @@ def _left_over(rows: np.ndarray, faces: Faces, solids: Sequence[ConvexSolid]) ->
     is_whole[cut.outside_owner] = False
     gone = np.zeros(len(faces), dtype=bool)  # faces of which one solid leaves nothing
     gone[cut.face[is_whole]] = True
-    kept = [cut.outside[times[cut.face[cut.outside_owner]] == 1]]
-    owner = cut.face[cut.inside_owner]
-    for face in np.flatnonzero((times > 1) & ~gone):
-        mine = np.flatnonzero(owner == face)
-        takers = cut.inside_owner[mine]
-        holes = [cut.inside[mine[takers == taker], :, :3].reshape(-1, 3) for taker in np.unique(takers)]
-        kept.append(remainder(triangles[face, :, :3], holes) @ triangles[face])
-    return np.concatenate(kept), times > 0
+    by_one = cut.outside[times[cut.face[cut.outside_owner]] == 1]
+    holes = _holes(cut)
+    several = np.flatnonzero((times > 1) & ~gone).tolist()
+    by_several = [remainder(triangles[k, :, :3], holes[k]) @ triangles[k] for k in several]
+    return np.concatenate([by_one, *by_several]), times > 0
+
+
+def _holes(cut: "_Cut") -> dict[int, list[Points]]:
+    """Returns for each face the corners of what each solid takes of it."""
+    order = np.argsort(cut.inside_owner, kind="stable")
+    pairs, start = np.unique(cut.inside_owner[order], return_index=True)
+    found: dict[int, list[Points]] = defaultdict(list)
+    for face, points in zip(cut.face[pairs].tolist(), np.split(cut.inside[order, :, :3], start)[1:], strict=True):
+        found[face].append(points.reshape(-1, 3))
+    return found
 
 
 @final
@@ -202,10 +217,10 @@ def _cut_by(triangles: np.ndarray, solids: Sequence[ConvexSolid]) -> _Cut:
     inside, owner = triangles[face], np.arange(len(face))
     kept, kept_owner = [inside[:0]], [owner[:0]]
     for k in range(planes.shape[1]):
-        inside, owner, outside, outside_owner = _split(inside, owner, planes[solid[owner], k])
+        inside, owner, outside, outside_owner = split_by_planes(inside, owner, planes[solid[owner], k])
         kept.append(outside)
         kept_owner.append(outside_owner)
-    hit = np.unique(owner[_areas(inside) > _SLIVER**2])
+    hit = np.unique(owner[_areas(inside) > NOTHING**2])
     number = np.full(len(face), -1)
     number[hit] = np.arange(len(hit))
     owner, outside_owner = number[owner], number[np.concatenate(kept_owner)]
@@ -231,13 +246,12 @@ def _padded_planes(solids: Sequence[ConvexSolid]) -> Float[np.ndarray, "s k 4"]:
 def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
     """Returns which triangles lie wholly outside one of the planes: the solid cannot touch them."""
     side = triangles @ planes[:, :3].T - planes[:, 3]
-    return np.all(side >= -_SLIVER, axis=1).any(axis=1)
+    return np.all(side >= -NOTHING, axis=1).any(axis=1)
 
 
 def _meet(triangles: np.ndarray, box: Box) -> np.ndarray:
     """Returns which triangles' boxes share a point with a box."""
-    low = np.minimum(np.minimum(triangles[:, 0], triangles[:, 1]), triangles[:, 2])
-    high = np.maximum(np.maximum(triangles[:, 0], triangles[:, 1]), triangles[:, 2])
+    low, high = triangle_bounds(triangles)
     return np.all((low <= box.high) & (high >= box.low), axis=1)
 
 
@@ -245,48 +259,8 @@ def _is_sliver(triangles: np.ndarray) -> np.ndarray:
     """Returns which triangles are flatter than nothing: no higher over their longest side than a sliver."""
     corners = triangles[:, :, :3]
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    return 2 * _areas(triangles) <= 2 * _SLIVER * longest
+    return 2 * _areas(triangles) <= 2 * NOTHING * longest
 
 
 def _areas(triangles: np.ndarray) -> np.ndarray:
     return np.linalg.norm(_cross(triangles[:, :, :3]), axis=1) / 2
-
-
-def _split(
-    triangles: np.ndarray, owner: np.ndarray, planes: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Splits triangles (rows of corner attributes) by a plane each: inside, its owners, outside, its owners."""
-    side = np.einsum("ncd,nd->nc", triangles[:, :, :3], planes[:, :3]) - planes[:, 3:]
-    side = np.where(np.abs(side) < _SLIVER, 0.0, side)
-    all_in, all_out = np.all(side <= 0, axis=1), np.all(side >= 0, axis=1)
-    mixed = ~(all_in | all_out)
-    # Coplanar triangles count as outside: faces that merely lie on the solid's border stay.
-    all_in &= ~all_out
-    inside, outside = [triangles[all_in]], [triangles[all_out]]
-    in_owner, out_owner = [owner[all_in]], [owner[all_out]]
-    for positive in (True, False):
-        lone = (side > 0) if positive else (side < 0)
-        pick = mixed & (lone.sum(axis=1) == 1)
-        if not positive:
-            pick &= (side > 0).sum(axis=1) != 1
-        single, pair = _cut_corner(triangles[pick], side[pick], lone[pick])
-        lone_side, other_side = (outside, inside) if positive else (inside, outside)
-        lone_owner, other_owner = (out_owner, in_owner) if positive else (in_owner, out_owner)
-        lone_side.append(single)
-        lone_owner.append(owner[pick])
-        other_side.append(pair)
-        other_owner.append(np.concatenate([owner[pick], owner[pick]]))
-    return np.concatenate(inside), np.concatenate(in_owner), np.concatenate(outside), np.concatenate(out_owner)
-
-
-def _cut_corner(triangles: np.ndarray, side: np.ndarray, lone: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cuts the one corner marked in `lone` off each triangle: the corner piece, and the rest as two triangles."""
-    first = np.argmax(lone, axis=1)
-    order = (first[:, None] + np.arange(3)) % 3
-    t = np.take_along_axis(triangles, order[:, :, None], axis=1)
-    s = np.take_along_axis(side, order, axis=1)
-    ab = t[:, 0] + (t[:, 1] - t[:, 0]) * (s[:, 0] / (s[:, 0] - s[:, 1]))[:, None]
-    ac = t[:, 0] + (t[:, 2] - t[:, 0]) * (s[:, 0] / (s[:, 0] - s[:, 2]))[:, None]
-    single = np.stack([t[:, 0], ab, ac], axis=1)
-    pair = np.concatenate([np.stack([ab, t[:, 1], t[:, 2]], axis=1), np.stack([ab, t[:, 2], ac], axis=1)])
-    return single, pair

@@ -15,7 +15,7 @@ import numpy as np
 from grafu.geometry.arrays import Indices, Mask
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
 Pairs = Sequence[tuple[int, int]]
 
@@ -140,7 +140,7 @@ class _Triangles:
         self.box = mesh.box
         largest_first = np.argsort(-mesh.face_areas, kind="stable")
         self.corners = mesh.triangles[largest_first]
-        self._low, self._high = self.corners.min(axis=1), self.corners.max(axis=1)
+        self._low, self._high = triangle_bounds(self.corners)
 
     @cached_property
     def whole(self) -> MeshCollider:

@@ -17,7 +17,7 @@ from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, MovingBody
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.vocabulary import JointType
 
 
@@ -156,8 +156,8 @@ class Scene:
         for part in self.static_parts:
             if of not in ("", part.id) or not part.box.overlaps(box, margin):
                 continue
-            corners = part.mesh.triangles
             grown = box.grown(margin)
-            keep = np.all((corners.min(axis=1) <= grown.high) & (corners.max(axis=1) >= grown.low), axis=1)
+            low, high = triangle_bounds(part.mesh.triangles)
+            keep = np.all((low <= grown.high) & (high >= grown.low), axis=1)
             near.append(part.mesh.with_faces(keep))
         return merge_meshes(near)

@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Points
+from grafu.geometry.arrays import Points, extremes
 
 _STEPS = 65535  # of 16 bits
 _NORMAL_STEPS = 127  # of a signed byte
@@ -53,7 +53,8 @@ def pack_surface(surface: Surface, textured: bool) -> PackedSurface:
     """Returns a surface that has faces, packed; texture coordinates (origin top left) only where `textured`."""
     faces, shading = surface.mesh.faces, corner_normals(surface)
     used = surface.mesh.vertices[faces.ravel()]
-    low, size = used.min(axis=0), np.ptp(used, axis=0)
+    low, high = extremes(used)
+    size = high - low
     vertices = np.zeros((len(used), 4), np.uint16)
     vertices[:, :3] = _shares(used, low, size)
     vertices[:, 3] = _octahedral(np.asarray(shading.normals)).view(np.uint16)[:, 0][shading.corners.ravel()]
@@ -61,8 +62,9 @@ def pack_surface(surface: Surface, textured: bool) -> PackedSurface:
     uv, uv_low, uv_size = np.zeros((0, 2), np.uint16), np.zeros(2), np.ones(2)
     if textured and surface.uv is not None:
         flipped = np.nan_to_num(surface.uv, posinf=0.0, neginf=0.0)[faces.ravel()] * [1.0, -1.0] + [0.0, 1.0]
-        flipped = flipped - np.floor(flipped.min(axis=0))  # textures repeat: whole turns change nothing
-        uv_low, uv_size = flipped.min(axis=0), np.ptp(flipped, axis=0)
+        flipped = flipped - np.floor(extremes(flipped)[0])  # textures repeat: whole turns change nothing
+        uv_low, uv_high = extremes(flipped)
+        uv_size = uv_high - uv_low
         uv = _shares(flipped, uv_low, uv_size)
         keys.append(uv.view(np.uint32)[:, 0].astype(np.uint64))
     colors = np.zeros((0, 4), np.uint8) if surface.colors is None else surface.colors[faces.ravel()]

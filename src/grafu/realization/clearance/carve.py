@@ -14,7 +14,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts, part_numbers
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid, removed_area, subtract
+from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.geometry.transform import transform_points
 from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
@@ -36,11 +36,12 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
     for name in ids:
         part = scene.parts[name]
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
-        area = sum(removed_area(surface, near) for surface in part.surfaces)
+        clipped = [clip(surface, near) for surface in part.surfaces]
+        area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
         share = _lost_share(part, near, area, config.max_carve)
         if not 0 < share < config.max_carve:
             continue
-        surfaces = (subtract(surface, near) for surface in part.surfaces)
+        surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
         done.append(Clearance(name, "carved", float(np.sqrt(area)), share, f"stood in the way of {path.mover}"))
     return scene.replaced(carved), done

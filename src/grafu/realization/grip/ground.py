@@ -13,7 +13,7 @@ from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
 from grafu.geometry.bodywork import Bodywork
 from grafu.geometry.box import Box
 from grafu.geometry.crossings import Crossings, line_crossings
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.realization.grip.front import Front
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -103,7 +103,7 @@ class Site:
 
     @cached_property
     def _extent(self) -> tuple[np.ndarray, np.ndarray]:
-        return self._triangles.min(axis=1), self._triangles.max(axis=1)
+        return triangle_bounds(self._triangles)
 
     @cached_property
     def _is_opaque(self) -> Mask:
@@ -178,7 +178,8 @@ def _near(front: Front, meshes: Sequence[TriangleMesh], around: Box) -> Triangle
     """Returns the triangles, in the front frame, whose boxes meet a box of the object frame."""
     mesh = merge_meshes([m for m in meshes if len(m.faces) and m.box.overlaps(around)])
     corners = mesh.triangles
-    keep = np.all((corners.min(axis=1) <= around.high) & (corners.max(axis=1) >= around.low), axis=1)
+    low, high = triangle_bounds(corners)
+    keep = np.all((low <= around.high) & (high >= around.low), axis=1)
     return np.asarray(front.local(corners[keep].reshape(-1, 3)).reshape(-1, 3, 3))
 
 

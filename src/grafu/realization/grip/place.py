@@ -9,6 +9,7 @@ import numpy as np
 from grafu.geometry.arrays import Mask, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.crossings import line_crossings
+from grafu.geometry.mesh import triangle_bounds
 from grafu.realization.grip.config import GripConfig, GripKind, GripSize
 from grafu.realization.grip.front import Front
 from grafu.realization.grip.ground import Grid, Ground, Site, Triangles, aside
@@ -173,7 +174,7 @@ def _within(cut: Cut, x: Scalars, y: Scalars) -> Mask:
 
 def _meets(triangles: Triangles, zone: Box) -> bool:
     """Whether the box of some triangle meets a zone."""
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    low, high = triangle_bounds(triangles)
     return bool(np.any(np.all((low <= zone.high) & (high >= zone.low), axis=1)))
 
 
@@ -182,7 +183,7 @@ def _met(obstacles: list[Triangles], grid: tuple[Grid, Grid], span: tuple[float,
     met = np.zeros(len(lift), dtype=bool)
     xs, ys = (aside(values) for values in grid)
     for triangles in obstacles:
-        low, high = triangles.min(axis=1), triangles.max(axis=1)
+        low, high = triangle_bounds(triangles)
         near = (low[:, 2] <= span[1] + lift.max()) & (high[:, 2] >= span[0] + lift.min())
         found = line_crossings(triangles[near & (low[:, 0] <= xs[-1]) & (high[:, 0] >= xs[0])], xs, ys)
         height = found.height - lift[found.line]

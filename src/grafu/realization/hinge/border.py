@@ -12,7 +12,7 @@ import numpy as np
 
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.box import Box, yaw_of
+from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
 
@@ -64,7 +64,7 @@ class BorderFrame(ArrayValue):
 
 def part_axes(mesh: TriangleMesh) -> Mat3:
     """Returns the axes of a part's own box as columns: the object frame's, turned about Z where the part is turned."""
-    return rotation_matrix(vec3(0.0, 0.0, 1.0), yaw_of(mesh.vertices))
+    return rotation_matrix(vec3(0.0, 0.0, 1.0), mesh.yaw)
 
 
 def border_frame(mesh: TriangleMesh, axis: Axis) -> BorderFrame:

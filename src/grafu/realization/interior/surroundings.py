@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.interior.occupied import is_drawer
 from grafu.realization.scene import Scene
@@ -137,8 +137,8 @@ def _within(meshes: list[TriangleMesh], box: Box) -> TriangleMesh:
     near = []
     for mesh in meshes:
         if len(mesh.faces) and mesh.box.overlaps(box):
-            corners = mesh.triangles
-            keep = (corners.min(axis=1) <= box.high).all(axis=1) & (corners.max(axis=1) >= box.low).all(axis=1)
+            low, high = triangle_bounds(mesh.triangles)
+            keep = np.all((low <= box.high) & (high >= box.low), axis=1)
             near.append(mesh if keep.all() else mesh.with_faces(keep))
     return merge_meshes(near)
 
