@@ -34,3 +34,19 @@ def facts_in(folder: Path) -> dict[str, dict[str, Any]]:
     found = json.loads((folder / "facts.json").read_text())
     assert len({fact["step"] for fact in found}) == len(found)
     return {fact["step"]: fact for fact in found}
+
+
+def assert_refused(steps: dict[str, dict[str, Any]], expected: dict[str, str]) -> None:
+    """Exactly the expected steps are refused, each in words that say why, and change nothing."""
+    refused = {name: fact for name, fact in steps.items() if fact["result"] == "CANCELLED"}
+    assert refused.keys() == expected.keys()
+    for name, words in expected.items():
+        assert words in refused[name]["status"]
+        assert not refused[name]["changed"]
+
+
+def assert_taken_back(steps: dict[str, dict[str, Any]], least: int) -> None:
+    """Every step that is not refused, so many at least, is undone and done again."""
+    done = {name: fact["wrong"] for name, fact in steps.items() if fact["result"] == "FINISHED"}
+    assert len(done) >= least
+    assert {name: wrong for name, wrong in done.items() if wrong} == {}

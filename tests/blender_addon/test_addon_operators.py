@@ -8,7 +8,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from probe_runs import SAMPLES, facts_in, run_probe
+from probe_runs import SAMPLES, assert_refused, assert_taken_back, facts_in, run_probe
 
 from grafu.export.blend.exporter import find_interpreter
 from grafu.pipeline.report_schema import Report
@@ -52,17 +52,11 @@ def test_after_every_step_the_scene_is_what_the_library_makes_of_its_settings(st
 
 
 def test_every_step_is_taken_back_and_done_again(steps):
-    done = {name: fact for name, fact in steps.items() if fact["result"] == "FINISHED"}
-    assert len(done) >= 25
-    assert {name: fact["wrong"] for name, fact in done.items() if fact["wrong"]} == {}
+    assert_taken_back(steps, least=25)
 
 
 def test_what_does_not_fit_changes_nothing_and_says_why(steps):
-    refused = {name: fact for name, fact in steps.items() if fact["result"] == "CANCELLED"}
-    assert refused.keys() == REFUSED.keys()
-    for name, words in REFUSED.items():
-        assert words in refused[name]["status"]
-        assert not refused[name]["changed"]
+    assert_refused(steps, REFUSED)
 
 
 def test_the_result_stands_where_its_sources_stood(facts):
