@@ -49,6 +49,15 @@ def test_what_was_made_otherwise_is_refused(done: Job, options: dict[str, object
     assert said in result.why
 
 
+def test_a_model_that_was_mended_by_hand_is_done(done: Job, tmp_path: Path) -> None:
+    arguments = ["functionalize", str(done.input), "--out", str(tmp_path), "--formats", "urdf"]
+    assert main([*arguments, "--move", "door=right"]) == 0
+    result = run_job(Job(done.input, done.name, JobOptions(tmp_path, formats=("urdf",), resume=True)))
+
+    assert isinstance(result, Succeeded)
+    assert result.earlier
+
+
 def test_a_report_of_another_form_is_refused(done: Job, tmp_path: Path) -> None:
     (tmp_path / "cabinet").mkdir()
     (tmp_path / "cabinet" / "report.json").write_text("{}")

@@ -5,9 +5,10 @@ from math import pi
 import pytest
 
 from grafu.pipeline.deficiencies import DeficiencyKind
-from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord
+from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord
 from grafu.viewer.certainty import certainty_words
 from grafu.viewer.wording import (
+    added_parts,
     axis_words,
     counted,
     direction_words,
@@ -17,7 +18,7 @@ from grafu.viewer.wording import (
     still_lacking,
     verdict,
 )
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, PartLabel
 
 
 def test_the_verdict_says_all_four_things(made):
@@ -35,6 +36,14 @@ def test_a_report_of_nothing_says_so(made):
     assert verdict(empty) == "Nothing moves. Nothing was missing. Nothing was added. Nothing was skipped."
 
 
+def test_the_boards_of_a_drawers_box_are_one_box(made):
+    board = AddedRecord(part="a", category=PartLabel.MISC, why="", style="drawer box", link="drawer")
+    boards = tuple(board.model_copy(update={"part": name}) for name in "abcd")
+    top = AddedRecord(part="top", category=PartLabel.TOP_PANEL, why="", style="rectangle", link="body")
+
+    assert added_parts(made.report.model_copy(update={"added": (*boards, top)})) == ["1 top panel", "1 drawer box"]
+
+
 def test_what_was_built_is_no_longer_lacking(made):
     lacks = tuple(
         DeficiencyRecord(kind=kind, part=made.report.joints[0].part, detail="") for kind in (DeficiencyKind.HINGE,)
@@ -50,6 +59,7 @@ def test_numbers_are_read_in_degrees_and_centimetres():
     assert opening(JointType.REVOLUTE, pi / 2) == "90°"
     assert opening(JointType.PRISMATIC, 0.1234) == "12.3 cm"
     assert (counted(1, "hinge"), counted(3, "shelf"), counted(2, "rail")) == ("1 hinge", "3 shelves", "2 rails")
+    assert counted(2, "drawer box") == "2 drawer boxes"
     assert (listed([]), listed(["a"]), listed(["a", "b", "c"])) == ("", "a", "a, b and c")
 
 

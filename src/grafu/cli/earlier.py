@@ -1,15 +1,16 @@
 """What an earlier run wrote for an input, for one that goes on from there. It changes nothing."""
 
+import json
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Final
+from typing import Any, Final
 
 from pydantic import ValidationError
 
 from grafu.errors import ExportError
-from grafu.graph.serialize import dump_json
 from grafu.pipeline.report_schema import Report
-from grafu.pipeline.settings import Settings
+from grafu.pipeline.settings import Settings, settings_from_json
 
 _FILE_OF: Final = MappingProxyType(
     {"glb": "model.glb", "urdf": "model.urdf", "mjcf": "model.xml", "usd": "model.usdc", "usdz": "model.usdz"}
@@ -29,10 +30,8 @@ def earlier_report(folder: Path, settings: Settings | None, formats: tuple[str, 
     try:
         report = Report.model_validate_json((folder / "report.json").read_bytes())
     except ValidationError:
-        raise ExportError(
-            f"`{folder / 'report.json'}` is of another form: choose another --out, or --overwrite"
-        ) from None
-    if _settings_in(folder) != (dump_json(settings.to_json()) if settings else ""):
+        raise ExportError(f"`{folder}` holds a report of another form: {_INSTEAD}") from None
+    if _for_any_model(_settings_in(folder)) != _for_any_model(settings):
         raise ExportError(f"`{folder}` was made with other options: {_INSTEAD}")
     absent = [name for name in formats if name in _FILE_OF and not (folder / _FILE_OF[name]).exists()]
     if absent:
@@ -40,6 +39,14 @@ def earlier_report(folder: Path, settings: Settings | None, formats: tuple[str, 
     return report
 
 
-def _settings_in(folder: Path) -> str:
+def _settings_in(folder: Path) -> Settings | None:
     path = folder / "settings.json"
-    return path.read_text("utf-8") if path.is_file() else ""
+    return settings_from_json(json.loads(path.read_bytes())) if path.is_file() else None
+
+
+def _for_any_model(settings: Settings | None) -> dict[str, Any]:
+    """Returns the settings without what is decided of single parts: one model that was mended is done, too."""
+    if settings is None:
+        return {}
+    additions = replace(settings.additions, fronts={}, compartments={}, rejected=frozenset())
+    return replace(settings, labels={}, motions={}, joints={}, additions=additions).to_json()

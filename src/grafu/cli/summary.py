@@ -1,6 +1,6 @@
 """What `functionalize` prints when it is done: what opened, what did not, and where to look. It decides nothing."""
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from rich.table import Table
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.report_schema import JointRecord, Report
-from grafu.viewer.wording import counted, listed, opening
+from grafu.viewer.wording import added_parts, listed, opening
 from grafu.vocabulary import JointType
 
 _ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
@@ -37,8 +37,7 @@ def print_results(results: Sequence[JobResult]) -> None:
 
 def _said_of_one(report: Report) -> list[str]:
     """Returns what was added, and what was guessed of the input and can be stated instead."""
-    kinds = Counter(added.category.value for added in report.added)
-    added = [f"added: {listed(counted(count, kind) for kind, count in kinds.items())}"] if kinds else []
+    added = [f"added: {listed(added_parts(report))}"] if report.added else []
     return added + [f"guessed: {line}" for line in report.frame.assumed if "changes it" in line]
 
 

@@ -24,7 +24,8 @@ def opening(joint_type: JointType, value: float) -> str:
 
 def counted(count: int, what: str) -> str:
     """Returns `1 hinge`, `2 hinges`."""
-    plural = what if what.endswith("s") else f"{what[:-1]}ves" if what.endswith("lf") else f"{what}s"
+    endings = {"s": what, "lf": f"{what[:-1]}ves", "x": f"{what}es"}
+    plural = next((plural for ending, plural in endings.items() if what.endswith(ending)), f"{what}s")
     return f"{count} {what if count == 1 else plural}"
 
 
@@ -37,6 +38,14 @@ def listed(words: Iterable[str]) -> str:
 def verdict(report: Report) -> str:
     """Returns one line: what moves, what was missing, what was added, what was skipped."""
     return " ".join([_moves(report), _lacked(report), _added(report), _skipped(report)])
+
+
+def added_parts(report: Report) -> list[str]:
+    """Returns how many parts of each category were added; the boards of a drawer's box are one box."""
+    boxes = {added.link for added in report.added if added.style == DeficiencyKind.DRAWER_BOX}
+    kinds = Counter(added.category for added in report.added if added.style != DeficiencyKind.DRAWER_BOX)
+    said = [counted(count, kind.value) for kind, count in kinds.items()]
+    return said + ([counted(len(boxes), DeficiencyKind.DRAWER_BOX.value)] if boxes else [])
 
 
 def still_lacking(report: Report) -> tuple[DeficiencyRecord, ...]:
@@ -105,11 +114,10 @@ def _lacked_words(kind: DeficiencyKind, count: int) -> str:
 
 
 def _added(report: Report) -> str:
-    kinds = Counter(added.category for added in report.added)
     hinges = sum(joint.count for joint in report.joints if joint.type is JointType.REVOLUTE)
     rails = sum(joint.count for joint in report.joints) - hinges
     said = [counted(count, what) for count, what in ((hinges, "hinge"), (rails, "rail")) if count]
-    said += [counted(count, kind.value) for kind, count in kinds.items()]
+    said += added_parts(report)
     return f"Added: {listed(said)}." if said else "Nothing was added."
 
 
