@@ -80,10 +80,12 @@ def _built(mesh: TriangleMesh) -> _Model:
     faces = len(mesh.faces)
     stand_in = repeated_faces(mesh) if faces > _MANY else None
     kept = np.arange(faces) if stand_in is None else np.unique(stand_in)
-    used, corners = np.unique(mesh.faces[kept], return_inverse=True)  # FCL takes one vertex after the other: few
+    corners, is_used = mesh.faces[kept], np.zeros(len(mesh.vertices), dtype=bool)
+    is_used[corners] = True  # FCL takes one vertex after the other: only those that it needs
+    number = np.cumsum(is_used) - 1
     bvh = fcl.BVHModel()
-    bvh.beginModel(len(used), len(kept))
-    bvh.addSubModel(mesh.vertices[used], corners.reshape(-1, 3).tolist())
+    bvh.beginModel(int(is_used.sum()), len(kept))
+    bvh.addSubModel(mesh.vertices[is_used], number[corners].tolist())
     bvh.endModel()
     return _Model(bvh, kept, stand_in)
 
