@@ -101,7 +101,7 @@ def test_two_hundred_parts_take_little_time():
     parts = {f"p{k}": block([k % 20, k // 20, 0], [k % 20 + 1, k // 20 + 1, 1]) for k in range(200)}
     made = asset(**parts)
     parse_graph(made)
-    start = time.perf_counter()
+    start = time.process_time()
     graph = parse_graph(made)
-    assert time.perf_counter() - start < 1.0  # 0.2 s where nothing else runs
+    assert time.process_time() - start < 1.0  # 0.2 s
     assert len(graph.edges) == 19 * 10 + 20 * 9 + 2 * 19 * 9
