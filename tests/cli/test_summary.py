@@ -41,6 +41,21 @@ def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys
     assert "part_1 and part_2" in said
 
 
+def test_what_somebody_stopped_is_told_as_asked_and_of_many_it_is_nothing_to_look_at(
+    topless: Succeeded, capsys: pytest.CaptureFixture[str]
+) -> None:
+    skip = SkippedRecord(request="door_9", reason=SkipReason.REJECTED, detail="it was decided")
+    stopped = replace(topless, report=topless.report.model_copy(update={"skipped": (skip,)}))
+    print_results([stopped])
+    row = next(line for line in capsys.readouterr().out.splitlines() if "door_9" in line)
+    assert row.split() == ["door_9", "still", "as", "asked"]
+
+    print_results([stopped] * 25)
+    said = capsys.readouterr().out
+    assert "door_9" not in said
+    assert "0 skipped in 25 inputs" in said
+
+
 def test_of_many_inputs_only_those_to_look_at_have_a_row(
     topless: Succeeded, capsys: pytest.CaptureFixture[str]
 ) -> None:

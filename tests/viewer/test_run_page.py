@@ -4,6 +4,8 @@ import pytest
 from made_models import ATTACK
 from page_reader import PageReader
 
+from grafu.pipeline.report_schema import SkippedRecord
+from grafu.realization.report import SkipReason
 from grafu.viewer.histogram import binned
 from grafu.viewer.run_page import run_page
 from grafu.viewer.run_rows import RunEntry, functionalized_run
@@ -110,6 +112,21 @@ def test_reports_become_rows(made):
     assert "no mesh" in str(run.tables[0].worst_first[0].cells[1])
     assert ("1", "failed") in {(f.value, f.what) for f in run.figures}
     run_page(run)
+
+
+def test_what_somebody_stopped_is_no_fault(made):
+    first, *rest = made.report.joints
+    skips = {why: SkippedRecord(request=first.part, reason=why, detail="") for why in SkipReason}
+    entries = [
+        RunEntry(why, made.report.model_copy(update={"joints": tuple(rest), "skipped": (skip,)}))
+        for why, skip in skips.items()
+    ]
+    rows = {row.cells[0]: row for row in functionalized_run("Run", entries).tables[0].rows}
+    figures = {figure.what: figure.value for figure in functionalized_run("Run", entries).figures}
+
+    assert {name for name, row in rows.items() if not row.flagged} == {SkipReason.REJECTED}
+    assert rows[SkipReason.REJECTED].cells[1] == ""
+    assert figures["skipped"] == str(len(SkipReason) - 1)
 
 
 def test_a_run_without_rows_is_a_page():

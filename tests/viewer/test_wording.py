@@ -5,7 +5,8 @@ from math import pi
 import pytest
 
 from grafu.pipeline.deficiencies import DeficiencyKind
-from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord
+from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
+from grafu.realization.report import SkipReason
 from grafu.viewer.certainty import certainty_words
 from grafu.viewer.wording import (
     added_parts,
@@ -53,6 +54,21 @@ def test_what_was_built_is_no_longer_lacking(made):
 
     assert still_lacking(report) == (top,)
     assert still_lacking(report.model_copy(update={"joints": ()})) == (*lacks, top)
+
+
+def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
+    door = made.report.joints[0].part
+    lack = DeficiencyRecord(kind=DeficiencyKind.HINGE, part=door, detail="")
+    skips = {reason: SkippedRecord(request=door, reason=reason, detail="") for reason in SkipReason}
+    changes = {"joints": made.report.joints[1:], "deficiencies": (lack,)}
+
+    def said(reason):
+        return made.report.model_copy(update={**changes, "skipped": (skips[reason],)})
+
+    assert verdict(said(SkipReason.REJECTED)).endswith(f"Nothing was skipped. As asked, {door} stands still.")
+    assert still_lacking(said(SkipReason.REJECTED)) == ()
+    assert verdict(said(SkipReason.BLOCKED)).endswith(f"Skipped: {door}.")
+    assert still_lacking(said(SkipReason.BLOCKED)) == (lack,)
 
 
 def test_numbers_are_read_in_degrees_and_centimetres():

@@ -10,7 +10,7 @@ from rich.table import Table
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.report_schema import JointRecord, Report
-from grafu.viewer.wording import added_parts, listed, opening
+from grafu.viewer.wording import added_parts, listed, not_built, opening, stopped
 from grafu.vocabulary import JointType
 
 _ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
@@ -66,13 +66,15 @@ def _joints_table(report: Report) -> Table:
         table.add_row(requests[0], "skipped", "", "", escape(why))
         if len(requests) > 1:
             table.add_row("", "", "", "", escape(f"so are {listed(requests[1:])}"))
+    for part in stopped(report):
+        table.add_row(part, "still", "", "", "as asked")
     return table
 
 
 def _skipped(report: Report) -> dict[str, list[str]]:
-    """Returns what was skipped by why it was."""
+    """Returns what could not be built by why it was."""
     by_reason = defaultdict[str, list[str]](list)
-    for skip in report.skipped:
+    for skip in not_built(report):
         by_reason[f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason].append(skip.request)
     return by_reason
 
@@ -94,13 +96,13 @@ def _is_worth_a_row(result: JobResult) -> bool:
 def _counts(result: Succeeded) -> tuple[str, str, str, str]:
     types = [joint.type for joint in result.report.joints]
     turning, sliding = types.count(JointType.REVOLUTE), types.count(JointType.PRISMATIC)
-    return str(turning), str(sliding), str(len(result.report.skipped)), f"{result.seconds:.1f}"
+    return str(turning), str(sliding), str(len(not_built(result.report))), f"{result.seconds:.1f}"
 
 
 def _total(results: Sequence[JobResult]) -> str:
     done = [result for result in results if isinstance(result, Succeeded)]
     joints = sum(len(result.report.joints) for result in done)
-    skipped = sum(len(result.report.skipped) for result in done)
+    skipped = sum(len(not_built(result.report)) for result in done)
     failed = len(results) - len(done)
     ending = f"; {failed} of {len(results)} inputs failed" if failed else ""
     earlier = sum(result.earlier for result in done)
@@ -121,6 +123,6 @@ def _joint_notes(joint: JointRecord) -> list[str]:
 def _report_notes(report: Report) -> list[str]:
     restricted = [joint.part for joint in report.joints if joint.restricted]
     touching = [joint.part for joint in report.joints if joint.collision_share > 0]
-    notes = [f"{skip.request} skipped ({skip.reason})" for skip in report.skipped]
+    notes = [f"{skip.request} skipped ({skip.reason})" for skip in not_built(report)]
     notes += [f"restricted: {', '.join(restricted)}"] if restricted else []
     return notes + ([f"touching: {', '.join(touching)}"] if touching else [])

@@ -6,7 +6,7 @@ from typing import final
 
 from grafu.pipeline.report_schema import JointRecord, Report
 from grafu.viewer.run_table import Cell, Column, Figure, Run, RunRow, RunTable
-from grafu.viewer.wording import listed, still_lacking
+from grafu.viewer.wording import listed, not_built, still_lacking
 from grafu.vocabulary import JointType
 
 _COLUMNS = (
@@ -14,7 +14,7 @@ _COLUMNS = (
     Column("to look at"),
     Column("doors", "number", about="joints that turn"),
     Column("drawers", "number", about="joints that slide"),
-    Column("skipped", "number", about="requests that were not built"),
+    Column("skipped", "number", about="requests that could not be built"),
     Column("restricted", "number", about="joints that open less than 70 % of what was asked for"),
     Column("collision", "percent", histogram=True, about="the worst joint's share of poses that cut into something"),
     Column("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
@@ -55,14 +55,14 @@ def _row(entry: RunEntry) -> RunRow:
     restricted, loose = sum(joint.restricted for joint in joints), sum(joint.grasp == "none" for joint in joints)
     collision = max((joint.collision_share for joint in joints), default=None)
     gap = max((1000 * joint.largest_gap for joint in joints), default=None)
-    badness = _SKIPPED * len(report.skipped) + _COLLIDES * sum(joint.collision_share for joint in joints)
+    badness = _SKIPPED * len(not_built(report)) + _COLLIDES * sum(joint.collision_share for joint in joints)
     badness += _RESTRICTED * restricted + _NO_GRASP * loose
     cells: tuple[Cell, ...] = (
         entry.name,
         _to_look_at(report),
         turning,
         len(joints) - turning,
-        len(report.skipped),
+        len(not_built(report)),
         restricted,
         collision,
         gap,
@@ -77,7 +77,7 @@ def _to_look_at(report: Report) -> str:
     def named(what: str, joints: list[JointRecord]) -> list[str]:
         return [f"{what}: {listed(joint.part for joint in joints)}"] if joints else []
 
-    said = [f"skipped {skip.request} ({skip.reason})" for skip in report.skipped]
+    said = [f"skipped {skip.request} ({skip.reason})" for skip in not_built(report)]
     said += named("collides", [j for j in report.joints if j.collision_share > 0])
     said += named("restricted", [j for j in report.joints if j.restricted])
     said += named("no grasp", [j for j in report.joints if j.grasp == "none"])
@@ -89,7 +89,7 @@ def _to_look_at(report: Report) -> str:
 def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
     reports = [entry.report for entry in entries if entry.report is not None]
     failed, joints = len(entries) - len(reports), [joint for report in reports for joint in report.joints]
-    skipped = sum(len(report.skipped) for report in reports)
+    skipped = sum(len(not_built(report)) for report in reports)
     colliding, restricted = sum(j.collision_share > 0 for j in joints), sum(j.restricted for j in joints)
     return [
         Figure(str(len(reports)), "model done" if len(reports) == 1 else "models done"),

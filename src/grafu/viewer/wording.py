@@ -5,7 +5,8 @@ from collections.abc import Iterable
 from math import acos, degrees
 
 from grafu.pipeline.deficiencies import DeficiencyKind
-from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
+from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, SkippedRecord, Vector
+from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType, PartLabel
 
 _MECHANISMS = (DeficiencyKind.HINGE, DeficiencyKind.RAIL, DeficiencyKind.JOINT)
@@ -49,8 +50,19 @@ def added_parts(report: Report) -> list[str]:
 
 
 def still_lacking(report: Report) -> tuple[DeficiencyRecord, ...]:
-    """Returns those of the deficiencies that the result still has."""
-    return tuple(lack for lack in report.deficiencies if not _mended(lack, report))
+    """Returns those of the deficiencies that the result still has; a part that was stopped lacks nothing."""
+    still = stopped(report)
+    return tuple(lack for lack in report.deficiencies if lack.part not in still and not _mended(lack, report))
+
+
+def not_built(report: Report) -> tuple[SkippedRecord, ...]:
+    """Returns what was asked for and could not be built; what somebody stopped is no fault."""
+    return tuple(skip for skip in report.skipped if skip.reason is not SkipReason.REJECTED)
+
+
+def stopped(report: Report) -> tuple[str, ...]:
+    """Returns the parts that stand still because somebody said so."""
+    return tuple(skip.request for skip in report.skipped if skip.reason is SkipReason.REJECTED)
 
 
 def direction_words(direction: Vector) -> str:
@@ -122,7 +134,9 @@ def _added(report: Report) -> str:
 
 
 def _skipped(report: Report) -> str:
-    return f"Skipped: {listed(skip.request for skip in report.skipped)}." if report.skipped else "Nothing was skipped."
+    failed, still = not_built(report), stopped(report)
+    said = f"Skipped: {listed(skip.request for skip in failed)}." if failed else "Nothing was skipped."
+    return f"{said} As asked, {listed(still)} {'stands' if len(still) == 1 else 'stand'} still." if still else said
 
 
 def _mended(lack: DeficiencyRecord, report: Report) -> bool:
