@@ -8,6 +8,7 @@ from grafu.asset.part import Asset
 from grafu.export.graph_picture import draw_graph, drawing_svg
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import Report
+from grafu.viewer.corrections import LEAD, corrections
 from grafu.viewer.markup import Html, joined, json_block, tag
 from grafu.viewer.pictures import Stills, stills_row
 from grafu.viewer.report_tables import added_table, joints_table, lacks_table, lines, skipped_table, timing_words
@@ -18,7 +19,7 @@ from grafu.viewer.wording import opening, size_words, verdict
 _STYLES = ("page.css", "model.css")
 _SCRIPTS = (
     "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js", "gestures.js",
-    "overlay.js", "controls.js", "model.js",
+    "overlay.js", "controls.js", "copy.js", "model.js",
 )  # fmt: skip
 _NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
 _HINT = (
@@ -35,7 +36,7 @@ def model_page(
     body = joined([
         tag("header", tag("h1", report.input.name), tag("p", verdict(report), class_="verdict"), _facts(asset, report)),
         tag("main", _stage(articulated), section("Before and after", stills_row(stills, report.input.name)),
-            *_report_sections(report, completion)),
+            *_report_sections(report, completion, articulated)),
         tag("footer", f"grafu {report.version}"),
         json_block("scene", scene.tables),
         tag("script", Html(scene.packed), type="text/plain", id="geometry"),
@@ -93,9 +94,10 @@ def _switch(key: str, word: str, on: bool) -> Html:
     return tag("label", box, " ", word)
 
 
-def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
+def _report_sections(report: Report, completion: GraphCompletion, articulated: ArticulatedObject) -> list[Html]:
+    ways = corrections(report, articulated)
     return [
-        section("Joints", joints_table(report, completion), name="joints"),
+        section("Joints", joints_table(report, completion, ways), lead=LEAD if ways else "", name="joints"),
         section("What was missing", lacks_table(report)),
         section("What was added", added_table(report)),
         section("What was skipped", skipped_table(report)),

@@ -1,11 +1,13 @@
 """The tables of a model's page, drawn from its report: joints, what was added, skipped, missing. It decides nothing."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.viewer.certainty import certainty_words
+from grafu.viewer.corrections import correction_buttons
 from grafu.viewer.markup import Html, joined, tag
 from grafu.viewer.wording import axis_words, counted, listed, moved_words, opening, still_lacking
 from grafu.vocabulary import JointType
@@ -25,10 +27,18 @@ def plain_rows(columns: Sequence[str], rows: Sequence[Sequence[str]], label: str
     return tag("div", table, class_="scroll", tabindex=0, role="region", aria_label=label)
 
 
-def joints_table(report: Report, completion: GraphCompletion) -> Html:
-    """Returns one row per joint."""
-    columns = ("part", "moves", "mechanism", "axis", "measured", "how sure", "notes")
+def joints_table(
+    report: Report, completion: GraphCompletion, corrections: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+) -> Html:
+    """Returns one row per joint; `corrections` are the options that set it right, by part (none: no column)."""
+    columns: tuple[str, ...] = ("part", "moves", "mechanism", "axis", "measured", "how sure", "notes")
     rows = [_joint_row(joint, completion) for joint in report.joints]
+    if corrections:
+        columns = (*columns, "if it is wrong")
+        rows = [
+            (*row, correction_buttons(corrections.get(joint.part, ())))
+            for row, joint in zip(rows, report.joints, strict=True)
+        ]
     return plain_rows(columns, rows, "Joints") if rows else tag("p", "Nothing moves.", class_="none")
 
 

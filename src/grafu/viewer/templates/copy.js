@@ -1,0 +1,20 @@
+// Buttons that copy their line, for the command that made the page. They need no 3D view.
+
+const SAID = 1500; // milliseconds for which a button says that it copied
+
+document.querySelectorAll("[data-copy]").forEach((button) =>
+  button.addEventListener("click", async () => {
+    if (!(await copied(button))) return;
+    button.toggleAttribute("data-copied", true);
+    setTimeout(() => button.toggleAttribute("data-copied", false), SAID);
+  }));
+
+async function copied(button) {
+  try {
+    await navigator.clipboard.writeText(button.dataset.copy);
+    return true;
+  } catch {
+    getSelection().selectAllChildren(button); // a page from a disk may not reach the clipboard in every browser
+    return document.execCommand("copy");
+  }
+}
