@@ -23,7 +23,9 @@ def test_settings_are_followed_and_the_same_file_gives_the_same_again(tmp_path: 
     assert made[0] == made[1]
 
 
-@pytest.mark.parametrize("option", [["--no-top"], ["--motion", "rule"], ["--height", "1"], ["--no-trim"]])
+@pytest.mark.parametrize(
+    "option", [["--no-top"], ["--motion", "rule"], ["--height", "1"], ["--no-trim"], ["--parts", "loose"]]
+)
 def test_options_that_settings_hold_are_refused_beside_them(tmp_path, capsys, option):
     (tmp_path / "settings.json").write_text(json.dumps(Settings().to_json()))
     model = str(write_cabinet(tmp_path))

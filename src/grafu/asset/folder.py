@@ -4,16 +4,25 @@ Sweet Home 3D names what moves in its OBJ groups: `sweethome3d_opening_on_hinge_
 of `sweethome3d_hinge_1_...`; `..._on_rail_...` slides along a rail. Those groups become annotated joints.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from grafu.asset.drafts import PartDraft, parts_of_drafts
+from grafu.asset.loose import shell_count
 from grafu.asset.mesh_files import MESH_SUFFIXES, MeshFile, check_faces, read_mesh_file
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.sweethome import is_sweethome, read_sweethome
 from grafu.errors import UnsegmentedAsset
+from grafu.geometry.appearance import Surface
 
-DIVIDE = "divide it first, an object for each part (Blender: Edit Mode, P, By Loose Parts), and export it as GLB"
+_DIVIDE = "divide it first, an object for each part (Blender: Edit Mode, P, By Loose Parts), and export it as GLB"
+
+
+def divide(surfaces: Sequence[Surface]) -> str:
+    """Returns what to do about one mesh where parts were expected."""
+    shells = shell_count(surfaces)
+    return f"--parts loose makes parts of its {shells} shells, or {_DIVIDE}" if shells > 1 else _DIVIDE
 
 
 def mesh_files_in(folder: Path) -> list[Path]:
@@ -67,7 +76,7 @@ def read_mesh(path: Path, options: LoadOptions) -> Reading:
         return read_sweethome(path, found)
     filled = [piece for piece in found.pieces if piece.surfaces]
     check_parts(len(filled), path, options.limits)
-    if len(filled) == 1:
+    if len(filled) == 1 and options.parts != "loose":
         raise UnsegmentedAsset(_one_piece(path, found))
     drafts = [PartDraft(piece.name or path.stem, piece.surfaces, file=path.name) for piece in filled]
     return Reading("mesh file", parts_of_drafts(drafts), _convention([path]), notes=found.notes)
@@ -78,7 +87,7 @@ def _one_piece(path: Path, found: MeshFile) -> str:
     faces = sum(len(s.mesh.faces) for s in found.surfaces)
     return (
         f"{path} is {kind} of {faces} faces: expected parts (groups in an OBJ, nodes in a GLB, files in a folder); "
-        + DIVIDE
+        + divide(found.surfaces)
     )
 
 

@@ -12,10 +12,11 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.clean import cleaned
-from grafu.asset.folder import DIVIDE, mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.folder import divide, mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
 from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
+from grafu.asset.loose import loose_parts
 from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import AnnotatedJoint, Asset, Frame, Part
@@ -80,8 +81,9 @@ def settled(reading: Reading, name: str, path: Path, options: LoadOptions = Load
         AssetError: if an option contradicts it.
     """
     reading = cleaned(reading)
+    reading = _taken_apart(reading) if options.parts == "loose" else reading
     _check_parts(reading, path, options)
-    reading = reading if reading.grouped else _joined(reading)
+    reading = reading if reading.grouped or options.parts == "loose" else _joined(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
     parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))
@@ -163,7 +165,18 @@ def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
         raise UnreadableAsset(f"{path} holds no part with faces{lost}: expected {_EXPECTED}")
     if count == 1:
         only = f"`{reading.parts[0].source.name}`"
-        raise UnsegmentedAsset(f"{path} is one part, {only}{lost}: expected several; {DIVIDE}")
+        raise UnsegmentedAsset(
+            f"{path} is one part, {only}{lost}: expected several; {divide(reading.parts[0].surfaces)}"
+        )
+
+
+def _taken_apart(reading: Reading) -> Reading:
+    """Returns the reading with shells as parts; what the input states to move, to ride or to carry stays whole."""
+    held = {joint.part for joint in reading.joints}
+    held |= {part for p in reading.parts if p.rides_on for part in (p.id, p.rides_on)}
+    parts = loose_parts(reading.parts, held)
+    note = f"each connected shell is a part (--parts loose): {len(reading.parts)} became {len(parts)}"
+    return replace(reading, parts=parts, notes=(*reading.notes, note))
 
 
 def _joined(reading: Reading) -> Reading:

@@ -9,6 +9,7 @@ from grafu.errors import AssetError, AssetTooLarge
 DIRECTIONS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 
 Labelling = Literal["input", "none"]
+Division = Literal["input", "loose"]
 
 
 @final
@@ -36,6 +37,7 @@ class LoadOptions:
 
     `up` and `front` are directions in the input's own coordinates, like `+Y`; `scale` is metres per input unit;
     `height` is the metric height of the whole object and wins over `scale`. `labels="none"` masks every label.
+    `parts="loose"` makes each connected shell of a mesh a part (see `loose_parts`), not each object of the input.
 
     Raises:
         AssetError: if a direction is not an axis, up and front lie on one axis, or a size is not positive.
@@ -46,6 +48,7 @@ class LoadOptions:
     scale: float | None = None
     height: float | None = None
     labels: Labelling = "input"
+    parts: Division = "input"
     limits: Limits = Limits()
 
     def __post_init__(self) -> None:

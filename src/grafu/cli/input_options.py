@@ -7,16 +7,23 @@ from pathlib import Path
 from grafu.asset.options import LoadOptions
 
 LABELS = ("input", "none")
+DIVISIONS = ("input", "loose")
 
 
 def add_input_options(parser: argparse.ArgumentParser) -> None:
-    """Adds --labels, --up, --front, --scale and --height."""
+    """Adds --labels, --parts, --up, --front, --scale and --height."""
     group = parser.add_argument_group("how the input is read (by default it is detected, and the report says how)")
     group.add_argument(
         "--labels",
         choices=LABELS,
         default="input",
         help="take part categories from the input's names, or ignore them (default: input)",
+    )
+    group.add_argument(
+        "--parts",
+        choices=DIVISIONS,
+        default="input",
+        help="take the input's objects as parts, or each connected shell of a mesh: for welded models (default: input)",
     )
     group.add_argument("--up", metavar="AXIS", help="the input's axis that points up, say +Z")
     group.add_argument("--front", metavar="AXIS", help="the input's axis that points out of the front, say -Y")
@@ -33,7 +40,12 @@ def load_options(options: argparse.Namespace) -> LoadOptions:
         AssetError: if a direction is not an axis or a size is not positive.
     """
     return LoadOptions(
-        up=options.up, front=options.front, scale=options.scale, height=options.height, labels=options.labels
+        up=options.up,
+        front=options.front,
+        scale=options.scale,
+        height=options.height,
+        labels=options.labels,
+        parts=options.parts,
     )
 
 

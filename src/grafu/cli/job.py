@@ -245,6 +245,6 @@ def settings_of(options: JobOptions) -> "Settings | None":
     if options.settings is not None or options.motion.source.is_foreign:
         return options.settings
     load = options.load
-    reading = Reading(load.up, load.front, load.scale, load.height, load.labels)
+    reading = Reading(load.up, load.front, load.scale, load.height, load.labels, load.parts)
     additions = options.additions or AdditionConfig()
     return Settings(options.motion.source, reading, options.trim, additions=additions)

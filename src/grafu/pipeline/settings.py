@@ -10,7 +10,7 @@ from typing import Any, final
 
 from pydantic import TypeAdapter, ValidationError
 
-from grafu.asset.options import Labelling, LoadOptions
+from grafu.asset.options import Division, Labelling, LoadOptions
 from grafu.errors import AssetError, OptionError
 from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
 from grafu.pipeline.functionalize import PipelineConfig
@@ -35,6 +35,7 @@ class Reading:
     scale: float | None = None
     height: float | None = None
     labels: Labelling = "input"
+    parts: Division = "input"
 
     @property
     def options(self) -> LoadOptions:
@@ -43,7 +44,7 @@ class Reading:
         Raises:
             AssetError: if a direction is not an axis or a size is not positive.
         """
-        return LoadOptions(self.up, self.front, self.scale, self.height, self.labels)
+        return LoadOptions(self.up, self.front, self.scale, self.height, self.labels, self.parts)
 
 
 @final

@@ -1,0 +1,84 @@
+"""One mesh of many bodies gives its shells back, wherever they touch and however the faces are drawn."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.shells import shell_numbers
+from strategies import cabinet_specs, made
+
+UNIT = Box(np.zeros(3), np.ones(3))
+
+
+def boxes_of(meshes):
+    rows = [np.round([*mesh.box.low, *mesh.box.high], 6) + 0.0 for mesh in meshes]
+    return sorted(map(tuple, rows))
+
+
+def shells_of(mesh):
+    numbers = shell_numbers(mesh)
+    return [mesh.with_faces(numbers == k) for k in range(int(numbers.max()) + 1)]
+
+
+def soup(mesh):
+    """The mesh as an STL holds it: each face with three vertices of its own."""
+    return TriangleMesh(mesh.triangles.reshape(-1, 3), np.arange(3 * len(mesh.faces)).reshape(-1, 3))
+
+
+def cube(x, y=0.0, z=0.0):
+    return TriangleMesh.box_mesh(UNIT).translated(np.array([x, y, z], dtype=float))
+
+
+@pytest.mark.parametrize(
+    "bodies",
+    [
+        [cube(0)],
+        [cube(0), cube(3)],
+        [cube(0), cube(1, 1)],  # an edge in common
+        [cube(0), cube(1, 1, 1)],  # a corner
+        [cube(0), cube(1)],  # a face
+        [cube(0), cube(1), cube(2), cube(1, 0, 1)],
+        [cube(0), TriangleMesh(cube(1).vertices, cube(1).faces[:, [1, 2, 0]])],
+    ],
+)
+def test_bodies_that_touch_are_shells_of_their_own(bodies):
+    assert boxes_of(shells_of(soup(merge_meshes(bodies)))) == boxes_of(bodies)
+
+
+def test_the_diagonals_of_a_face_in_common_need_not_agree():
+    turned = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    for base in (np.eye(3), turned, turned @ turned):
+        other = TriangleMesh((cube(0).vertices - 0.5) @ base.T + [1.5, 0.5, 0.5], cube(0).faces)
+        assert boxes_of(shells_of(soup(merge_meshes([cube(0), other])))) == boxes_of([cube(0), other])
+
+
+def test_faces_drawn_twice_count_once_and_sheets_stay_sheets():
+    doubled = merge_meshes([cube(0), TriangleMesh(cube(0).vertices, cube(0).faces[:, ::-1])])
+    sheet = TriangleMesh(np.array([[5.0, 0, 0], [6, 0, 0], [6, 1, 0], [5, 1, 0]]), np.array([[0, 1, 2], [0, 2, 3]]))
+
+    assert len(shells_of(doubled)) == 1
+    assert len(shells_of(soup(merge_meshes([sheet, doubled])))) == 2
+
+
+def test_nothing_has_no_shells():
+    assert len(shell_numbers(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64)))) == 0
+
+
+@settings(max_examples=15, deadline=None)
+@given(cabinet_specs, st.sampled_from([1e-3, 1.0, 1e3]), st.randoms(use_true_random=False))
+def test_made_furniture_falls_into_what_it_was_welded_from(spec, unit, random):
+    parts = [soup(part.mesh.transformed(np.diag([unit, unit, unit, 1.0]))) for part in made(spec).parts]
+    random.shuffle(parts)
+    welded = merge_meshes(parts)
+    faces = list(range(len(welded.faces)))
+    random.shuffle(faces)
+    found = shells_of(TriangleMesh(welded.vertices, welded.faces[faces]))
+    expected = [shell for part in parts for shell in shells_of(part)]
+
+    def scaled(meshes):
+        return [mesh.transformed(np.diag([1 / unit, 1 / unit, 1 / unit, 1.0])) for mesh in meshes]
+
+    assert boxes_of(scaled(found)) == boxes_of(scaled(expected))
