@@ -99,8 +99,10 @@ def run(options: argparse.Namespace) -> int:
     """
     from grafu.cli.run_page import write_index
     from grafu.cli.summary import print_place, print_results
+    from grafu.export.remains import clear_remains
 
     jobs = _jobs(options)
+    clear_remains(options.out)
     results = [_run_alone(jobs[0])] if len(jobs) == 1 else _run_several(jobs, options.jobs or os.cpu_count() or 1)
     print_results(results)
     if len(results) > 1 and not options.no_page and (page := write_index(results, options.out)):

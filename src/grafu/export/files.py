@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import final
-from uuid import uuid4
 
 from grafu.errors import ExportError
+from grafu.export.remains import hidden_name
 
 
 @final
@@ -71,8 +71,7 @@ def write_files(files: ExportFiles, folder: Path, overwrite: bool = False) -> No
     """
     folder = Path(os.path.abspath(folder)).resolve()
     _require_free(files, folder, overwrite)
-    mark = uuid4().hex[:8]
-    fresh, old = (folder.with_name(f".{folder.name}.{mark}.{end}") for end in ("new", "old"))
+    fresh, old = hidden_name(folder, "new"), hidden_name(folder, "old")
     with _said_plainly(folder), _parents_made(folder.parent):
         try:
             _write_all(files, fresh)

@@ -4,9 +4,9 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from uuid import uuid4
 
 from grafu.errors import ExportError
+from grafu.export.remains import hidden_name
 
 
 @contextmanager
@@ -18,7 +18,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     Raises:
         ExportError: if it cannot be written.
     """
-    fresh = path.with_name(f".{path.name}.{uuid4().hex[:8]}.new")
+    fresh = hidden_name(path, "new")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield fresh
