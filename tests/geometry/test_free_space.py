@@ -4,7 +4,7 @@ from itertools import combinations, product
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from grafu.geometry.arrays import vec3
@@ -93,6 +93,9 @@ def test_a_block_of_cells_is_one_box() -> None:
     st.lists(st.floats(-1.0, 1.0).map(lambda x: round(x, 3)), min_size=9, max_size=9),
     st.lists(st.floats(0.0, 1.0), min_size=2, max_size=2),
 )
+@example([0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.5, 0.0], [0.0, 0.5])  # its corners lie on one line
+@example([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.5, 0.01, 0.0], [0.1, 0.9])  # and nearly so
+@settings(max_examples=300)
 def test_no_point_of_a_triangle_is_far_from_those_on_it(corners, place) -> None:
     triangle = np.array(corners).reshape(1, 3, 3)
     u, v = sorted(place)

@@ -129,7 +129,9 @@ def points_on(triangles: Float[np.ndarray, "_ 3 3"], spacing: float) -> SomePoin
     swap = (legs[1] > legs[0] * (1 + 1e-9))[:, None]
     b, c = np.where(swap, c, b), np.where(swap, b, c)  # the same side in both halves of a rectangle
     height = np.linalg.norm(np.cross(b - a, c - a), axis=1) / np.maximum(np.maximum(*legs), 1e-300)
-    lines = np.maximum(np.ceil(height / spacing - 1e-9), 1.0).astype(np.int64)
+    blunt = ((b - a) * (c - a)).sum(axis=1) < 0.0  # the last corner lies beyond the rows' ends, however low
+    reach = np.where(blunt, np.minimum(*legs), height)
+    lines = np.maximum(np.ceil(reach / spacing - 1e-9), 1.0).astype(np.int64)
     return np.concatenate([triangles.reshape(-1, 3), _in_rows(a, b - a, c - a, lines, spacing)])
 
 
