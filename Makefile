@@ -4,7 +4,9 @@
 #   make test    install the development tools, and run the tests
 #   make check   lint, formatting, types, layers, pages drawn from code
 #   make format  mend formatting and what lint can mend
+#   make fuzz    damaged and hostile files through every reader: COUNT cases of SEED, or one again: SEED=15 CASE=1234
 #   make bench   speed, memory, growth
+#   make figures  every figure that docs/ states, printed anew; FIGURES="--list" says which, --only, --page, --write
 #   make blender   build the Blender extension: a zip in dist/
 #   make clean   remove what these made
 
@@ -12,7 +14,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 SAMPLE := samples/sideboard.glb
 
-.PHONY: demo train-deps test check format bench blender clean help
+.PHONY: demo train-deps test check format fuzz bench figures blender clean help
 .DEFAULT_GOAL := help
 
 help:
@@ -55,18 +57,28 @@ test: .venv/installed-dev .venv/installed-train .venv/installed-validator
 	$(BIN)/pytest -n auto
 
 check: .venv/installed-dev .venv/installed-train
-	$(BIN)/ruff check src tests scripts blender_addon
-	$(BIN)/ruff format --check src tests scripts blender_addon
+	$(BIN)/ruff check src tests scripts examples blender_addon
+	$(BIN)/ruff format --check src tests scripts examples blender_addon
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python scripts/docs.py --check
 
 format: .venv/installed-dev
-	$(BIN)/ruff check --fix src tests scripts blender_addon
-	$(BIN)/ruff format src tests scripts blender_addon
+	$(BIN)/ruff check --fix src tests scripts examples blender_addon
+	$(BIN)/ruff format src tests scripts examples blender_addon
+
+COUNT ?= 500
+SEED ?= 15
+CASE ?=
+fuzz: .venv/installed-dev
+	PYTHONPATH=tests$(if $(PYTHONPATH),:$(PYTHONPATH)) $(BIN)/python -m fuzz --seed $(SEED) $(if $(CASE),--case $(CASE),--count $(COUNT))
 
 bench: .venv/installed-dev
 	$(BIN)/python scripts/bench.py
+
+# Hours, all of them: FIGURES chooses. Real models are those of GRAFU_MODELS; stopped, it goes on where it was.
+figures: .venv/installed-dev .venv/installed-train
+	$(BIN)/python scripts/figures.py $(FIGURES)
 
 # The wheels of the dependencies are fetched for Blender's Python and go into the zip; none are kept here.
 blender: .venv/installed

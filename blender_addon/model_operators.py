@@ -36,18 +36,20 @@ class GRAFU_OT_open_result(bpy.types.Operator):
         """Shows what the folder holds."""
         from grafu.errors import FunctionalizationError
         from grafu.pipeline.result_folder import read_result
+        from grafu.visible import visible
 
         try:
             found = read_result(Path(bpy.path.abspath(self.directory)))
         except FunctionalizationError as error:
-            session_of(context).status = str(error)
-            self.report({"WARNING"}, str(error))
+            session_of(context).status = why = visible(str(error))
+            self.report({"WARNING"}, why)
             return {"CANCELLED"}
         session = fill_slot(context.scene, free_slot(context.scene))
         session.source_file, session.fixed = str(found.source or ""), found.fixed
         objects.show_result(session, found.object, mathutils.Matrix.Translation(context.scene.cursor.location))
         store(session, found.settings, found.report.model_dump_json(by_alias=True), "", found.object)
-        session.status = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
+        said = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
+        session.status = visible(said)
         self.report({"INFO"}, session.status)
         return {"FINISHED"}
 

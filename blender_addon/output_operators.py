@@ -1,7 +1,6 @@
 """Output: all checks again and every format into a folder, with the settings that give the same without Blender."""
 
 import json
-import shutil
 from pathlib import Path
 
 import bpy
@@ -80,24 +79,28 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
 
     def execute(self, context):
         """Starts; in a window the rest goes on behind it."""
+        from grafu.errors import AssetError
+
         session = session_of(context)
         self._scene, self._slot = context.scene.name, shown_slot(context)
         self._run = work.Command()
         try:
             self._start(context, session)
-        except (work.Failed, OSError, RuntimeError) as error:
+        except (work.Failed, OSError, RuntimeError, AssetError) as error:
             self._run.close()
             return self._refused(context, str(error))
         return self._launched(context)
 
     def _start(self, context, session) -> None:
+        from grafu.export.output_names import output_name
+
         sources, folder = objects.sources_of(session), self._run.folder
         self._formats = set(self.formats) or USUAL
         if session.fixed:
             raise work.Failed(session.fixed)
         written = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"
         self._source = objects.hand_over(context, sources, session.source_file, written)
-        self._target = Path(bpy.path.abspath(self.directory)).absolute() / self._source.stem
+        self._target = Path(bpy.path.abspath(self.directory)).absolute() / output_name(self._source)
         settings, order = folder / "settings.json", folder / "order.json"
         settings.write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
         wanted = {
@@ -112,35 +115,39 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         self._run.start("grafu.cli.finalize", [str(order)])
 
     def _shown(self, context):
+        from grafu.errors import FunctionalizationError
+        from grafu.export.files import add_files
+        from grafu.visible import visible
+
         scene = bpy.data.scenes.get(self._scene)
         session = slots_in(scene)[self._slot] if scene is not None else None
         try:
-            if BLEND in self._formats:
-                self._save_blend()
-            shutil.copyfile(self._run.folder / "settings.json", self._target / "settings.json")
+            added = {"settings.json": self._run.folder / "settings.json"}
             if self._source.parent == self._run.folder:  # else it is the file that was given, where it was
-                shutil.copyfile(self._source, self._target / "source.glb")
+                added["source.glb"] = self._source
+            blend = {"model.blend": self._saved_blend()} if BLEND in self._formats else {}
+            add_files(self._target, {**added, **blend}, {BLEND: tuple(blend)} if blend else {})
             report = json.loads((self._target / "report.json").read_text(encoding="utf-8"))
-        except (OSError, RuntimeError) as error:
+        except (OSError, RuntimeError, FunctionalizationError) as error:
             return self._refused(context, f"written to {self._target}, but not whole: {error}")
         if self.clean and session is not None:
             remove_boxes(session)
             for source in objects.sources_of(session):
                 bpy.data.objects.remove(source)
             session.sources.clear()
-        said = f"written to {self._target}: {_verdict(report)}"
+        said = visible(f"written to {self._target}: {_verdict(report)}")
         if session is not None:
             session.status = said
         self.report({"INFO"}, said)
         return {"FINISHED"}
 
-    def _save_blend(self) -> None:
-        """Writes `model.blend` with this Blender: no other is needed."""
+    def _saved_blend(self) -> Path:
+        """Returns a `.blend` that this Blender wrote: no other is needed."""
         from grafu.export.blend.objects import save_object
 
         made = self._run.folder / "model.blend"
         save_object(self._run.result(), made)
-        shutil.move(made, self._target / made.name)
+        return made
 
 
 def _verdict(report) -> str:

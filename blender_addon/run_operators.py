@@ -151,6 +151,9 @@ class Applies:
         return {"FINISHED"}
 
     def _refused(self, context, why):
+        from grafu.visible import visible
+
+        why = visible(why)
         session_of(context).status = why
         self.report({"WARNING"}, why)
         return {"CANCELLED"}

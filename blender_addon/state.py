@@ -216,9 +216,8 @@ def _fill_joints(session, settings, report, made) -> None:
     from grafu.realization.plan import AUTOMATIC
 
     records, motions = {joint.part: joint for joint in report.joints}, motions_of(made)
-    unit = max(link.mesh.box.size.max() for link in made.links if len(link.mesh.faces))
     session.joints.clear()
-    for state in joint_states(report, float(unit)):
+    for state in joint_states(report):
         row = session.joints.add()
         row.name = row.part = state.part
         row.joint, row.level, row.why = state.joint, state.level.value, state.why

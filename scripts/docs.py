@@ -1,20 +1,33 @@
-"""Draws what docs/ repeats of the code: whole pages (report, errors, distributions) and tables within others.
+"""Draws what docs/ repeats of the code and of what commands printed: whole pages, tables and figures within others.
 
-A table within a page stands between `<!-- NAME: drawn by scripts/docs.py ... -->` and `<!-- end of NAME -->`.
+A table within a page stands between `<!-- NAME: drawn by scripts/docs.py ... -->` and `<!-- end of NAME -->`, a figure
+between `<!-- figure: MEASURE: ROW / COLUMN -->` and `<!-- end -->`. How to state a number: docs/figures.md.
 
 python scripts/docs.py            write the pages
-python scripts/docs.py --check    exit 1 where a page is out of date
+python scripts/docs.py --check    exit 1 where a page is out of date, says another number than the code, or states a
+                                  figure that no command is named for
 """
 
 import re
 import sys
+from collections.abc import Mapping
+from dataclasses import fields
+from functools import partial
 from pathlib import Path
 
+from docs_api import api_page
 from docs_synthetic import distributions_page, families_table, strategies_table
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
+from stated.configs import loss_choices, network_config, paper_departures, training_configs
+from stated.constants import told
+from stated.drawn import figures_page, results_page, tables, with_figures
+from stated.measures import MEASURES
+from stated.numbers import pages_in, spaced, unbound
+from stated.store import load_store
 
 from grafu import errors
+from grafu.asset import options
 from grafu.pipeline import inspection, report_schema
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -46,30 +59,107 @@ reasons, and the rest of the piece is built.
 
 def main() -> int:
     """Writes or checks the pages; returns the exit code."""
-    pages = {
+    wrong = [] if "--check" not in sys.argv else stale_pages()
+    if "--check" not in sys.argv:
+        write_pages()
+    wrong += other_commands() + untrue_sentences() + unbound_numbers()
+    for line in wrong:
+        print(line, file=sys.stderr)
+    return 1 if wrong else 0
+
+
+def write_pages() -> None:
+    """Writes the pages that are out of date."""
+    for name, text in drawn_pages().items():
+        path = DOCS / name
+        if not path.exists() or path.read_text("utf-8") != text:
+            path.write_text(text, "utf-8")
+
+
+def stale_pages() -> list[str]:
+    """Returns a line for each page that is not as it is drawn."""
+    pages = drawn_pages()
+    stale = [name for name in pages if not (DOCS / name).exists() or (DOCS / name).read_text("utf-8") != pages[name]]
+    return [f"docs/{name} is out of date: run python scripts/docs.py" for name in stale]
+
+
+def other_commands() -> list[str]:
+    """Returns a line for each measure whose figures are missing or were printed by another command than it names."""
+    store = load_store()
+    return [
+        f"the figures of `{m.name}` are not those of `{m.command}`: make figures FIGURES=\"--only '{m.name}' --write\""
+        for m in MEASURES
+        if m.name not in store or store[m.name].command != m.command
+    ]
+
+
+def untrue_sentences() -> list[str]:
+    """Returns a line for each sentence that a page does not say with the numbers of the code."""
+    return [
+        f"docs/{page} must say `{sentence}`, as the code does (scripts/stated/constants.py)"
+        for page, sentences in told().items()
+        for sentence in sentences
+        if not re.search(spaced(sentence), (DOCS / page).read_text("utf-8"))
+    ]
+
+
+def unbound_numbers() -> list[str]:
+    """Returns a line for each number of a page that looks measured and is bound to nothing."""
+    stated = told()
+    pages = pages_in(DOCS).items()
+    return [line for name, path in pages for line in unbound(name, path.read_text("utf-8"), stated.get(name, ()))]
+
+
+def drawn_pages() -> dict[str, str]:
+    """Returns every page of docs/ in which something is drawn, by name."""
+    store = load_store()
+    drawn = {
+        "api.md": api_page(),
         "report.md": report_page(),
         "errors.md": errors_page(),
         "distributions.md": distributions_page(),
-        "synthetic.md": with_table("synthetic.md", "families", families_table()),
-        "dataset.md": with_table("dataset.md", "strategies", strategies_table()),
+        "results.md": results_page(store),
+        "figures.md": figures_page(store),
     }
-    stale = [name for name, text in pages.items() if not (DOCS / name).exists() or (DOCS / name).read_text() != text]
-    if "--check" in sys.argv:
-        for name in stale:
-            print(f"docs/{name} is out of date: run python scripts/docs.py", file=sys.stderr)
-        return 1 if stale else 0
-    for name in stale:
-        (DOCS / name).write_text(pages[name])
-    return 0
+    within = {
+        ("synthetic.md", "families"): families_table(),
+        ("inputs.md", "limits"): limits_table(),
+        ("dataset.md", "strategies"): strategies_table(),
+        ("training.md", "configurations"): training_configs(),
+        ("training.md", "loss choices"): loss_choices(),
+        ("training.md", "departures"): paper_departures(),
+        ("network.md", "configuration"): network_config(),
+        **tables(store),
+    }
+    for path in sorted(DOCS.glob("*.md")):
+        if path.name not in drawn:
+            text = with_tables(path, {name: table for (page, name), table in within.items() if page == path.name})
+            drawn[path.name] = with_figures(path, text, store)
+    return drawn
 
 
-def with_table(page: str, name: str, drawn: str) -> str:
-    """Returns a page of docs/ with what stands between the marks of this name drawn anew."""
-    marks = re.compile(rf"(<!-- {name}: drawn by [^\n]* -->\n).*?(<!-- end of {name} -->\n)", re.DOTALL)
-    text, count = marks.subn(lambda found: f"{found[1]}\n{drawn}\n{found[2]}", (DOCS / page).read_text())
-    if count != 1:
-        raise SystemExit(f"docs/{page} must hold the marks of `{name}` once: got {count} times")
+def with_tables(page: Path, tables: Mapping[str, str]) -> str:
+    """Returns a page with what stands between the marks of each name drawn anew."""
+    text = page.read_text("utf-8")
+    for name, table in tables.items():
+        marks = re.compile(rf"(<!-- {name}: drawn by [^\n]* -->\n).*?(<!-- end of {name} -->\n)", re.DOTALL)
+        text, count = marks.subn(partial(between, table), text)
+        if count != 1:
+            raise SystemExit(f"docs/{page.name} must hold the marks of `{name}` once: got {count} times")
     return text
+
+
+def between(table: str, found: re.Match[str]) -> str:
+    """Returns a table between its marks."""
+    return f"{found[1]}\n{table}\n\n{found[2]}" if not table.endswith("\n") else f"{found[1]}\n{table}\n{found[2]}"
+
+
+def limits_table() -> str:
+    """Returns the table of what is read of one model at most."""
+    rows = [
+        f"| `{options.limit_name(f.name)}` | {f.default:,} | {f.metadata['counts']} |" for f in fields(options.Limits)
+    ]
+    return "\n".join(["| `--limit` | at most | of |", "|---|---|---|", *rows])
 
 
 def report_page() -> str:

@@ -1,15 +1,9 @@
-"""Writes docs/results.md from the tables of a run of `grafu evaluate`.
+"""The text of docs/results.md, from the tables of a run of `grafu evaluate`; `scripts/figures.py` keeps it."""
 
-python scripts/docs_results.py OUT     OUT as given to `grafu evaluate --out`
-"""
-
-import argparse
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "results.md"
 SHOWN = (
     "aligned",
     "reasonable",
@@ -23,28 +17,27 @@ SHOWN = (
 LEAD = """\
 # Results
 
+<!-- drawn by scripts/docs.py from docs/figures.json -->
+
 On the 17 development models of PartNet-Mobility that the project is measured on (12 pieces of storage furniture, 5
 tables, 50 parts that count). They are not part of the project, nothing was trained on them, but the generator and the
 realization were made with an eye on them, so that figures flatter it. What each number means:
 [evaluation](evaluation.md). The command:
 
-    grafu evaluate --data models --out results
+    {command}
 
-`scripts/docs_results.py results` writes this page from its tables.
+`make figures FIGURES="--only results --write"` runs it and draws this page.
 """
 
 
-def main() -> int:
-    """Writes the page."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("out", type=Path, help="the folder of the run")
-    tables = parser.parse_args().out / "tables"
+def results_text(out: Path) -> str:
+    """Returns the page below its lead; `out` is as given to `grafu evaluate --out`."""
+    tables = out / "tables"
     sections = [_motion(json.loads((tables / "motion.json").read_text("utf-8")))]
     sections += [(tables / f"{name}.md").read_text("utf-8").replace("# ", "## ", 1) for name in ("masking", "static")]
     sections.append((tables / "ood.md").read_text("utf-8").replace("# ", "## ", 1))
     sections.append(_wrong(json.loads((tables / "models.json").read_text("utf-8"))))
-    PAGE.write_text("\n".join([LEAD, *sections]), "utf-8")
-    return 0
+    return "\n".join(sections)
 
 
 def _motion(table: dict[str, Any]) -> str:
@@ -73,7 +66,3 @@ def _wrong(table: dict[str, Any]) -> str:
     found = [row for row in table["rows"] if row["faults"] and row["method"] != "annotation"]
     lines += [f"- `{row['method']}`, {row['model']}: {row['faults']}." for row in found]
     return "\n".join([*lines, *(() if found else ("Nothing, of rule and network as built.",)), ""])
-
-
-if __name__ == "__main__":
-    sys.exit(main())

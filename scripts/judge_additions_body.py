@@ -56,10 +56,18 @@ def _body_of(asset: Asset, source: MotionSource) -> Body:
     return complete_body(asset, completion, motion.plan(asset, completion), DEFAULT)
 
 
+def _stated_to_move(asset: Asset) -> set[str]:
+    """Returns the parts that the input lets move or carry, and those that are pieces of such."""
+    stated = asset.as_annotated()
+    moving = {p.rides_on for p in stated.parts if p.rides_on} | {joint.part for joint in stated.joints}
+    pieces = {s.name for p in stated.parts if p.id in moving for s in p.surfaces if s.name}
+    return {p.id for p in asset.parts if p.id in moving or {s.name for s in p.surfaces} & pieces}
+
+
 def _without_its_top(asset: Asset, source: MotionSource, closed: ArticulatedObject) -> tuple[float | None, list[str]]:
     """Returns the least share of a lost top's plan that the one in its place covers, and what is wrong with them."""
     tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL and len(p.mesh.faces)}
-    moving = {p.rides_on for p in asset.parts if p.rides_on} | {joint.part for joint in asset.joints}
+    moving = _stated_to_move(asset)
     standing = {v.name for v in closed.link(closed.root).visuals if not v.label.is_movable}
     own = {v.name: v.mesh for v in _own(closed)}
     taken, left = ([mesh for name, mesh in own.items() if (name in tops) is is_top] for is_top in (True, False))

@@ -3,13 +3,18 @@
 Boxes are in metres, Z up, front -Y, standing at z = 0, centred: exactly the object frame.
 """
 
+import io
 import json
 import math
 import struct
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
+from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
+from grafu.asset.part import Asset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 
@@ -31,6 +36,11 @@ DOOR, DRAWER = ("cabinet_door_surface-7", "handle-8"), ("drawer_front-9", "drawe
 HINGE = ((-0.40, -0.20, 0.0), (0.0, 0.0, -1.0))  # a point of the door's axis and its sense: positive opens
 AS_IT_IS = np.eye(3)
 Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # object frame to Y up, front +Z
+
+
+def load_annotated(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
+    """What is at the path as its annotation sees it, with its joints."""
+    return load_asset(path, options).as_annotated()
 
 
 def mesh_of(name: str) -> TriangleMesh:
@@ -114,6 +124,12 @@ def write_urdf(folder: Path, text: str | None = None) -> Path:
     write_obj_folder(folder / "meshes")
     (folder / "cabinet.urdf").write_text(text if text is not None else urdf_text())
     return folder / "cabinet.urdf"
+
+
+def png_bytes(width: int, height: int, color: tuple[int, int, int] = (200, 120, 40)) -> bytes:
+    stream = io.BytesIO()
+    Image.new("RGB", (width, height), color).save(stream, "PNG")
+    return stream.getvalue()
 
 
 def glb_bytes(document: dict, binary: bytes = b"") -> bytes:

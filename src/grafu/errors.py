@@ -12,14 +12,21 @@
       WeightsError            the network's trained weights are missing or do not fit
       OptionError             options contradict each other, or ask for what there is not
       ExportError             a format cannot say this, or the output cannot be written
+      TooComplex              it takes more time or room than its budget holds
 
 A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.realization.report`).
 Messages are one line: what was given, what was expected, how to fix it.
 """
 
+_LONGEST = 2000  # characters of a message
+
 
 class FunctionalizationError(Exception):
-    """Base of all errors that grafu raises on purpose."""
+    """Base of all errors that grafu raises on purpose; a message of very many characters lacks its middle."""
+
+    def __str__(self) -> str:
+        text = super().__str__()
+        return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 2 :]}"
 
 
 class AssetError(FunctionalizationError):
@@ -64,3 +71,7 @@ class OptionError(FunctionalizationError):
 
 class ExportError(FunctionalizationError):
     """A format cannot express the object, or the output cannot be written."""
+
+
+class TooComplex(FunctionalizationError):
+    """Work on a part, or on the whole, would take more time or room than its budget holds."""

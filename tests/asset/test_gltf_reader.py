@@ -134,15 +134,15 @@ GOOD = glb_bytes(*small())
         (GOOD[: len(GOOD) // 2], "truncated"),
         (b"glTF" + struct.pack("<II", 1, 20) + b"\0" * 8, "version 1"),
         (b"{}", "expected an `asset` entry"),
-        (b"not json at all", "not glTF"),
+        (b"not json at all", "it is not JSON: expected glTF"),
         (json.dumps({"asset": {"version": "1.0"}}).encode(), "version 1.0"),
-        (broken(lambda d: d["accessors"][0].update(count=10**9)), "more than its buffer holds"),
+        (broken(lambda d: d["accessors"][0].update(count=10**6)), "more than its buffer holds"),
         (broken(lambda d: d["bufferViews"][0].update(byteLength=10**9)), "beyond its buffer"),
         (broken(lambda d: d["buffers"][0].update(byteLength=10**9)), "truncated"),
         (broken(lambda d: d["nodes"][0].update(mesh=99)), "not there"),
         (broken(lambda d: d["nodes"][0].update(children=[1, 0])), "cycle"),
-        (broken(lambda d: d["nodes"][0].update(scale="big")), "not numbers"),
-        (broken(lambda d: d["meshes"][0].update(primitives=[7])), "wrong type"),
+        (broken(lambda d: d["nodes"][0].update(scale="big")), "must be 3 finite numbers"),
+        (broken(lambda d: d["meshes"][0].update(primitives=[7])), "must be an object"),
         (broken(lambda d: d.update(extensionsRequired=["KHR_draco_mesh_compression"])), "Draco"),
         (broken(lambda d: d.update(extensionsRequired=["EXT_meshopt_compression"])), "meshopt"),
     ],
@@ -159,7 +159,7 @@ def test_damaged_scenes_are_refused_in_one_line(tmp_path, data, said):
 def test_zeros_out_of_nothing_are_refused(tmp_path):
     data = broken(lambda d: (d["accessors"][0].pop("bufferView"), d["accessors"][0].update(count=10**9)))
     (tmp_path / "bomb.glb").write_bytes(data)
-    with pytest.raises(AssetTooLarge, match="without data"):
+    with pytest.raises(AssetTooLarge, match="1,000,000,000 vertices: at most"):
         load_asset(tmp_path / "bomb.glb")
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grafu.asset.load import detect, load_asset
+from grafu.asset.load import detect
 from grafu.asset.options import Limits, LoadOptions
 from grafu.cli.main import main
 from grafu.errors import AssetTooLarge, UnreadableAsset
@@ -13,7 +13,7 @@ from grafu.geometry.transform import transform_points
 from grafu.synth.kinds import KINDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import WORDS, hssd_model
-from small_assets import Y_UP, glb_bytes, gltf_document, mesh_of
+from small_assets import Y_UP, glb_bytes, gltf_document, load_annotated, mesh_of
 
 PAIR, CORNER, BEHIND = "overlay pair", "corner door at 45 degrees", "drawers behind a pair"
 
@@ -42,7 +42,7 @@ def opened(joint, points, share):
 @pytest.mark.parametrize("meshes", [1, 3])
 def test_what_was_made_is_read_back(tmp_path, kind, meshes):
     made = KINDS[kind]()
-    asset = load_asset(hssd_model(made, meshes).save(tmp_path))
+    asset = load_annotated(hssd_model(made, meshes).save(tmp_path))
     assert (asset.kind, asset.name, asset.frame.scale) == ("hssd", "a1b2", 1.0)
     assert not asset.notes
     T_read_made = asset.frame.input_to_output[:3, :3] @ Y_UP
@@ -71,7 +71,7 @@ def test_what_was_made_is_read_back(tmp_path, kind, meshes):
 
 def test_materials_and_texture_coordinates_stay_with_their_triangles(tmp_path):
     _, path = written(tmp_path)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert {s.material.name for p in asset.parts for s in p.surfaces} == {"colour_0", "colour_1", "colour_2"}
     T = np.linalg.inv(np.asarray(asset.frame.input_to_output))
     for surface in (s for p in asset.parts for s in p.surfaces):
@@ -81,7 +81,7 @@ def test_materials_and_texture_coordinates_stay_with_their_triangles(tmp_path):
 
 def test_the_door_of_a_corner_cabinet_turns_about_its_own_border(tmp_path):
     _, path = written(tmp_path, CORNER)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     (joint,) = asset.joints
     door = asset.part(joint.part)
     assert min(door.box.size[:2]) > 0.3  # it stands across both axes
@@ -96,7 +96,7 @@ def test_the_door_of_a_corner_cabinet_turns_about_its_own_border(tmp_path):
 @pytest.mark.parametrize("prefix", ["", "fpModel."])
 def test_articulations_are_found_with_and_without_mark_and_prefix(tmp_path, bom, prefix):
     _, path = written(tmp_path, bom=bom, prefix=prefix)
-    assert len(load_asset(path).joints) == 2
+    assert len(load_annotated(path).joints) == 2
 
 
 def test_a_model_without_articulations_has_parts_and_no_joints(tmp_path):
@@ -104,7 +104,7 @@ def test_a_model_without_articulations_has_parts_and_no_joints(tmp_path):
         model.articulations = None
 
     _, path = written(tmp_path, change=change)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert asset.joints == ()
     assert asset.part("door_6").label is PartLabel.DOOR
     assert asset.part("handle_7").rides_on == "door_6"  # by contact
@@ -127,7 +127,7 @@ def test_each_file_and_the_folder_mean_the_model(tmp_path, name):
 
 def test_triangles_of_no_part_stand_still_and_are_reported(tmp_path):
     path = hssd_model(KINDS[PAIR](), meshes=2, spare=3).save(tmp_path)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert len(asset.part("rest").mesh.faces) == 6
     assert asset.part("rest").rides_on is None
     assert any("6 triangles belong to no annotated part" in note for note in asset.notes)
@@ -138,8 +138,8 @@ def test_a_part_without_a_word_stays_unknown_and_the_user_may_mask_all(tmp_path)
         model.parts["parts"][1].update(label="", name=None)
 
     _, path = written(tmp_path, change=change)
-    assert load_asset(path).part("part_1").label is PartLabel.UNKNOWN
-    assert {p.label for p in load_asset(path, LoadOptions(labels="none")).parts} == {PartLabel.UNKNOWN}
+    assert load_annotated(path).part("part_1").label is PartLabel.UNKNOWN
+    assert {p.label for p in load_annotated(path, LoadOptions(labels="none")).parts} == {PartLabel.UNKNOWN}
 
 
 def test_a_triangle_of_two_parts_is_the_first_ones(tmp_path):
@@ -148,7 +148,7 @@ def test_a_triangle_of_two_parts_is_the_first_ones(tmp_path):
         runs[1].extend(runs[0])
 
     made, path = written(tmp_path, change=change)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert [len(p.mesh.faces) for p in asset.parts] == [len(p.mesh.faces) for p in made.parts]
     assert any("annotated as two parts" in note for note in asset.notes)
 
@@ -160,7 +160,7 @@ def test_a_run_without_triangles_is_the_whole_mesh_and_single_numbers_are_triang
     runs = ([{"meshIndex": 0}], [{"meshIndex": 1, "triIndex": [0, [1, 12]]}])
     parts = [{"pid": k, "label": "base", "partInfo": {"meshTri": run}} for k, run in enumerate(runs)]
     path.with_name("two.artpre.json").write_text(json.dumps({"parts": parts}))
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert [len(p.mesh.faces) for p in asset.parts] == [12, 12]
 
 
@@ -180,7 +180,7 @@ def test_limits_count_from_what_is_closed(tmp_path, low, high, closed, axis_sens
         articulations(model)[0].update(rangeMin=low, rangeMax=high, motionStates=states)
 
     made, path = written(tmp_path, change=change)
-    joint = load_asset(path).joints[0]
+    joint = load_annotated(path).joints[0]
     assert (joint.lower, joint.upper) == pytest.approx(limits)
     np.testing.assert_allclose(joint.axis.direction, axis_sense * made.joints[0].axis.direction, atol=1e-9)
 
@@ -192,7 +192,7 @@ def test_a_range_that_is_not_stated_is_no_limit_and_a_default_value_is_the_drawn
         second.update(rangeMin=0.0, rangeMax=1.5, defaultValue=0.5, type="hinge_rotation")
 
     _, path = written(tmp_path, change=change)
-    first, second = load_asset(path).joints
+    first, second = load_annotated(path).joints
     assert not first.limited
     assert (second.lower, second.upper) == pytest.approx((-0.5, 1.0))
     assert second.type is JointType.REVOLUTE
@@ -205,7 +205,7 @@ def test_what_moves_and_is_no_door_or_drawer_stays(tmp_path):
         articulations(model).append({**articulations(model)[0], "rangeMax": 0.1})
 
     _, path = written(tmp_path, change=change)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert [joint.part for joint in asset.joints] == ["door_6", "door_8"]
     assert asset.joints[0].upper == pytest.approx(radians(100))
     assert any("handle-7 is annotated to move" in note for note in asset.notes)
@@ -219,7 +219,7 @@ def test_a_drawer_behind_a_door_that_is_its_base_rides_on_it(tmp_path):
         drawer["base"] = [door["pid"]]
 
     _, path = written(tmp_path, BEHIND, change=change)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     assert asset.part(asset.joints[2].part).rides_on == asset.joints[0].part
 
 
@@ -235,7 +235,7 @@ def test_a_body_that_touches_only_a_door_does_not_ride_on_it(tmp_path):
             stated["base"] = []
 
     _, path = written(tmp_path, change=change)
-    riders = {p.id: p.rides_on for p in load_asset(path).parts if p.rides_on}
+    riders = {p.id: p.rides_on for p in load_annotated(path).parts if p.rides_on}
     assert riders == {"handle_7": "door_6", "handle_9": "door_8"}  # the second by contact
 
 
@@ -246,7 +246,7 @@ def test_parts_that_lie_elsewhere_than_annotated_are_reported(tmp_path):
 
     made, path = written(tmp_path, change=change)
     count = len(made.parts)
-    assert any(f"{count} of {count} parts lie elsewhere" in note for note in load_asset(path).notes)
+    assert any(f"{count} of {count} parts lie elsewhere" in note for note in load_annotated(path).notes)
 
 
 def test_up_and_front_come_from_the_annotation(tmp_path):
@@ -254,7 +254,7 @@ def test_up_and_front_come_from_the_annotation(tmp_path):
         model.parts["upAxis"], model.parts["frontAxis"] = [0, 0, 1], {"x": 0, "y": -1, "z": 0.001}
 
     _, path = written(tmp_path, change=change)
-    frame = load_asset(path, LoadOptions(labels="none")).frame
+    frame = load_annotated(path, LoadOptions(labels="none")).frame
     assert frame.up == "+Z"
     assert "stated by the annotation" in frame.assumed[0]
 
@@ -292,7 +292,7 @@ def test_what_does_not_fit_is_one_clear_line(tmp_path, name):
     change, words = broken(name)
     _, path = written(tmp_path, change=change)
     with pytest.raises(UnreadableAsset) as caught:
-        load_asset(path)
+        load_annotated(path)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
     assert "fetch" in str(caught.value)
@@ -312,7 +312,7 @@ def test_a_damaged_file_is_one_clear_line(tmp_path, capsys, ending, data):
 def test_too_many_parts_are_refused(tmp_path):
     _, path = written(tmp_path)
     with pytest.raises(AssetTooLarge):
-        load_asset(path, LoadOptions(limits=Limits(max_parts=4)))
+        load_annotated(path, LoadOptions(limits=Limits(max_parts=4)))
 
 
 def test_inspect_tells_kind_parts_and_joints(tmp_path, capsys):
@@ -347,7 +347,7 @@ def two_primitives(folder: Path, runs, boxes=()):
 def test_a_mesh_of_several_primitives_may_be_counted_whole(tmp_path):
     """Where the counting by primitives does not fit, a node's triangles are counted through."""
     runs = ({"meshIndex": 0, "triIndex": [[0, 12]]}, {"meshIndex": 0, "triIndex": [[12, 24]]}, {"meshIndex": 1})
-    asset = load_asset(two_primitives(tmp_path, runs))
+    asset = load_annotated(two_primitives(tmp_path, runs))
     assert [round(float(p.box.size.max()), 3) for p in asset.parts] == [0.98, 0.76, 0.8]
 
 
@@ -360,7 +360,7 @@ def test_a_mesh_of_several_primitives_may_be_counted_whole(tmp_path):
 )
 def test_where_both_ways_of_counting_fit_the_annotated_boxes_decide(tmp_path, boxes, longest):
     runs = ({"meshIndex": 0, "triIndex": [[0, 12]]}, {"meshIndex": 1, "triIndex": [[0, 12]]})
-    asset = load_asset(two_primitives(tmp_path, runs, boxes))
+    asset = load_annotated(two_primitives(tmp_path, runs, boxes))
     assert [round(float(p.box.size.max()), 3) for p in asset.parts] == longest
     assert asset.parts[2].source.name == "rest"
     assert not any("elsewhere" in note for note in asset.notes)

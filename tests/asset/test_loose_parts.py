@@ -15,7 +15,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.vocabulary import PartLabel
-from small_assets import CABINET, mesh_of, write_grouped_obj, write_pnm
+from small_assets import CABINET, load_annotated, mesh_of, write_grouped_obj, write_pnm
 
 LOOSE = LoadOptions(up="+Z", front="-Y", scale=1.0, parts="loose")
 
@@ -65,9 +65,9 @@ def test_parts_that_are_shells_stay_as_they_are(tmp_path):
     assert boxes_of(loose.parts) == BOXES
 
 
-def test_what_the_input_moves_or_carries_stays_whole(tmp_path):
+def test_what_the_annotation_moves_or_carries_stays_whole_in_it(tmp_path):
     folder = write_pnm(tmp_path / "m")
-    plain, loose = load_asset(folder), load_asset(folder, LoadOptions(parts="loose"))
+    plain, loose = (load_annotated(folder, LoadOptions(scale=1.0, parts=parts)) for parts in ("input", "loose"))
     moving = {joint.part for joint in plain.joints}
 
     assert {joint.part for joint in loose.joints} == moving

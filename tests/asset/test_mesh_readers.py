@@ -1,3 +1,6 @@
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import trimesh
@@ -6,7 +9,7 @@ from grafu.asset.load import load_asset
 from grafu.asset.options import Limits, LoadOptions
 from grafu.errors import AssetError, AssetTooLarge, UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import JointType, PartLabel
-from small_assets import CABINET, mesh_of, write_grouped_obj, write_obj_folder
+from small_assets import CABINET, load_annotated, mesh_of, write_grouped_obj, write_obj_folder
 
 Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 
@@ -91,7 +94,7 @@ def test_sweet_home_names_give_joints(tmp_path):
         "shelf-6": "sweethome3d_opening_on_hinge_2_x",
     }
     path = write_grouped_obj(tmp_path / "c.obj", 100 * Y_UP, names)
-    asset = load_asset(path)
+    asset = load_annotated(path)
     (joint,) = asset.joints
     assert joint.type is JointType.REVOLUTE
     np.testing.assert_allclose(np.abs(joint.axis.direction), [0, 0, 1], atol=1e-9)
@@ -119,7 +122,7 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
         ("a.stl", "\0" * 80 + "\1\1\1\0" + "\0" * 10, UnreadableAsset, "truncated"),
         ("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999\nend_header\n", UnreadableAsset, "truncated"),
         ("a.ply", "not a ply", UnreadableAsset, "a.ply"),
-        ("a.ply", "ply\nformat ascii 1.0\nelement face 99999999\nend_header\n", AssetTooLarge, "20,000,000 are read"),
+        ("a.ply", "ply\nformat ascii 1.0\nelement face 99999999\nend_header\n", AssetTooLarge, "2,000,000 are read"),
         ("a.txt", "text", UnreadableAsset, "not a kind of file"),
     ],
 )
@@ -203,3 +206,14 @@ def test_open_shells_doubled_faces_and_turned_normals_are_kept(tmp_path):
     rows = [f"v {x} {y} {z}" for x, y, z in open_box.vertices] + [f"f {a} {b} {c}" for a, b, c in faces + 1]
     (folder / "shelf-20.obj").write_text("\n".join(rows))
     assert len(load_asset(folder).part("shelf_20").mesh.faces) == 20
+
+
+def test_what_a_library_logs_of_a_damaged_file_is_not_printed(tmp_path):
+    vertices = "".join(f"vertex {k} {k % 2} 0\n" for k in range(3))
+    text = f"solid x\nfacet normal 0 zero 1\nouter loop\n{vertices}endloop\nendfacet\nendsolid x\n"
+    (tmp_path / "a.stl").write_text(text)
+    code = "import sys, pathlib, grafu.asset.load; grafu.asset.load.load_asset(pathlib.Path(sys.argv[1]))"
+    command = [sys.executable, "-c", code, str(tmp_path / "a.stl")]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert run.stderr.count("Traceback") == 1  # that of our own exception alone
+    assert "UnsegmentedAsset" in run.stderr

@@ -5,14 +5,15 @@ from hypothesis import strategies as st
 
 from grafu.asset.mesh_files import read_mesh_file
 from grafu.asset.obj_parser import parse_obj
-from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
+from small_assets import png_bytes
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
 
 
 def surface(tmp_path, text):
     (tmp_path / "a.obj").write_text(text)
-    (found,) = read_mesh_file(tmp_path / "a.obj", Limits()).surfaces
+    (found,) = read_mesh_file(tmp_path / "a.obj", ModelFiles(tmp_path)).surfaces
     return found
 
 
@@ -63,11 +64,11 @@ def test_vertex_colours_are_read(tmp_path):
 
 
 def test_materials_and_textures_come_from_the_library(tmp_path):
-    image = b"\x89PNG\r\n\x1a\n and more"
+    image = png_bytes(3, 2)
     (tmp_path / "oak wood.png").write_bytes(image)
     (tmp_path / "m.mtl").write_text("newmtl wood\nKd 1 0.5 0\nd 0.5\nmap_Kd oak wood.png\nnewmtl b\nmap_Kd no.png\n")
     (tmp_path / "a.obj").write_text("mtllib m.mtl\n" + SQUARE + "usemtl wood\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\n")
-    found = read_mesh_file(tmp_path / "a.obj", Limits())
+    found = read_mesh_file(tmp_path / "a.obj", ModelFiles(tmp_path))
     wood = found.surfaces[0].material
     assert wood.base_color_texture is not None
     assert wood.base_color_texture.data == image
@@ -79,9 +80,9 @@ def test_materials_and_textures_come_from_the_library(tmp_path):
 def test_groups_and_objects_are_told_apart(tmp_path):
     text = SQUARE + "o A\ng one\nf 1 2 3\ng two\nf 1 3 4\no B\ng one\nf 1 2 4\n"
     (tmp_path / "a.obj").write_text(text)
-    assert [p.name for p in read_mesh_file(tmp_path / "a.obj", Limits()).pieces] == ["A", "B"]
+    assert [p.name for p in read_mesh_file(tmp_path / "a.obj", ModelFiles(tmp_path)).pieces] == ["A", "B"]
     (tmp_path / "a.obj").write_text(text.replace("o B\n", ""))
-    assert [p.name for p in read_mesh_file(tmp_path / "a.obj", Limits()).pieces] == ["one", "two"]
+    assert [p.name for p in read_mesh_file(tmp_path / "a.obj", ModelFiles(tmp_path)).pieces] == ["one", "two"]
 
 
 @given(st.lists(st.tuples(*[st.floats(-1e3, 1e3)] * 3), min_size=3, max_size=20), st.data())

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -41,6 +43,33 @@ def test_a_two_sided_desk_joins_each_piece_to_the_nearer_front():
     side = part("drawer_side", (0.1, 0.6, 0.02), (0.12, 0.98, 0.28))
     parts, _ = with_joined_pieces((near, side, far), WHOLE)
     assert {p.id: len(p.surfaces) for p in parts} == {"drawer_front1": 1, "drawer_front2": 2}
+
+
+def test_a_bottom_at_the_seam_of_two_fronts_joins_the_one_whose_outline_covers_it():
+    fronts = [part("drawer_front1", (0, 0, 0), (1, 0.02, 0.3)), part("drawer_front2", (0, 0, 0.3), (1, 0.02, 0.6))]
+    bottom = part("drawer_bottom2", (0.01, 0.02, 0.3), (0.99, 0.5, 0.31))
+    for order in ([*fronts, bottom], [bottom, *fronts[::-1]]):
+        parts, _ = with_joined_pieces(tuple(order), WHOLE)
+        assert {p.id: len(p.surfaces) for p in parts} == {"drawer_front1": 1, "drawer_front2": 2}
+
+
+def test_a_low_front_holds_a_deep_bottom_also_where_a_knob_makes_its_box_deep():
+    knob = TriangleMesh.box_mesh(Box(np.array([0.49, -0.12, 0.04]), np.array([0.51, 0.0, 0.06])))
+    front = part("drawer_front1", (0, 0, 0), (1, 0.02, 0.1))
+    front = replace(front, surfaces=(*front.surfaces, Surface(knob)))
+    bottom = part("drawer_bottom1", (0.01, 0.02, 0.02), (0.99, 0.9, 0.03))
+    parts, _ = with_joined_pieces((bottom, front), WHOLE)
+    assert {p.id: len(p.surfaces) for p in parts} == {"drawer_front1": 3}
+
+
+def test_the_front_of_the_box_joins_the_front_before_it_and_brings_its_pieces():
+    face, inner = (
+        part("drawer_front1", (0, 0, 0), (1, 0.02, 0.3)),
+        part("drawer_front2", (0.1, 0.02, 0), (0.9, 0.04, 0.25)),
+    )
+    side = part("drawer_side1", (0.1, 0.04, 0), (0.12, 0.5, 0.25))
+    parts, _ = with_joined_pieces((side, inner, face), WHOLE)
+    assert {p.id: len(p.surfaces) for p in parts} == {"drawer_front1": 3}
 
 
 def test_pieces_without_a_front_stay_apart():

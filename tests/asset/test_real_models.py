@@ -2,14 +2,15 @@
 
 import json
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.vocabulary import JointType, PartLabel
+from small_assets import load_annotated
 
 MODELS = Path(os.environ.get("GRAFU_MODELS") or Path(__file__).parents[3] / "shared" / "models")
 PNM = sorted((MODELS / "pnm").glob("*")) if (MODELS / "pnm").is_dir() else []
@@ -20,7 +21,7 @@ pytestmark = pytest.mark.skipif(not PNM, reason="the development models are not 
 
 @pytest.mark.parametrize("folder", PNM, ids=lambda p: p.name)
 def test_every_annotated_hinge_and_slider_yields_a_joint(folder):
-    asset = load_asset(folder)
+    asset = load_annotated(folder)
     links = json.loads((folder / "mobility_v2.json").read_text())
     moving = [link["joint"] for link in links if link["joint"] in ("hinge", "slider")]
     kinds = [joint.type for joint in asset.joints]
@@ -33,7 +34,7 @@ def test_every_annotated_hinge_and_slider_yields_a_joint(folder):
 
 @pytest.mark.parametrize("folder", PNM[::4], ids=lambda p: p.name)
 def test_objects_stand_centred_at_furniture_size(folder):
-    box = load_asset(folder).box
+    box = load_annotated(folder).box
     np.testing.assert_allclose([*box.center[:2], box.low[2]], 0.0, atol=1e-9)
     assert 0.3 < box.size.max() < 3.0
     assert 0.3 < box.size[2] < 2.5
@@ -42,8 +43,9 @@ def test_objects_stand_centred_at_furniture_size(folder):
 @pytest.mark.parametrize("folder", PNM[1::4], ids=lambda p: p.name)
 def test_the_urdf_alone_reads_as_the_json_does(folder, tmp_path):
     for name in ("mobility.urdf", "semantics.txt", "meta.json", "textured_objs"):
-        (tmp_path / name).symlink_to(folder / name)
-    full, alone = load_asset(folder), load_asset(tmp_path)
+        copy = shutil.copytree if (folder / name).is_dir() else shutil.copyfile
+        copy(folder / name, tmp_path / name)  # links out of the folder are not followed
+    full, alone = load_annotated(folder), load_annotated(tmp_path)
     assert [(p.id, p.label, p.rides_on) for p in full.parts] == [(p.id, p.label, p.rides_on) for p in alone.parts]
     np.testing.assert_allclose(alone.frame.input_to_output, full.frame.input_to_output, atol=1e-6)
     for a, b in zip(full.joints, alone.joints, strict=True):
@@ -52,7 +54,7 @@ def test_the_urdf_alone_reads_as_the_json_does(folder, tmp_path):
 
 
 def test_handles_ride_on_what_they_open():
-    asset = load_asset(MODELS / "pnm" / "44781")
+    asset = load_annotated(MODELS / "pnm" / "44781")
     riding = [p.rides_on for p in asset.parts if p.label is PartLabel.HANDLE]
     assert len(riding) == 3
     assert set(riding) == {j.part for j in asset.joints}
@@ -67,7 +69,7 @@ def test_handles_ride_on_what_they_open():
     ],
 )
 def test_the_other_models_give_the_joints_that_they_state(name, types, front):
-    asset = load_asset(OTHER / name)
+    asset = load_annotated(OTHER / name)
     kinds = [j.type.value for j in asset.joints]
     assert {kind: kinds.count(kind) for kind in kinds} == types
     assert asset.frame.front == front
@@ -76,7 +78,7 @@ def test_the_other_models_give_the_joints_that_they_state(name, types, front):
 
 @pytest.mark.parametrize("folder", PNM[2::6], ids=lambda p: p.name)
 def test_masking_labels_keeps_parts_joints_and_front(folder):
-    full, masked = load_asset(folder), load_asset(folder, LoadOptions(labels="none"))
+    full, masked = load_annotated(folder), load_annotated(folder, LoadOptions(labels="none"))
     assert [p.id for p in full.parts] == [p.id for p in masked.parts]
     assert [j.part for j in full.joints] == [j.part for j in masked.joints]
     assert full.frame.front == masked.frame.front

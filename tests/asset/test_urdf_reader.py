@@ -3,15 +3,14 @@ from math import pi
 import numpy as np
 import pytest
 
-from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
-from small_assets import urdf_text, write_urdf
+from small_assets import load_annotated, urdf_text, write_urdf
 
 
 def test_links_become_parts_and_joints_in_place(tmp_path):
-    asset = load_asset(write_urdf(tmp_path))
+    asset = load_annotated(write_urdf(tmp_path))
     assert asset.kind == "urdf"
     assert {p.id for p in asset.parts if p.label.is_movable} == {"door_link", "drawer_link"}
     assert asset.part("handle_8").rides_on == "door_link"
@@ -21,20 +20,20 @@ def test_links_become_parts_and_joints_in_place(tmp_path):
 
 
 def test_the_folder_of_a_urdf_reads_the_same(tmp_path):
-    by_file, by_folder = load_asset(write_urdf(tmp_path / "m")), load_asset(tmp_path / "m")
+    by_file, by_folder = load_annotated(write_urdf(tmp_path / "m")), load_annotated(tmp_path / "m")
     assert by_file.name == "cabinet"
     assert by_folder.name == "m"
     assert [p.id for p in by_file.parts] == [p.id for p in by_folder.parts]
 
 
 def test_continuous_joints_are_unlimited(tmp_path):
-    asset = load_asset(write_urdf(tmp_path, urdf_text(door_type="continuous")))
+    asset = load_annotated(write_urdf(tmp_path, urdf_text(door_type="continuous")))
     assert not asset.joints[0].limited
 
 
 @pytest.mark.parametrize("kind", ["floating", "planar"])
 def test_kinds_that_are_not_built_stay_in_place_with_a_note(tmp_path, kind):
-    asset = load_asset(write_urdf(tmp_path, urdf_text(door_type=kind)))
+    asset = load_annotated(write_urdf(tmp_path, urdf_text(door_type=kind)))
     assert len(asset.joints) == 1
     assert any(kind in note for note in asset.notes)
 
@@ -42,7 +41,7 @@ def test_kinds_that_are_not_built_stay_in_place_with_a_note(tmp_path, kind):
 def test_a_link_fixed_to_a_moving_link_belongs_to_it(tmp_path):
     extra = """<link name="knob_link"><visual><origin xyz="0.35 -0.02 0.5"/><geometry><sphere radius="0.01"/></geometry>
     </visual></link><joint name="k" type="fixed"><parent link="door_link"/><child link="knob_link"/></joint>"""
-    asset = load_asset(write_urdf(tmp_path, urdf_text(extra)))
+    asset = load_annotated(write_urdf(tmp_path, urdf_text(extra)))
     knob = asset.part("handle_knob_link")
     assert (knob.label, knob.rides_on) == (PartLabel.HANDLE, "door_link")
 
@@ -50,7 +49,7 @@ def test_a_link_fixed_to_a_moving_link_belongs_to_it(tmp_path):
 def test_package_names_are_sought_upwards_and_absent_meshes_noted(tmp_path):
     text = urdf_text().replace('filename="meshes/', 'filename="package://cabinet_model/meshes/')
     text = text.replace("meshes/shelf-6.obj", "meshes/shelf-60.obj")
-    asset = load_asset(write_urdf(tmp_path, text))
+    asset = load_annotated(write_urdf(tmp_path, text))
     assert any("shelf-60.obj is missing" in note for note in asset.notes)
     assert "shelf_6" not in {p.id for p in asset.parts}
 
@@ -61,7 +60,7 @@ def test_primitives_scale_and_colours_are_read(tmp_path):
     <visual name="leg"><origin xyz="0 0 -0.4" rpy="1.5707963 0 0"/><geometry>
     <cylinder radius="0.1" length="0.3"/></geometry></visual></link></robot>"""
     (tmp_path / "r.urdf").write_text(text)
-    top, leg = load_asset(tmp_path / "r.urdf").parts
+    top, leg = load_annotated(tmp_path / "r.urdf").parts
     assert top.surfaces[0].material.base_color == (1.0, 0.0, 0.0, 1.0)
     np.testing.assert_allclose(sorted(leg.box.size), [0.2, 0.2, 0.3], atol=2e-3)
 
@@ -69,17 +68,18 @@ def test_primitives_scale_and_colours_are_read(tmp_path):
 def test_roll_pitch_yaw_turn_about_fixed_axes(tmp_path):
     turned = f'<origin rpy="{pi / 2} 0 {pi / 2}"/><axis xyz="0 1 0"/>'
     text = urdf_text().replace('<axis xyz="0 -1 0"/>', turned)
-    drawer = load_asset(write_urdf(tmp_path, text), LoadOptions(front="-Y")).joints[1]
+    drawer = load_annotated(write_urdf(tmp_path, text), LoadOptions(front="-Y")).joints[1]
     np.testing.assert_allclose(drawer.axis.direction, [0, 0, 1], atol=1e-9)
     turned = f'<origin rpy="0 {pi / 2} {pi / 2}"/><axis xyz="1 0 0"/>'
     text = urdf_text().replace('<axis xyz="0 -1 0"/>', turned)
-    drawer = load_asset(write_urdf(tmp_path, text), LoadOptions(front="-Y")).joints[1]
+    drawer = load_annotated(write_urdf(tmp_path, text), LoadOptions(front="-Y")).joints[1]
     np.testing.assert_allclose(drawer.axis.direction, [0, 0, -1], atol=1e-9)
 
 
 CYCLE = """<joint name="c1" type="fixed"><parent link="door_link"/><child link="carcass"/></joint>"""
 TWICE = """<joint name="c2" type="fixed"><parent link="drawer_link"/><child link="door_link"/></joint>"""
 STRAY = """<joint name="c3" type="fixed"><parent link="nowhere"/><child link="door_link"/></joint>"""
+HUGE = """<link name="l"><visual><geometry><box size="1e308 1e308 1e308"/></geometry></visual></link>"""
 HALF = """<joint name="c4" type="fixed"><parent link="carcass"/></joint>"""
 
 
@@ -98,23 +98,26 @@ HALF = """<joint name="c4" type="fixed"><parent link="carcass"/></joint>"""
         ('<robot name="r"><link/><link/></robot>', "several links are named ''"),
         (urdf_text().replace('lower="0"', 'lower="zero"'), "finite numbers"),
         (urdf_text().replace('xyz="0 0 -1"', 'xyz="0 0"'), "expected 3 finite numbers"),
+        (urdf_text().replace('xyz="0 0 -1"', f'xyz="{"x" * 70_000}"'), "expected 3 finite numbers"),
+        (urdf_text(HUGE), "expected 3 sizes other than 0"),
         ('<!DOCTYPE r [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><robot name="&b;"/>', "entities"),
     ],
 )
 def test_bad_files_are_refused_in_one_line(tmp_path, text, said):
     with pytest.raises(UnreadableAsset, match=said) as caught:
-        load_asset(write_urdf(tmp_path, text))
+        load_annotated(write_urdf(tmp_path, text))
     assert "\n" not in str(caught.value)
     assert "cabinet.urdf" in str(caught.value)
+    assert len(str(caught.value).replace(str(tmp_path), "")) < 300
 
 
 def test_a_model_that_lost_its_meshes_says_which(tmp_path):
     text = urdf_text().replace("meshes/", "gone/").replace("gone/", "meshes/", 1)
     with pytest.raises(UnsegmentedAsset, match=r"is one part, `.*` \(mesh gone/.*.obj is missing and was left out\)"):
-        load_asset(write_urdf(tmp_path, text))
+        load_annotated(write_urdf(tmp_path, text))
 
 
 def test_a_zero_axis_keeps_the_part_in_place(tmp_path):
-    asset = load_asset(write_urdf(tmp_path, urdf_text().replace('xyz="0 0 -1"', 'xyz="0 0 0"')))
+    asset = load_annotated(write_urdf(tmp_path, urdf_text().replace('xyz="0 0 -1"', 'xyz="0 0 0"')))
     assert len(asset.joints) == 1
     assert any("zero axis" in note for note in asset.notes)

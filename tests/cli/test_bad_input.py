@@ -154,7 +154,7 @@ def test_an_output_that_exists_is_kept(tmp_path: Path, capsys: pytest.CaptureFix
     kept.write_text("mine")
 
     assert main(["functionalize", str(source), "--out", str(tmp_path / "out")]) == 2
-    assert "--overwrite" in capsys.readouterr().err
+    assert "notes.txt" in capsys.readouterr().err
     assert [p.name for p in kept.parent.iterdir()] == ["notes.txt"]
 
 
@@ -192,4 +192,16 @@ def test_a_disk_that_refuses(
 
     assert main(["functionalize", str(source), "--out", str(out)]) == 2
     assert "No space left" in capsys.readouterr().err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("verb", ["functionalize", "inspect"])
+def test_links_that_lead_round_and_round(verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, out = tmp_path / "round.glb", tmp_path / "out"
+    source.symlink_to("round.glb")
+
+    assert main([verb, str(source)] + (["--out", str(out)] if verb == "functionalize" else [])) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert str(source) in said
     assert not out.exists()

@@ -131,3 +131,13 @@ def test_bad_options_end_in_one_line(
     assert says in said
     assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["index.html", "tables/mine.csv"])
+def test_what_is_not_ours_stays(data: Path, tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).write_text("mine")
+
+    assert main(command(data, tmp_path, "--overwrite")) == 2
+    assert "choose another --out" in capsys.readouterr().err
+    assert contents(tmp_path) == {name: b"mine"}

@@ -10,8 +10,9 @@ import pytest
 
 from grafu.cli.interruption import interruption_held
 from grafu.cli.job import Failed, Job, JobOptions, JobResult
-from grafu.cli.main import EXIT_INTERRUPTED, main
+from grafu.cli.main import main
 from grafu.cli.messages import INTERRUPTED
+from grafu.cli.verb import EXIT_INTERRUPTED
 
 
 def swallow_an_interruption() -> None:

@@ -4,7 +4,9 @@ import os
 from pathlib import Path
 
 from grafu.cli.job import Failed, Job, JobOptions
-from grafu.cli.pool import CRASHED, run_jobs
+from grafu.cli.limit_options import why_stopped
+from grafu.cli.pool import run_jobs
+from grafu.processes.limits import Ending, Limits
 
 
 def fake_run(job: Job) -> Failed:
@@ -28,5 +30,5 @@ def test_a_crash_fails_one_job_alone() -> None:
     found = {result.job.name: result for result in run_jobs(jobs("a", "crash", "b"), 1, fake_run)}
 
     assert (found["a"].why, found["b"].why) == ("ran a", "ran b")
-    assert found["crash"].why == CRASHED
+    assert found["crash"].why == why_stopped(Ending.DIED, Limits())
     assert not found["crash"].users_fault

@@ -27,9 +27,25 @@ def test_one_result_names_what_was_added_what_was_guessed_and_its_page(
     print_results([topless])
     said = capsys.readouterr().out
 
-    assert "added: 1 top panel" in said
+    assert "green: Everything works: 1 door and 1 drawer; nothing collides, nothing comes loose." in said
+    assert "added: 2 hinges, 2 rails, 1 top panel and 1 handle\n" in said
     assert "guessed: scale 1 m per unit: metres make a storage of plausible size; --scale changes it" in said
     assert f"look at {topless.job.folder / 'report.html'}" in said
+
+
+def test_joints_that_the_input_states_and_nobody_read_are_told(
+    topless: Succeeded, capsys: pytest.CaptureFixture[str]
+) -> None:
+    print_results([topless])
+    print_results([topless] * 2)
+    assert "states" not in capsys.readouterr().out
+
+    motion = topless.report.motion.model_copy(update={"stated_joints": 2, "unused_joints": 2})
+    stating = replace(topless, report=topless.report.model_copy(update={"motion": motion}))
+    print_results([stating])
+    assert "the input states 2 joints; --motion annotation builds them" in capsys.readouterr().out
+    print_results([stating, topless])
+    assert "1 input states 2 joints; --motion annotation builds such" in capsys.readouterr().out
 
 
 def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys: pytest.CaptureFixture[str]) -> None:
@@ -59,11 +75,10 @@ def test_what_somebody_stopped_is_told_as_asked_and_of_many_it_is_nothing_to_loo
 def test_of_many_inputs_only_those_to_look_at_have_a_row(
     topless: Succeeded, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    fine = replace(topless, report=topless.report.model_copy(update={"skipped": (), "joints": ()}))
-    bad = Failed(Job(Path("bad.glb"), "bad", fine.job.options), "it is empty", users_fault=True)
-    print_results([fine] * 25 + [bad])
+    bad = Failed(Job(Path("bad.glb"), "bad", topless.job.options), "it is empty", users_fault=True)
+    print_results([topless] * 25 + [bad])
     said = capsys.readouterr().out
 
     assert "FAILED: it is empty" in said
     assert "cabinet" not in said
-    assert "25 inputs; 1 of 26 inputs failed" in said
+    assert "25 inputs: 25 green; 1 of 26 inputs failed" in said

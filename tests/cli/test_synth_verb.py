@@ -132,7 +132,7 @@ def test_furfun_folders_are_written(tmp_path: Path, capsys: pytest.CaptureFixtur
 def test_a_gallery_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = ["synth", "--gallery", "--points", "8", "--count", "2", "--jobs", "1", "--out", str(tmp_path)]
     assert main(command) == 0
-    assert {p.name for p in tmp_path.iterdir()} == {"gallery.html", "gallery.png"}
+    assert {p.name for p in tmp_path.iterdir()} == {".grafu.json", "gallery.html", "gallery.png"}
     assert main(command) == 2
     assert "exists already" in capsys.readouterr().err
     assert main([*command, "--overwrite"]) == 0

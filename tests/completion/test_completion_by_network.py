@@ -17,7 +17,7 @@ from grafu.completion.scores import Scores
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import KINDS, LABELS
-from grafu.graph.completion import GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -144,21 +144,35 @@ def test_a_mount_agrees_with_the_border() -> None:
     assert (hinge.border, hinge.parent) in {(0, "left"), (0, "right")}
 
 
-@pytest.mark.parametrize(("outward", "sign"), [(0.5, 0), (0.0, 1)])
-def test_doors_rather_open_outwards(outward: float, sign: int) -> None:
-    said = told()
-    said.hinges = {}
-    graph = cupboard()
-    network = said.about(graph)
+@pytest.mark.parametrize(("outward", "sign", "way", "by"), [(0.5, "1", "2", "network and rule"), (0.0, "0", "3", "")])
+def test_scores_are_the_networks_own_whatever_is_chosen(outward: float, sign: str, way: str, by: str) -> None:
+    graph, lean = cupboard(), 0.4
+    network = replace(told(), hinges={}, slides={}).about(graph)
 
     def leaning(features: GraphFeatures) -> Scores:
         scores = network(features)
-        border, turn = scores.border.copy(), scores.sign.copy()
-        border[:, :, 0], turn[:, :, 1] = SURE, 0.4  # it leans a little towards the sign that opens into the case
-        return replace(scores, border=border, sign=turn)
+        border, turn, slide = scores.border.copy(), scores.sign.copy(), scores.slide.copy()
+        border[:, :, 1] = lean  # a little towards the side of the knob, where no rule would pin the door,
+        turn[:, :, 0] = lean  # into the case
+        slide[:, :, 3] = lean  # and through the back
+        return replace(scores, border=border, sign=turn, slide=slide)
 
-    found = complete_by_network(graph, leaning, FEW, replace(ONCE, outward=outward)).completed.hinges[0]
-    assert (found.border, found.sign) == (0, sign)
+    completion = complete_by_network(graph, leaning, FEW, replace(ONCE, outward=outward))
+    asked = [completion.decision(*which) for which in (("door", "border"), ("door", "sign"), ("drawer", "slide"))]
+    assert [(d.choice, d.by) for d in asked] == [("1", ""), (sign, by), (way, by)]
+    assert shares_of(asked[0])["1"] == pytest.approx(share_of(lean, 4), abs=1e-6)
+    assert shares_of(asked[1])["0"] == pytest.approx(share_of(lean, 2), abs=1e-6)
+    assert shares_of(asked[2])["3"] == pytest.approx(share_of(lean, 6), abs=1e-6)
+
+
+def shares_of(decision: Decision) -> dict[str, float]:
+    """The scores of a decision by choice."""
+    return {decision.choice: decision.score, decision.runner_up: decision.runner_up_score}
+
+
+def share_of(logit: float, codes: int) -> float:
+    """The probability of the one code with this logit where all others have 0."""
+    return float(np.exp(logit) / (np.exp(logit) + codes - 1))
 
 
 def test_the_network_overrules_the_carpenter() -> None:
@@ -198,6 +212,8 @@ def test_a_plain_flap_is_one_whatever_is_said(knob_at: tuple[float, float], bord
 
     assert (hinge.border, hinge.parent) == (border, mount)
     assert completion.decision("door", "border").choice == str(border)
+    assert completion.decision("door", "border").by == ("" if border == 0 else "rule")
+    assert completion.decision("door", "sign").by == ""
 
 
 def test_an_upright_door_with_its_knob_above_is_no_flap() -> None:
@@ -225,6 +241,7 @@ def test_what_nothing_seen_carries_moves_as_a_carpenter_finds() -> None:
     assert not isinstance(run, RefusedMotion)
     assert set(completion.completed.hinges) | set(completion.completed.rails) == {*hung[0], *run[0]}
     assert {d.question for d in completion.decisions if d.part == "door"} == {"border", "sign", "mount"}
+    assert {d.by for d in completion.decisions if d.question != "parent"} == {"rule"}
 
 
 def test_a_network_that_is_unsure_what_carries_a_door_leaves_its_side_to_the_carpenter() -> None:

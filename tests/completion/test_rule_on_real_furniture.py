@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(not MODELS.is_dir(), reason="the real furniture 
 
 @cache
 def loaded(name: str) -> tuple[Asset, FunctionalGraph]:
-    asset = load_asset(MODELS / name)
+    asset = load_asset(MODELS / name).as_annotated()
     return asset, parse_graph(asset)
 
 

@@ -71,3 +71,28 @@ def test_overwrite_starts_again(whole: dict[str, bytes], tmp_path: Path) -> None
     list(write_dataset(DatasetPlan(9, 4, 16), tmp_path, overwrite=True))
     list(write_dataset(PLAN, tmp_path, overwrite=True))
     assert contents(tmp_path) == whole
+
+
+def test_what_others_put_into_a_data_set_stays(whole: dict[str, bytes], tmp_path: Path) -> None:
+    list(write_dataset(DatasetPlan(9, 2, 16, format="furfun"), tmp_path))
+    model = next((tmp_path / UNFUNCTIONAL).iterdir()).name
+    mine = {f"{UNFUNCTIONAL}/{model}/notes.txt", f"{FUNCTIONAL}/mine/notes.txt", f"{SPLITS}/mine.json", "notes.txt"}
+    for name in mine:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(b"mine")
+    (tmp_path / UNFUNCTIONAL / model / "notes.txt").rename(tmp_path / FUNCTIONAL / model / "notes.txt")
+    mine = mine - {f"{UNFUNCTIONAL}/{model}/notes.txt"} | {f"{FUNCTIONAL}/{model}/notes.txt"}
+
+    list(write_dataset(PLAN, tmp_path, overwrite=True))
+    assert contents(tmp_path) == whole | dict.fromkeys(mine, b"mine")
+
+
+def test_a_data_set_of_others_is_never_removed(tmp_path: Path) -> None:
+    (tmp_path / SPLITS).mkdir()
+    (tmp_path / SPLITS / "full_split.json").write_text("mine")
+    (tmp_path / "dataset.json").write_text('{"name": "mine"}')
+    before = contents(tmp_path)
+
+    with pytest.raises(ExportError, match="choose another --out"):
+        list(write_dataset(PLAN, tmp_path, overwrite=True))
+    assert contents(tmp_path) == before

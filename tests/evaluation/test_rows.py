@@ -11,7 +11,7 @@ from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.methods import Method
 from grafu.evaluation.perform import perform
 from grafu.evaluation.records import MadeFacts, Row
-from grafu.evaluation.rows import append_rows, begin_rows, done, read_rows
+from grafu.evaluation.rows import NAME, append_rows, begin_rows, done, read_rows
 from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, TwinTask, key_of
 
 
@@ -134,3 +134,12 @@ def test_an_internal_error_is_a_row_too(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr("grafu.evaluation.perform.make_specimen", broken)
     found = perform(MadeTask(0, 0))
     assert found.error == "internal error, which is our fault (RuntimeError: first line second line)"
+
+
+@pytest.mark.parametrize("anew", [True, False])
+def test_rows_of_others_stay(tmp_path: Path, anew: bool) -> None:
+    (tmp_path / NAME).write_text('{"city": "Paris"}\n')
+
+    with pytest.raises(ExportError, match="no rows of grafu's"):
+        begin_rows(tmp_path / NAME, anew)
+    assert (tmp_path / NAME).read_text() == '{"city": "Paris"}\n'

@@ -5,8 +5,10 @@ from pathlib import Path
 import pytest
 
 from folders import contents
+from grafu.asset.own_results import MARKER
 from grafu.errors import ExportError
-from grafu.export.files import ExportFiles, write_files
+from grafu.export.files import ExportFiles, add_files, write_files
+from grafu.export.marker import Marker, read_marker
 
 FILES = ExportFiles({"model.urdf": b"<robot/>", "meshes/door.obj": b"v 0 0 0\n"})
 
@@ -139,3 +141,138 @@ def test_joining_refuses_two_contents_for_one_name():
 def test_the_table_cannot_be_changed():
     with pytest.raises(TypeError):
         FILES.contents["x"] = b""
+
+
+def test_a_folder_without_our_marker_is_kept(tmp_path):
+    (tmp_path / "out" / "meshes").mkdir(parents=True)
+    (tmp_path / "out" / "model.urdf").write_bytes(b"the user's own")
+
+    for overwrite in (False, True):
+        with pytest.raises(ExportError, match=r"\.grafu\.json.*move it away"):
+            write_files(FILES, tmp_path / "out", overwrite)
+    assert contents(tmp_path) == {"out/model.urdf": b"the user's own"}
+
+
+def test_what_we_did_not_write_stays_when_we_write_again(tmp_path):
+    out = tmp_path / "out"
+    write_files(FILES, out)
+    (out / "meshes" / "mine").mkdir()
+    (out / "empty" / "inside").mkdir(parents=True)
+    (out / "notes.txt").write_bytes(b"weeks of work")
+    (out / "meshes" / "mine" / "notes.txt").write_bytes(b"more of it")
+    (tmp_path / "elsewhere").mkdir()
+    (out / "link").symlink_to(tmp_path / "elsewhere", target_is_directory=True)
+    (out / "dangling").symlink_to("nowhere")
+
+    for _ in range(2):
+        write_files(ExportFiles({"model.glb": b"glTF"}), out, overwrite=True)
+
+    assert contents(out) == {
+        "model.glb": b"glTF",
+        "notes.txt": b"weeks of work",
+        "meshes/mine/notes.txt": b"more of it",
+    }
+    assert (out / "empty" / "inside").is_dir()
+    assert os.readlink(out / "link") == str(tmp_path / "elsewhere")
+    assert os.readlink(out / "dangling") == "nowhere"
+    assert sorted(os.listdir(tmp_path)) == ["elsewhere", "out"]
+
+
+@pytest.mark.parametrize("mine", ["model.glb", "MODEL.GLB", "model.glb/notes.txt", "objs"])
+def test_what_stands_in_the_way_is_named_and_stays(tmp_path, mine):
+    out = tmp_path / "out"
+    write_files(FILES, out)
+    (out / mine).parent.mkdir(exist_ok=True)
+    (out / mine).write_bytes(b"mine")
+    before = contents(out)
+
+    with pytest.raises(ExportError, match="none of grafu's files"):
+        write_files(ExportFiles({"model.glb": b"glTF", "objs/a.obj": b""}), out, overwrite=True)
+    assert contents(out) == before
+
+
+def test_a_link_in_place_of_our_folder_is_not_followed(tmp_path):
+    out, precious = tmp_path / "out", tmp_path / "precious"
+    write_files(FILES, out)
+    precious.mkdir()
+    (precious / "door.obj").write_bytes(b"the user's")
+    (out / "meshes" / "door.obj").unlink()
+    (out / "meshes").rmdir()
+    (out / "meshes").symlink_to(precious, target_is_directory=True)
+
+    with pytest.raises(ExportError, match="meshes"):
+        write_files(FILES, out, overwrite=True)
+    write_files(ExportFiles({"model.glb": b"glTF"}), out, overwrite=True)
+    assert contents(precious) == {"door.obj": b"the user's"}
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", '{"schema": "grafu.output/2"}', '{"schema": "grafu.output/1", "files": [1], "formats": {}}']
+)
+def test_a_damaged_marker_protects_the_folder(tmp_path, text):
+    write_files(FILES, tmp_path / "out")
+    (tmp_path / "out" / MARKER).write_text(text)
+
+    with pytest.raises(ExportError, match=r"damaged.*move"):
+        write_files(FILES, tmp_path / "out", overwrite=True)
+    assert contents(tmp_path / "out") == dict(FILES.contents)
+
+
+def test_a_marker_that_lists_other_places_deletes_nothing_there(tmp_path):
+    write_files(FILES, tmp_path / "out")
+    (tmp_path / "victim").write_bytes(b"mine")
+    (tmp_path / "out" / MARKER).write_bytes(Marker(("../victim", str(tmp_path / "victim"))).to_bytes())
+
+    write_files(ExportFiles({"a": b""}), tmp_path / "out", overwrite=True)
+    assert contents(tmp_path) == {"victim": b"mine", "out/a": b"", **{f"out/{n}": b for n, b in FILES.contents.items()}}
+
+
+def test_the_same_files_give_the_same_marker(tmp_path):
+    given = ExportFiles({"b": b"", "a/c": b""}, {"urdf": ("b", "a/c"), "glb": ("b",)})
+    turned = ExportFiles({"a/c": b"", "b": b""}, {"glb": ("b",), "urdf": ("a/c", "b")})
+    write_files(given, tmp_path / "one")
+    write_files(turned, tmp_path / "two")
+
+    assert (tmp_path / "one" / MARKER).read_bytes() == (tmp_path / "two" / MARKER).read_bytes()
+    marker = read_marker(tmp_path / "one")
+    assert marker is not None
+    assert marker.lacks(tmp_path / "one", ("glb", "urdf", "usd")) == ("usd",)
+    (tmp_path / "one" / "a" / "c").unlink()
+    assert marker.lacks(tmp_path / "one", ("glb", "urdf")) == ("urdf",)
+
+
+def test_no_export_writes_the_marker():
+    for name in (MARKER, MARKER.upper()):
+        with pytest.raises(ExportError):
+            ExportFiles({name: b""})
+
+
+def test_added_files_are_ours_and_replace_no_other(tmp_path):
+    out, made = tmp_path / "out", tmp_path / "made"
+    write_files(FILES, out)
+    made.write_bytes(b"blend")
+    (out / "notes.txt").write_bytes(b"mine")
+
+    for _ in range(2):
+        add_files(out, {"model.blend": made}, {"blend": ("model.blend",)})
+    with pytest.raises(ExportError, match=r"notes\.txt"):
+        add_files(out, {"notes.txt": made})
+    with pytest.raises(ExportError, match="a folder that grafu wrote"):
+        add_files(tmp_path, {"model.blend": made})
+    marker = read_marker(out)
+    assert marker is not None
+    assert marker.lacks(out, ("blend",)) == ()
+    write_files(FILES, out, overwrite=True)
+    assert contents(out) == {**FILES.contents, "notes.txt": b"mine"}
+
+
+def test_a_disk_without_hard_links_keeps_what_is_not_ours(tmp_path, monkeypatch):
+    def refused(*_: object, **__: object) -> None:
+        raise OSError(errno.EPERM, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", refused)
+    write_files(FILES, tmp_path / "out")
+    (tmp_path / "out" / "notes.txt").write_bytes(b"mine")
+
+    write_files(FILES, tmp_path / "out", overwrite=True)
+    assert contents(tmp_path / "out") == {**FILES.contents, "notes.txt": b"mine"}

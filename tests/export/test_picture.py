@@ -24,6 +24,7 @@ from grafu.export.picture import (
     posed_visuals,
     render,
 )
+from grafu.export.ray_scene import _decode
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -227,3 +228,9 @@ def test_hardware_keeps_its_metal_among_categories():
     hinge = Visual("hinge_1", CUBE.surfaces, VisualRole.HARDWARE)
     picture = render([hinge], head_on([hinge]), SIZE, PictureStyle("transparent", by_category=True, shadow=False))
     assert picture[36, 48, 0] > 2 * picture[36, 48, 2]
+
+
+def test_an_image_that_is_broken_is_drawn_grey():
+    grey = _decode(Texture("a.png", b"\x89PNG\r\n\x1a\n and no more", "image/png"))
+    assert grey.shape == (1, 1, 4)
+    assert len(set(grey[0, 0, :3].tolist())) == 1

@@ -14,6 +14,7 @@ from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Contact, Hinge, Rail
 from grafu.graph.edit import as_contacts
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.json_values import read_vector
 from grafu.graph.official_json import (
     functional_to_official,
     graph_from_official,
@@ -56,7 +57,7 @@ def test_our_form_round_trips_exactly(border, sign, axis, x, cloud, word):
 
 def test_a_completion_round_trips_exactly():
     full = graph()
-    decisions = (Decision("door", "mount", "zz side", 1 / 3, "drawer", 0.1),)
+    decisions = (Decision("door", "mount", "zz side", 1 / 3, "drawer", 0.1, "rule"),)
     completion = GraphCompletion(as_contacts(full), full, "rule", (), decisions, (RefusedMotion("knob", "why not"),))
     text = dump_json(completion_to_json(completion))
     assert completion_from_json(load(text)) == completion
@@ -105,6 +106,18 @@ def test_our_form_refuses_a_wrong_node(change, message):
     data["nodes"]["door"] |= change
     with pytest.raises(GraphError, match=message):
         graph_from_json(data)
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, '{"a":' * 100_000, '{"a": ' + "9" * 5000 + "}"])
+def test_text_that_python_cannot_read_is_refused_in_one_line(text):
+    with pytest.raises(GraphError, match="usual depth") as caught:
+        load(text)
+    assert "\n" not in str(caught.value)
+
+
+def test_numbers_beyond_all_are_refused():
+    with pytest.raises(GraphError, match="finite numbers"):
+        read_vector({"a": [10**400, 0, 0]}, "a", "it", (3,))
 
 
 def test_text_that_is_not_json_is_refused():

@@ -5,18 +5,18 @@ from pathlib import Path
 
 import numpy as np
 import onnx
-import onnxruntime
 import pytest
 import torch
 from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, arrays, tiny_network
 
+from grafu.completion.runtime import onnx_runtime
 from grafu.network.batch import one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.export import OUTPUTS, PAIR_OUTPUTS
 
 
 def farthest(file: bytes, n: int) -> float:
-    session = onnxruntime.InferenceSession(file, providers=["CPUExecutionProvider"])
+    session = onnx_runtime().InferenceSession(file, providers=["CPUExecutionProvider"])
     with torch.no_grad():
         wanted = tiny_network()(one_graph(**arrays(n)))
     found = session.run(list(OUTPUTS), {name: array.numpy() for name, array in arrays(n).items()})

@@ -21,7 +21,7 @@ from grafu.pipeline.report import report_of
 from grafu.synth.articulated import articulated_of
 from grafu.templates.gallery import builtin_gallery
 from predictions import cabinet, require_same_joints
-from small_assets import urdf_text, write_pnm, write_urdf
+from small_assets import load_annotated, urdf_text, write_pnm, write_urdf
 
 CABINET = cabinet()
 FILES = {
@@ -85,20 +85,30 @@ def test_particulates_urdf_is_its_by_the_names_of_its_joints(tmp_path: Path) -> 
 
 
 def test_a_robot_description_fits_the_same_model_read_otherwise(tmp_path: Path) -> None:
-    asset = load_asset(write_pnm(tmp_path / "pnm"))
+    asset = load_annotated(write_pnm(tmp_path / "pnm"))
     write_urdf(tmp_path / "robot")
     found = attach_motions(asset, read_foreign(tmp_path / "robot"))
     truth = replace(asset, joints=tuple(replace(j, upper=1.5) if j.upper > 1.5 else j for j in asset.joints))
 
     require_same_joints(found, truth, tolerance=1e-6)
-    again = attach_motions(load_asset(tmp_path / "robot"), read_foreign(tmp_path / "pnm"))
-    require_same_joints(again, replace(load_asset(tmp_path / "robot"), joints=_wider(again, tmp_path)), tolerance=1e-6)
+    robot = load_annotated(tmp_path / "robot")
+    again = attach_motions(robot, read_foreign(tmp_path / "pnm"))
+    require_same_joints(again, replace(robot, joints=_wider(again, tmp_path)), tolerance=1e-6)
+
+
+def test_what_is_read_without_its_joints_takes_those_of_a_robot_description(tmp_path: Path) -> None:
+    """Each body's pieces are parts of their own there: the largest gets the joint, the others ride on it."""
+    asset = load_asset(write_pnm(tmp_path / "pnm"))
+    found = attach_motions(asset, read_foreign(write_urdf(tmp_path / "robot")))
+
+    assert {joint.part for joint in found.joints} == {"cabinet_door_surface_7", "drawer_front_9"}
+    assert (found.part("handle_8").rides_on, found.part("handle_11").rides_on) == tuple(j.part for j in found.joints)
 
 
 def _wider(again, tmp_path: Path):  # type: ignore[no-untyped-def]
     """Returns the joints that the URDF states, doors opening as far as the other file says."""
     by_part = {joint.part: joint for joint in again.joints}
-    return tuple(replace(j, upper=by_part[j.part].upper) for j in load_asset(tmp_path / "robot").joints)
+    return tuple(replace(j, upper=by_part[j.part].upper) for j in load_annotated(tmp_path / "robot").joints)
 
 
 @pytest.mark.parametrize("source", ["particulate", "singapo", "grafu-pred", "urdf"])

@@ -23,7 +23,7 @@ model = pytest.mark.parametrize("name", AT_HAND)
 
 @cache
 def loaded(name: str) -> Asset:
-    return load_asset(MODELS / name)
+    return load_asset(MODELS / name).as_annotated()
 
 
 @cache

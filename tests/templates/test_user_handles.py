@@ -1,47 +1,20 @@
 """Handles of the user's own, made from built-in ones: exported in millimetres, Y up, shifted, and read back."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from grafu.errors import TemplateError
 from grafu.geometry.mesh import merge_meshes
-from grafu.geometry.transform import from_rotation, transform_points
 from grafu.templates.gallery import builtin_gallery
-from grafu.templates.handle import HandleTemplate
 from grafu.templates.handles import HANDLES, handle_template
 from grafu.templates.user import load_gallery
 from grafu.templates.user_handles import load_handle, load_handles
-
-# Handle frame in metres to mesh coordinates in millimetres with Y up, shifted.
-R = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
-T_mesh_handle = from_rotation(1000 * R, np.array([5.0, 40.0, -7.0]))
-
-
-def write(folder: Path, template: HandleTemplate, suffix: str = "obj", name: str = "mine", **changes) -> Path:
-    folder = folder / name
-    folder.mkdir(parents=True)
-    merge_meshes(template.build()).transformed(T_mesh_handle).to_trimesh().export(folder / f"handle.{suffix}")
-    note = {
-        "kind": "handle",
-        "family": template.family,
-        "title": "Mine",
-        "unit": 0.001,
-        "foot": transform_points(T_mesh_handle, np.zeros((1, 3)))[0].tolist(),
-        "outwards": (R @ (0, -1, 0)).tolist(),
-        "along": (R @ (1, 0, 0)).tolist(),
-        "longest": 1000 * template.longest,
-        "turns": template.turns,
-    } | changes
-    (folder / "template.json").write_text(json.dumps({k: v for k, v in note.items() if v is not None}))
-    return folder
+from own_templates import R, write_handle
 
 
 @pytest.mark.parametrize("template", HANDLES, ids=lambda t: t.id)
 def test_a_built_in_handle_survives_the_way_through_files(template, tmp_path):
-    write(tmp_path, template)
+    write_handle(tmp_path, template)
     (read,) = load_handles(tmp_path).values()
     assert (read.id, read.title, read.family, read.turns) == ("mine", "Mine", template.family, template.turns)
     assert read.longest == pytest.approx(template.longest)
@@ -55,13 +28,13 @@ def test_a_built_in_handle_survives_the_way_through_files(template, tmp_path):
 
 @pytest.mark.parametrize("suffix", ["obj", "stl", "ply", "glb"])
 def test_a_handle_is_read_from_each_kind_of_file(suffix, tmp_path):
-    read = load_handle(write(tmp_path, handle_template("bar-round"), suffix))
+    read = load_handle(write_handle(tmp_path, handle_template("bar-round"), suffix))
     assert len(merge_meshes(read.build()).faces) > 20
 
 
 def test_bars_are_stretched_along_and_knobs_both_ways(tmp_path):
-    bar = load_handle(write(tmp_path, handle_template("bar-round"), name="bar"))
-    knob = load_handle(write(tmp_path, handle_template("knob-round"), name="knob"))
+    bar = load_handle(write_handle(tmp_path, handle_template("bar-round"), name="bar"))
+    knob = load_handle(write_handle(tmp_path, handle_template("knob-round"), name="knob"))
     long, wide = merge_meshes(bar.build(0.4, 0.02)).box.size, merge_meshes(knob.build(0.06, 0.02)).box.size
     np.testing.assert_allclose(long[:2], (0.4, 0.02), rtol=1e-4)
     np.testing.assert_allclose(long[2], merge_meshes(bar.build()).box.size[2], rtol=1e-4)
@@ -69,7 +42,7 @@ def test_bars_are_stretched_along_and_knobs_both_ways(tmp_path):
 
 
 def test_handles_and_mechanisms_share_a_folder(tmp_path):
-    write(tmp_path, handle_template("bar-round"))
+    write_handle(tmp_path, handle_template("bar-round"))
     assert load_gallery(tmp_path).hinges == ()
     assert builtin_gallery().extended(load_gallery(tmp_path)).hinges == builtin_gallery().hinges
     (tmp_path / "hinge").mkdir()
@@ -94,7 +67,7 @@ BAD = [
 
 @pytest.mark.parametrize(("changes", "words"), BAD)
 def test_what_is_wrong_is_said_in_one_line_with_the_folder(changes, words, tmp_path):
-    folder = write(tmp_path, handle_template("bar-round"), **changes)
+    folder = write_handle(tmp_path, handle_template("bar-round"), **changes)
     with pytest.raises(TemplateError) as caught:
         load_handle(folder)
     text = str(caught.value)
@@ -104,7 +77,7 @@ def test_what_is_wrong_is_said_in_one_line_with_the_folder(changes, words, tmp_p
 
 
 def test_a_missing_or_empty_mesh_is_an_error(tmp_path):
-    folder = write(tmp_path, handle_template("bar-round"))
+    folder = write_handle(tmp_path, handle_template("bar-round"))
     (folder / "handle.obj").unlink()
     with pytest.raises(TemplateError, match="lacks its mesh"):
         load_handle(folder)

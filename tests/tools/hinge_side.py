@@ -1,9 +1,9 @@
 """A baseline learner: on which side does a door hang? Trained on made doors alone, asked about real ones.
 
 It sees boxes only: where the door is in the object, what stands on its four sides, and, where that is allowed, its
-handle. Run it from the folder `tests`:
+handle. It prints a table in Markdown:
 
-    python -m tools.hinge_side --count 2000 --real ../../shared/models/pnm
+    python tests/tools/hinge_side.py --count 1500 --real MODELS
 """
 
 import argparse
@@ -60,7 +60,7 @@ def real_doors(folder: Path) -> list[Door]:
     """Returns the doors of all models in a folder."""
     found: list[Door] = []
     for path in sorted(folder.iterdir()):
-        asset = load_asset(path)
+        asset = load_asset(path).as_annotated()
         graph = parse_graph(asset)
         found += doors_in(path.name, with_edges(graph, annotated_edges(asset, graph).edges))
     return found
@@ -143,12 +143,16 @@ def main() -> None:
     parser.add_argument("--real", type=Path, required=True, help="folder of real models")
     options = parser.parse_args()
     train, asked = synthetic_doors(options.count, options.seed), real_doors(options.real)
-    shares = {side: float(np.mean([d.side == side for d in asked])) for side in SIDES}
-    print(f"{len(train)} doors to learn from, {len(asked)} real ones: {shares}")
+    common = max(sum(d.side == side for d in asked) for side in SIDES)
+    rows = [("always the commonest side", common)]
     for with_handles in (True, False):
         found = predictions(train, asked, with_handles)
         wrong = [f"{d.model}/{d.part} {d.side}, not {s}" for s, d in zip(found, asked, strict=True) if s != d.side]
-        print(f"{'with' if with_handles else 'without'} handles: {1 - len(wrong) / len(asked):.1%}; wrong: {wrong}")
+        rows.append(("with handles" if with_handles else "without handles", len(asked) - len(wrong)))
+        print(f"wrong {rows[-1][0]}: {', '.join(wrong) or 'none'}\n")
+    print("| of real doors | doors | right | share | learnt from |\n|---|---|---|---|---|")
+    for name, right in rows:
+        print(f"| {name} | {len(asked)} | {right} | {right / len(asked):.0%} | {len(train)} |")
 
 
 if __name__ == "__main__":

@@ -117,3 +117,11 @@ def test_a_folder_keeps_to_one_ablation(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "new" / "ablation.json").read_text())["kind"] == "losses"
     with pytest.raises(ExportError, match="another ablation"):
         begin_ablation(tmp_path / "new", {"kind": "folds", "steps": "2"})
+
+
+def test_tables_of_others_stay(tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text("mine")
+
+    with pytest.raises(ExportError, match=r"table\.csv"):
+        begin_ablation(tmp_path, {"kind": "losses"})
+    assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]

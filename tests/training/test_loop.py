@@ -95,3 +95,11 @@ def test_half_precision_learns_too(tmp_path: Path) -> None:
     reports = run(little(2, precision="bf16"), tmp_path)
     assert all(torch.isfinite(torch.tensor(report.means["total"])) for report in reports[1:])
     assert isinstance(multiplies_bfloat16(torch.device("cpu")), bool)
+
+
+@pytest.mark.parametrize("name", ["config.json", "train.csv", "best.pt"])
+def test_files_of_others_stay(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_text('{"mine": 1}')
+    with pytest.raises(ExportError, match="choose another --out"):
+        run(little(2), tmp_path)
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(name, '{"mine": 1}')]

@@ -1,23 +1,24 @@
 """What sets a joint right is an option that the command takes, names the other side, and is copied by a click."""
 
+from dataclasses import replace
+
 import pytest
 from page_reader import PageReader
 
 from grafu.cli.move_option import part_move
+from grafu.pipeline import move_options as options_of
 from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.motion_source import MotionSource
-from grafu.pipeline.report_schema import MotionRecord
+from grafu.pipeline.move_options import move_options
 from grafu.realization.motion_choice import MotionChoice, Moves, Side
-from grafu.viewer import corrections as corrected
-from grafu.viewer.corrections import corrections
 
 
 def said_of(made, part):
-    return [part_move(line.removeprefix("--move ")) for line in corrections(made.report, made.result.object)[part]]
+    return [part_move(line.removeprefix("--move ")) for line in move_options(made.result)[part]]
 
 
 def test_every_joint_has_its_lines_and_the_command_takes_them(made):
-    assert {joint.part for joint in made.report.joints} == set(corrections(made.report, made.result.object))
+    assert {joint.part for joint in made.report.joints} == set(made.report.moves)
     for joint in made.report.joints:
         assert said_of(made, joint.part)[-1] == (joint.part, "not")
 
@@ -41,19 +42,17 @@ def test_a_door_turns_about_the_other_side_instead(made):
 )
 def test_the_way_follows_the_motion(made, monkeypatch, motion, ways):
     first = made.report.joints[0].part
-    monkeypatch.setattr(corrected, "motions_of", lambda _: {first: motion} if motion else {})
+    monkeypatch.setattr(options_of, "motions_of", lambda _: {first: motion} if motion else {})
 
     assert [way for _, way in said_of(made, first)] == ways
 
 
 def test_motions_of_another_system_have_none(made):
-    motion = MotionRecord(source=MotionSource.SINGAPO)
-
-    assert corrections(made.report.model_copy(update={"motion": motion}), made.result.object) == {}
+    assert move_options(replace(made.result, source=MotionSource.SINGAPO)) == {}
 
 
 def test_the_page_holds_them(page, made):
-    lines = [line for lines in corrections(made.report, made.result.object).values() for line in lines]
+    lines = [line for joint in made.report.joints for line in made.report.moves[joint.part]]
 
     assert [button["data-copy"] for button in PageReader(page).all("button", class_="copy")] == lines
 

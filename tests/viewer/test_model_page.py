@@ -141,3 +141,13 @@ def test_a_model_that_does_not_move_has_a_page(made):
 
     assert read.all("input", type="range") == []
     assert scene_of(read)["items"] == []
+
+
+def test_the_page_says_that_the_input_states_joints_which_nobody_read(page, made):
+    motion = made.report.motion.model_copy(update={"stated_joints": 2, "unused_joints": 2})
+    report = made.report.model_copy(update={"motion": motion})
+    stills = Stills(b"", b"", b"")
+    said = model_page(made.result.asset, made.result.object, made.result.completion, report, stills)
+
+    assert "states 2 joints; --motion annotation builds them" in " ".join(PageReader(said).texts.values())
+    assert "states" not in " ".join(PageReader(page).texts.values())

@@ -109,7 +109,8 @@ def test_reports_become_rows(made):
     run = functionalized_run("Run", entries)
 
     assert [r.cells[0] for r in run.tables[0].worst_first] == ["gone", "bad", "good"]
-    assert "no mesh" in str(run.tables[0].worst_first[0].cells[1])
+    assert "no mesh" in str(run.tables[0].worst_first[0].cells[2])
+    assert [r.cells[1] for r in run.tables[0].worst_first] == ["failed", "red", "green"]
     assert ("1", "failed") in {(f.value, f.what) for f in run.figures}
     run_page(run)
 
@@ -125,8 +126,9 @@ def test_what_somebody_stopped_is_no_fault(made):
     figures = {figure.what: figure.value for figure in functionalized_run("Run", entries).figures}
 
     assert {name for name, row in rows.items() if not row.flagged} == {SkipReason.REJECTED}
-    assert rows[SkipReason.REJECTED].cells[1] == ""
-    assert figures["skipped"] == str(len(SkipReason) - 1)
+    assert rows[SkipReason.REJECTED].cells[1:3] == ("green", "")
+    assert (figures["green"], figures["red"]) == ("1", str(len(SkipReason) - 1))
+    assert figures["doors and drawers that stand still"] == str(len(SkipReason) - 1)
 
 
 def test_a_run_without_rows_is_a_page():

@@ -4,37 +4,48 @@ from math import pi
 
 import pytest
 
+from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
+from grafu.pipeline.words import counted, listed, opening
 from grafu.realization.report import SkipReason
-from grafu.viewer.certainty import certainty_words
 from grafu.viewer.wording import (
-    added_parts,
+    added,
     axis_words,
-    counted,
     direction_words,
-    listed,
+    facts,
     moved_words,
-    opening,
     still_lacking,
-    verdict,
+    unused_joints,
 )
 from grafu.vocabulary import JointType, PartLabel
 
 
-def test_the_verdict_says_all_four_things(made):
-    said = verdict(made.report)
+def test_the_facts_say_what_moves_was_missing_and_was_added(made):
+    said = facts(made.report)
 
     assert said.startswith("1 part on hinges and 1 on rails move.")
     assert "Missing were hardware for 2 parts" in said
-    assert "Added: 2 hinges, 2 rails and 1 handle." in said
-    assert said.endswith("Nothing was skipped.")
+    assert said.endswith("Added: 2 hinges, 2 rails and 1 handle.")
+
+
+@pytest.mark.parametrize(
+    ("unused", "words"),
+    [
+        (0, ""),
+        (1, "states 1 joint; --motion annotation builds it"),
+        (2, "states 2 joints; --motion annotation builds them"),
+    ],
+)
+def test_stated_joints_that_nobody_read_are_said(made, unused, words):
+    motion = made.report.motion.model_copy(update={"stated_joints": 2, "unused_joints": unused})
+    assert unused_joints(made.report.model_copy(update={"motion": motion})) == words
 
 
 def test_a_report_of_nothing_says_so(made):
     empty = made.report.model_copy(update={"joints": (), "added": (), "skipped": (), "deficiencies": ()})
 
-    assert verdict(empty) == "Nothing moves. Nothing was missing. Nothing was added. Nothing was skipped."
+    assert facts(empty) == "Nothing moves. Nothing was missing. Nothing was added."
 
 
 def test_the_boards_of_a_drawers_box_are_one_box(made):
@@ -42,7 +53,8 @@ def test_the_boards_of_a_drawers_box_are_one_box(made):
     boards = tuple(board.model_copy(update={"part": name}) for name in "abcd")
     top = AddedRecord(part="top", category=PartLabel.TOP_PANEL, why="", style="rectangle", link="body")
 
-    assert added_parts(made.report.model_copy(update={"added": (*boards, top)})) == ["1 top panel", "1 drawer box"]
+    report = made.report.model_copy(update={"joints": (), "added": (*boards, top)})
+    assert added(report) == ["1 top panel", "1 drawer box"]
 
 
 def test_what_was_built_is_no_longer_lacking(made):
@@ -65,9 +77,9 @@ def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
     def said(reason):
         return made.report.model_copy(update={**changes, "skipped": (skips[reason],)})
 
-    assert verdict(said(SkipReason.REJECTED)).endswith(f"Nothing was skipped. As asked, {door} stands still.")
+    assert facts(said(SkipReason.REJECTED)).endswith(f"As asked, {door} stands still.")
     assert still_lacking(said(SkipReason.REJECTED)) == ()
-    assert verdict(said(SkipReason.BLOCKED)).endswith(f"Skipped: {door}.")
+    assert "As asked" not in facts(said(SkipReason.BLOCKED))
     assert still_lacking(said(SkipReason.BLOCKED)) == (lack,)
 
 

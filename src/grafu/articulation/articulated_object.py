@@ -27,7 +27,7 @@ class VisualRole(StrEnum):
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Visual:
     """One part or piece of hardware in its rest pose. `name` is the part id, or begins with hinge_, rail_, support_."""
 
@@ -36,6 +36,9 @@ class Visual:
     role: VisualRole = VisualRole.PART
     label: PartLabel = PartLabel.UNKNOWN
 
+    def __repr__(self) -> str:
+        return f"<Visual {self.name}: {self.role}, {sum(len(s.mesh.faces) for s in self.surfaces):,} faces>"
+
     @cached_property
     def mesh(self) -> TriangleMesh:
         """All surfaces as one mesh."""
@@ -43,12 +46,15 @@ class Visual:
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Link:
     """A rigid body: what moves together."""
 
     id: str
     visuals: tuple[Visual, ...]
+
+    def __repr__(self) -> str:
+        return f"<Link {self.id}: {len(self.visuals)} visuals>"
 
     @cached_property
     def mesh(self) -> TriangleMesh:
@@ -114,7 +120,7 @@ class Joint:
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ArticulatedObject:
     """A tree of links under one static root.
 
@@ -127,6 +133,9 @@ class ArticulatedObject:
     root: str
     links: tuple[Link, ...]
     joints: tuple[Joint, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<ArticulatedObject {self.name}: {len(self.links)} links, {len(self.joints)} joints>"
 
     def __post_init__(self) -> None:
         ids = [link.id for link in self.links]

@@ -1,18 +1,21 @@
-"""Annotated inputs: rigid bodies with visuals and joints to parts. It reads no files and moves nothing.
+"""Annotated inputs: rigid bodies with visuals and joints, to parts with their joints, and to pieces without.
 
-Within a moving body the handle visuals become `handle` parts that ride on it, and the rest is one door or drawer.
-Wheels, casters, knobs and buttons that the input lets turn are `misc` and stay where they are.
+It reads no files and moves nothing. In an annotation, the handle visuals of a moving body become `handle` parts that
+ride on it, and the rest is one door or drawer. Wheels, casters, knobs and buttons that the input lets turn are `misc`
+and stay where they are.
 """
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
+from grafu.asset.drafts import PartDraft
 from grafu.asset.labels import is_control, is_piece, label_of
 from grafu.asset.names import unique_ids, words
-from grafu.asset.part import AnnotatedJoint, Part, PartSource
+from grafu.asset.part import AnnotatedJoint, Annotation, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import merge_meshes
@@ -22,12 +25,21 @@ from grafu.vocabulary import JointType, PartLabel
 @final
 @dataclass(frozen=True)
 class Visual:
-    """One named piece of a body, in the input's coordinates with every joint as drawn."""
+    """One named piece of a body, in the input's coordinates with every joint as drawn.
+
+    `group` names the door or drawer that it is a piece of where names say so, as a scene's nodes do.
+    """
 
     name: str
     surfaces: tuple[Surface, ...]
     link: str = ""
     file: str = ""
+    group: str = ""
+
+    @property
+    def named_surfaces(self) -> tuple[Surface, ...]:
+        """Its surfaces by its own name."""
+        return tuple(replace(surface, name=self.name) for surface in self.surfaces)
 
 
 @final
@@ -61,17 +73,6 @@ class Body:
 
 @final
 @dataclass(frozen=True)
-class BodyParts:
-    """What the bodies of an input come to; `grouped` says that it tells itself which pieces make up what moves."""
-
-    parts: tuple[Part, ...]
-    joints: tuple[AnnotatedJoint, ...]
-    grouped: bool
-    notes: list[str]
-
-
-@final
-@dataclass(frozen=True)
 class _Draft:
     """A part before it has an id; `carrier` is the link of the moving body that it belongs to or rides on."""
 
@@ -84,8 +85,17 @@ class _Draft:
     is_mover: bool = False
 
 
-def parts_of_bodies(bodies: list[Body], up: int) -> BodyParts:
-    """Returns the parts and joints of the bodies, and notes on what was decided.
+def drafts_of_visuals(visuals: Iterable[Visual]) -> list[PartDraft]:
+    """Returns every visual as a piece of its own, whatever body it belongs to: what a file without joints holds."""
+    filled = (v for v in visuals if any(not surface.is_empty for surface in v.surfaces))
+    return [
+        PartDraft(v.name, v.named_surfaces, v.group and f"link {v.group}", v.group, file=v.file, link=v.link)
+        for v in filled
+    ]
+
+
+def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
+    """Returns the parts and joints of the bodies, and notes on what was decided; None where nothing moves.
 
     Args:
         bodies: every rigid body of the input.
@@ -93,11 +103,13 @@ def parts_of_bodies(bodies: list[Body], up: int) -> BodyParts:
     """
     notes: list[str] = []
     movers = {body.link for body in bodies if _is_mover(body, notes)}
+    if not movers:
+        return None
     by_link = {body.link: body for body in bodies}
     drafts: list[_Draft] = []
     for body in bodies:
         carrier = _carrier(body, by_link, movers)
-        drafts += _moving(body, carrier, up) if body.link in movers else _static(body, carrier, bool(movers), notes)
+        drafts += _moving(body, carrier, up) if body.link in movers else _static(body, carrier, notes)
     drafts = [d for d in drafts if any(not s.is_empty for v in d.visuals for s in v.surfaces)]
     ids = unique_ids((d.name, d.label is PartLabel.HANDLE) for d in drafts)
     mover_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.is_mover}
@@ -105,7 +117,7 @@ def parts_of_bodies(bodies: list[Body], up: int) -> BodyParts:
     by_body = {body_of[link]: i for link, i in mover_ids.items()}
     parts = tuple(_part(d, i, by_body) for d, i in zip(drafts, ids, strict=True))
     joints = tuple(_joint(d.motion, i) for d, i in zip(drafts, ids, strict=True) if d.motion)
-    return BodyParts(parts, joints, bool(movers), notes)
+    return Annotation(parts, joints, tuple(notes))
 
 
 def _is_mover(body: Body, notes: list[str]) -> bool:
@@ -175,24 +187,24 @@ def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: Motion, up: int) -
     return along != up and thin not in (up, along) and bool(size[thin] < 0.35 * np.delete(size, thin).min())
 
 
-def _static(body: Body, carrier: str | None, annotated: bool, notes: list[str]) -> list[_Draft]:
+def _static(body: Body, carrier: str | None, notes: list[str]) -> list[_Draft]:
     drafts = []
     for visual in body.visuals:
-        label = label_of(visual.name)
+        spoken = label = label_of(visual.name)
         if body.motion is not None and label is not PartLabel.HANDLE:
             label = PartLabel.MISC
-        elif annotated and label is PartLabel.DRAWER and is_piece(visual.name):
+        elif label is PartLabel.DRAWER and is_piece(visual.name):
             # A front that the annotator left in place is a blind front: it closes the carcass like a frame.
             front = "front" in visual.name.lower()
             label = PartLabel.FACE_FRAME if front else PartLabel.MISC
             notes.append(f"{visual.name} is annotated as fixed: labelled {label.value}, not drawer")
-        by = "none" if label is PartLabel.UNKNOWN else "name"
+        by = "joint" if label is not spoken else "none" if label is PartLabel.UNKNOWN else "name"
         drafts.append(_Draft(visual.name, label, by, (visual,), carrier))
     return drafts
 
 
 def _part(draft: _Draft, part_id: str, by_body: dict[str, str]) -> Part:
-    surfaces = tuple(replace(s, name=v.name) for v in draft.visuals for s in v.surfaces)
+    surfaces = tuple(s for v in draft.visuals for s in v.named_surfaces)
     files = sorted({v.file for v in draft.visuals if v.file})
     source = PartSource(draft.name, ", ".join(files), draft.visuals[0].link)
     carrier = by_body.get(draft.carrier) if draft.carrier is not None else None

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.asset.part import Part
+from grafu.asset.part import Annotation, Part
 from grafu.asset.reading import Reading
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mask
@@ -16,9 +16,23 @@ _FLATNESS = 1e-9
 
 def cleaned(reading: Reading) -> Reading:
     """Returns the reading without degenerate faces, and without parts (and their joints) that have no face left."""
+    parts, notes = _cleaned(reading.parts)
+    annotation = reading.annotation and _cleaned_annotation(reading.annotation)
+    return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, *notes))
+
+
+def _cleaned_annotation(annotation: Annotation) -> Annotation:
+    parts, _ = _cleaned(annotation.parts)
+    known = {part.id for part in parts}
+    joints = tuple(joint for joint in annotation.joints if joint.part in known)
+    return replace(annotation, parts=parts, joints=joints)
+
+
+def _cleaned(given: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:
+    """Returns the parts that keep a face, and in words what was dropped."""
     parts: list[Part] = []
     dropped_faces, mended, empty = 0, 0, []
-    for part in reading.parts:
+    for part in given:
         surfaces, dropped = _without_degenerate(part.surfaces)
         dropped_faces += dropped
         mended += dropped > 0
@@ -26,14 +40,10 @@ def cleaned(reading: Reading) -> Reading:
             parts.append(replace(part, surfaces=surfaces) if dropped else part)
         else:
             empty.append(part)
-    notes = list(reading.notes)
-    if dropped_faces:
-        notes.append(f"dropped {dropped_faces:,} faces without area in {mended} parts")
+    notes = [f"dropped {dropped_faces:,} faces without area in {mended} parts"] if dropped_faces else []
     notes += [f"part {part.source.name!r} has no faces and was left out" for part in empty]
     gone = {part.id for part in empty}
-    kept = tuple(replace(p, rides_on=None) if p.rides_on in gone else p for p in parts)
-    joints = tuple(j for j in reading.joints if j.part not in gone)
-    return replace(reading, parts=kept, joints=joints, notes=tuple(notes))
+    return tuple(replace(p, rides_on=None) if p.rides_on in gone else p for p in parts), notes
 
 
 def _without_degenerate(surfaces: tuple[Surface, ...]) -> tuple[tuple[Surface, ...], int]:

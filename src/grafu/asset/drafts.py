@@ -5,7 +5,7 @@ after a common, numbered beginning (`drawer_1_front`, `drawer_1_side`).
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.asset.labels import is_piece, label_of
@@ -32,6 +32,7 @@ class PartDraft:
     group_name: str = ""
     label_name: str = ""
     file: str = ""
+    link: str = ""
 
 
 @final
@@ -64,7 +65,8 @@ def parts_of_drafts(drafts: list[PartDraft]) -> tuple[Part, ...]:
 
 def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:
     surfaces = tuple(s for d in grouped.drafts for s in d.surfaces)
-    source = PartSource(grouped.name, grouped.drafts[0].file)
+    files = dict.fromkeys(d.file for d in grouped.drafts if d.file)
+    source = PartSource(grouped.name, ", ".join(sorted(files)), grouped.drafts[0].link)
     by = "none" if grouped.label is PartLabel.UNKNOWN else "name"
     return Part(part_id, grouped.label, surfaces, source, by, carrier)  # type: ignore[arg-type]
 
@@ -83,5 +85,5 @@ def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
             continue
         for i in members:
             d = drafts[i]
-            out[i] = PartDraft(d.name, d.surfaces, f"name {beginning}", beginning, d.label_name, d.file)
+            out[i] = replace(d, group=f"name {beginning}", group_name=beginning)
     return out

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
-from grafu.asset.part import AnnotatedJoint, Asset, Frame
+from grafu.asset.part import AnnotatedJoint, Annotation, Asset, Frame, Part
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, reflection, rotation_matrix, scale_of, translation
@@ -30,8 +30,9 @@ def moved(asset: Asset, T: Mat4) -> Asset:
     frame = asset.frame
     return replace(
         asset,
-        parts=tuple(replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts),
+        parts=tuple(_moved_part(part, T) for part in asset.parts),
         joints=tuple(_moved_joint(joint, T, scale) for joint in asset.joints),
+        annotation=asset.annotation and _moved_annotation(asset.annotation, T, scale),
         frame=Frame(T @ frame.input_to_output, frame.up, frame.front, frame.scale * scale, frame.assumed),
     )
 
@@ -67,6 +68,15 @@ def as_static_object(asset: Asset) -> ArticulatedObject:
     """Returns the asset as one rigid link with a visual per part: what an artist's unarticulated file holds."""
     visuals = tuple(Visual(part.id, part.surfaces, label=part.label) for part in asset.parts)
     return ArticulatedObject(asset.name, "body", (Link("body", visuals),))
+
+
+def _moved_annotation(annotation: Annotation, T: Mat4, scale: float) -> Annotation:
+    parts = tuple(_moved_part(part, T) for part in annotation.parts)
+    return replace(annotation, parts=parts, joints=tuple(_moved_joint(j, T, scale) for j in annotation.joints))
+
+
+def _moved_part(part: Part, T: Mat4) -> Part:
+    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
 def _moved_joint(joint: AnnotatedJoint, T: Mat4, scale: float) -> AnnotatedJoint:

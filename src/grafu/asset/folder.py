@@ -8,10 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from grafu.asset.drafts import PartDraft, parts_of_drafts
+from grafu.asset.folders import folders_within
 from grafu.asset.loose import shell_count
-from grafu.asset.mesh_files import MESH_SUFFIXES, MeshFile, check_faces, read_mesh_file
+from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
+from grafu.asset.mesh_pieces import MeshFile
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
+from grafu.asset.resources import ModelFiles
 from grafu.asset.sweethome import is_sweethome, read_sweethome
 from grafu.errors import UnsegmentedAsset
 from grafu.geometry.appearance import Surface
@@ -30,16 +33,12 @@ def mesh_files_in(folder: Path) -> list[Path]:
     found = sorted(p for p in folder.iterdir() if p.suffix.lower() in MESH_SUFFIXES and p.is_file())
     if found:
         return found
-    inside = [sorted(p for p in sub.iterdir() if p.suffix.lower() in MESH_SUFFIXES) for sub in _folders(folder)]
+    inside = [sorted(p for p in sub.iterdir() if p.suffix.lower() in MESH_SUFFIXES) for sub in folders_within(folder)]
     filled = [files for files in inside if files]
     return filled[0] if len(filled) == 1 else []
 
 
-def _folders(folder: Path) -> list[Path]:
-    return sorted(p for p in folder.iterdir() if p.is_dir())
-
-
-def read_mesh_folder(folder: Path, options: LoadOptions) -> Reading:
+def read_mesh_folder(folder: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
     """Returns the meshes of a folder, one part per file; a lone OBJ gives its groups instead.
 
     Raises:
@@ -47,31 +46,29 @@ def read_mesh_folder(folder: Path, options: LoadOptions) -> Reading:
         UnreadableAsset: if a file is damaged.
         AssetTooLarge: if there are more files or faces than the limits allow.
     """
-    files = mesh_files_in(folder)
-    if len(files) == 1:
-        return read_mesh(files[0], options)
-    check_parts(len(files), folder, options.limits)
+    files = files or ModelFiles(folder, options.limits)
+    meshes = mesh_files_in(folder)
+    if len(meshes) == 1:
+        return read_mesh(meshes[0], options, files)
+    check_parts(len(meshes), folder, options.limits)
     drafts: list[PartDraft] = []
     notes: list[str] = []
-    faces = 0
-    for path in files:
-        found = read_mesh_file(path, options.limits, split=False)
+    for path in meshes:
+        found = read_mesh_file(path, files, split=False)
         drafts.append(PartDraft(path.stem, found.surfaces, file=path.name))
         notes += found.notes
-        faces += sum(len(s.mesh.faces) for s in found.surfaces)
-        check_faces(faces, str(folder), options.limits)
     parts = parts_of_drafts(drafts)
-    return Reading("mesh folder", parts, _convention(files), notes=tuple(dict.fromkeys(notes)))
+    return Reading("mesh folder", parts, _convention(meshes), notes=tuple(dict.fromkeys(notes)))
 
 
-def read_mesh(path: Path, options: LoadOptions) -> Reading:
+def read_mesh(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
     """Returns the groups or objects of one mesh file as parts.
 
     Raises:
         UnsegmentedAsset: if the file is a single piece.
         UnreadableAsset: if the file is damaged.
     """
-    found = read_mesh_file(path, options.limits)
+    found = read_mesh_file(path, files or ModelFiles(path, options.limits))
     if is_sweethome(found):
         return read_sweethome(path, found)
     filled = [piece for piece in found.pieces if piece.surfaces]

@@ -8,21 +8,24 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
 from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
+from grafu.asset.json_shapes import JsonObject
 from grafu.asset.labels import is_whole_mover, label_of
-from grafu.asset.options import Limits, LoadOptions, check_parts
+from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
+from grafu.asset.resources import ModelFiles
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation
 from grafu.vocabulary import PartLabel
 
+_LARGEST = 1e12  # of a number in a node's transform: products of some of them stay finite
 CONVENTION = Convention("the format (glTF: metres, Y up, front +Z)", up="+Y", front="+Z", unit=1.0)
 
 
@@ -33,49 +36,55 @@ class _Node:
 
     name: str
     chain: tuple[tuple[int, str], ...]
-    mesh: Any
+    mesh: int
     T_scene_node: Mat4
 
 
-def read_gltf(path: Path, options: LoadOptions) -> Reading:
+def read_gltf(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
     """Returns the scene of a .glb or .gltf file in its own coordinates.
 
     Raises:
         UnreadableAsset: if the file is missing, damaged, or compressed.
-        AssetTooLarge: if it has more bytes or faces than the limits allow.
+        AssetTooLarge: if it has more of something than the limits allow.
     """
-    file = read_gltf_file(path, options.limits)
-    meshes = GltfMeshes(file, options.limits)
-    with file.guarded():
-        nodes = list(_scene_nodes(file))
-        check_parts(len(nodes), path, options.limits)
-        wholes = _whole_nodes(file, nodes)
-        drafts = [_draft(node, meshes, wholes) for node in nodes]
-        notes = (["animations are not read as joints"] if file.items("animations") else []) + meshes.notes
+    file = read_gltf_file(path, files or ModelFiles(path, options.limits))
+    meshes, nodes = _counted(file)
+    check_parts(len(nodes), path, options.limits)
+    wholes = _whole_nodes(file, nodes)
+    drafts = [_draft(node, meshes, wholes) for node in nodes]
+    notes = (["animations are not read as joints"] if file.document.array("animations") else []) + meshes.notes
     parts = parts_of_drafts(drafts)
     return Reading("glb", parts, CONVENTION, notes=tuple(dict.fromkeys(notes)))
 
 
-def read_surfaces(path: Path, limits: Limits) -> tuple[Surface, ...]:
+def read_surfaces(path: Path, files: ModelFiles) -> tuple[Surface, ...]:
     """Returns all surfaces of a .glb or .gltf file in its scene's coordinates.
 
     Raises:
         UnreadableAsset: if the file is missing, damaged, or compressed.
+        AssetTooLarge: if it has more of something than the limits allow.
     """
-    return tuple(surface for mesh in read_scene_meshes(path, limits)[0] for surface in mesh)
+    return tuple(surface for mesh in read_scene_meshes(path, files)[0] for surface in mesh)
 
 
-def read_scene_meshes(path: Path, limits: Limits) -> tuple[tuple[tuple[Surface, ...], ...], tuple[str, ...]]:
+def read_scene_meshes(path: Path, files: ModelFiles) -> tuple[tuple[tuple[Surface, ...], ...], tuple[str, ...]]:
     """Returns the surfaces of each node with a mesh, in the scene's order and coordinates, and notes on what was lost.
 
     Raises:
         UnreadableAsset: if the file is missing, damaged, or compressed.
+        AssetTooLarge: if it has more of something than the limits allow.
     """
-    file = read_gltf_file(path, limits)
-    meshes = GltfMeshes(file, limits)
-    with file.guarded():
-        found = tuple(tuple(s.transformed(n.T_scene_node) for s in meshes.get(n.mesh)) for n in _scene_nodes(file))
+    meshes, nodes = _counted(read_gltf_file(path, files))
+    found = tuple(tuple(s.transformed(n.T_scene_node) for s in meshes.get(n.mesh)) for n in nodes)
     return found, tuple(dict.fromkeys(meshes.notes))
+
+
+def _counted(file: GltfFile) -> tuple[GltfMeshes, list[_Node]]:
+    """Returns the document's meshes and nodes, all counted against the limits before any mesh is made."""
+    meshes, nodes = GltfMeshes(file), list(_scene_nodes(file))
+    for node in nodes:
+        meshes.count(node.mesh)
+    return meshes, nodes
 
 
 def _draft(node: _Node, meshes: GltfMeshes, wholes: set[int]) -> PartDraft:
@@ -94,7 +103,7 @@ def _draft(node: _Node, meshes: GltfMeshes, wholes: set[int]) -> PartDraft:
 
 def _whole_nodes(file: GltfFile, nodes: list[_Node]) -> set[int]:
     """Returns the nodes that stand over the pieces of one door or drawer: well named, and not over several such."""
-    if str(file.document["asset"].get("generator", "")).startswith("grafu"):
+    if str(file.document.member("asset").get("generator")).startswith("grafu"):
         return set()  # grafu writes one node per part below its links
     above = {i for node in nodes for i, _ in node.chain[:-1]}
     below: dict[int, set[int]] = {}
@@ -107,14 +116,8 @@ def _whole_nodes(file: GltfFile, nodes: list[_Node]) -> set[int]:
 
 
 def _scene_nodes(file: GltfFile) -> Iterator[_Node]:
-    nodes = file.items("nodes")
-    scenes = file.items("scenes")
-    if scenes:
-        roots = file.item("scenes", file.document.get("scene", 0)).get("nodes", [])
-    else:
-        children = {c for node in nodes for c in node.get("children", ())}
-        roots = [i for i in range(len(nodes)) if i not in children]
-    stack: list[tuple[Any, Mat4, tuple[tuple[int, str], ...]]] = [(r, np.eye(4), ()) for r in reversed(roots)]
+    limits = file.files.limits
+    stack: list[tuple[int, Mat4, tuple[tuple[int, str], ...]]] = [(r, np.eye(4), ()) for r in reversed(_roots(file))]
     seen: set[int] = set()
     while stack:
         index, T, above = stack.pop()
@@ -122,28 +125,38 @@ def _scene_nodes(file: GltfFile) -> Iterator[_Node]:
         if index in seen:
             raise file.damaged(f"nodes[{index}] has two parents or lies in a cycle")
         seen.add(index)
+        limits.require("nodes", len(seen), file.path)
+        limits.require("depth", len(above) + 1, file.path)
         T = T @ _local(node, file)
-        name = str(node.get("name") or "")
-        if node.get("mesh") is not None:
-            mesh_name = str(file.item("meshes", node["mesh"]).get("name") or "")
-            name = name or mesh_name or f"node_{index}"
-            yield _Node(name, (*above, (index, name)), node["mesh"], T)
-        stack += [(child, T, (*above, (index, name))) for child in reversed(node.get("children", ()))]
+        if not np.abs(T).max() < _LARGEST**2:
+            raise file.damaged("the transforms of nodes one below the other grow beyond all furniture")
+        mesh, name = node.whole("mesh"), node.text("name")
+        if mesh is not None:
+            name = name or file.item("meshes", mesh).text("name") or f"node_{index}"
+            yield _Node(name, (*above, (index, name)), mesh, T)
+        chain = (*above, (index, name))
+        stack += [(child, T, chain) for child in reversed(node.indices("children"))]
 
 
-def _local(node: dict[str, Any], file: GltfFile) -> Mat4:
-    try:
-        if "matrix" in node:
-            T = np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
-        else:
-            x, y, z, w = (float(v) for v in node.get("rotation", (0, 0, 0, 1)))
-            scale = np.array(node.get("scale", (1, 1, 1)), dtype=np.float64).reshape(3)
-            offset = np.array(node.get("translation", (0, 0, 0)), dtype=np.float64).reshape(3)
-            T = from_rotation(_rotation(w, x, y, z) * scale, offset)
-    except (ValueError, TypeError):
-        raise file.damaged("a node's transform is not numbers") from None
-    if not np.isfinite(T).all():
-        raise file.damaged("a node's transform is not finite")
+def _roots(file: GltfFile) -> list[int]:
+    """Returns the nodes that nothing stands above, of the scene that is shown where there are several."""
+    if file.document.array("scenes"):
+        return file.item("scenes", file.document.whole("scene", 0)).indices("nodes")
+    nodes = file.document.objects("nodes")
+    children = {child for node in nodes for child in node.indices("children")}
+    return [i for i in range(len(nodes)) if i not in children]
+
+
+def _local(node: JsonObject, file: GltfFile) -> Mat4:
+    matrix = node.numbers("matrix", 16)
+    if matrix is not None:
+        T = np.array(matrix).reshape(4, 4).T
+    else:
+        x, y, z, w = node.numbers("rotation", 4, (0.0, 0.0, 0.0, 1.0))
+        scale = np.array(node.numbers("scale", 3, (1.0, 1.0, 1.0)))
+        T = from_rotation(_rotation(w, x, y, z) * scale, np.array(node.numbers("translation", 3, (0.0, 0.0, 0.0))))
+    if not np.abs(T).max() < _LARGEST:
+        raise file.damaged("a node's transform holds numbers that no furniture has")
     if abs(np.linalg.det(T[:3, :3])) < 1e-30:
         return from_rotation(np.eye(3) * 1e-9, T[:3, 3])  # hidden by a zero scale: no face survives
     return T

@@ -1,24 +1,25 @@
-"""The glTF container: JSON, buffers, accessors, images as bytes. It knows no nodes and no materials.
+"""The glTF document: JSON, buffers, accessors, images as bytes. It knows no nodes and no materials.
 
 Every size that the file declares is checked against the bytes that are there before memory is taken for it.
 """
 
 import base64
 import binascii
-import json
-import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
-from urllib.parse import unquote
+from urllib.parse import unquote_to_bytes
 
 import numpy as np
 
-from grafu.asset.mesh_files import read_bytes
-from grafu.asset.options import Limits
-from grafu.errors import AssetTooLarge, UnreadableAsset
+from grafu.asset.gltf_container import chunks_of
+from grafu.asset.json_files import parse_json
+from grafu.asset.json_shapes import JsonObject, object_of
+from grafu.asset.resources import ModelFiles
+from grafu.errors import UnreadableAsset
+from grafu.geometry.appearance import Texture
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -27,8 +28,6 @@ _REFUSED = {
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
-# An accessor without bytes behind it is all zeros: a few characters of JSON could claim any amount of memory.
-_MOST_ZEROS = 10_000_000
 
 
 @final
@@ -37,32 +36,28 @@ class GltfFile:
     """A parsed glTF document with its buffers' bytes."""
 
     path: Path
-    document: dict[str, Any]
-    buffers: tuple[bytes, ...]
+    document: JsonObject
+    buffers: tuple[memoryview, ...]
+    files: ModelFiles
 
-    def items(self, key: str) -> list[dict[str, Any]]:
-        """Returns a top-level array of the document, empty where it is absent."""
-        found = self.document.get(key, [])
-        return found if isinstance(found, list) else []
-
-    def item(self, key: str, index: Any) -> dict[str, Any]:
+    def item(self, key: str, index: Any) -> JsonObject:
         """Returns one element of a top-level array.
 
         Raises:
             UnreadableAsset: if there is no such element.
         """
-        items = self.items(key)
-        if not isinstance(index, int) or not 0 <= index < len(items) or not isinstance(items[index], dict):
+        items = self.document.array(key)
+        if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(items):
             raise self.damaged(f"{key}[{index}] is not there")
-        return items[index]
+        return object_of(items[index], f"{key}[{index}]", self.damaged)
 
     def damaged(self, why: str) -> UnreadableAsset:
         """Returns the error for a damaged document, to be raised."""
-        return UnreadableAsset(f"{self.path} is damaged ({why}): expected a valid glTF 2.0 file; export it again")
+        return _damaged(self.path, why)
 
     @contextmanager
     def guarded(self) -> Iterator[None]:
-        """Turns what a malformed document trips inside the block into one clear error.
+        """Turns what a document trips that should be of our own making into one clear error.
 
         Raises:
             UnreadableAsset: where an entry is missing or of the wrong type.
@@ -72,129 +67,137 @@ class GltfFile:
         except (KeyError, TypeError, AttributeError, ValueError, OverflowError) as error:
             raise self.damaged(f"an entry has the wrong type: {str(error).splitlines()[0]}") from None
 
-    def view(self, index: Any) -> tuple[bytes, int]:
+    def view(self, index: Any) -> tuple[memoryview, int]:
         """Returns the bytes of a buffer view and its stride (0: tight)."""
         view = self.item("bufferViews", index)
-        buffer = view.get("buffer")
-        if not isinstance(buffer, int) or not 0 <= buffer < len(self.buffers):
+        buffer = view.whole("buffer")
+        if buffer is None or buffer >= len(self.buffers):
             raise self.damaged(f"buffer {buffer} is not there")
-        start, length = int(view.get("byteOffset", 0)), int(view.get("byteLength", 0))
-        if start < 0 or length < 0 or start + length > len(self.buffers[buffer]):
+        start, length = view.whole("byteOffset", 0), view.whole("byteLength", 0)
+        if start + length > len(self.buffers[buffer]):
             raise self.damaged(f"bufferViews[{index}] reaches beyond its buffer")
-        return self.buffers[buffer][start : start + length], int(view.get("byteStride", 0))
+        return self.buffers[buffer][start : start + length], view.whole("byteStride", 0)
+
+    def count(self, index: Any) -> int:
+        """Returns how many elements an accessor declares."""
+        return self.item("accessors", index).whole("count", 0)
 
     def accessor(self, index: Any) -> np.ndarray:
-        """Returns an accessor as (count, width) of its own number type; normalised integers become floats."""
+        """Returns an accessor as (count, width) of its own number type; normalised integers become floats.
+
+        Without bytes behind it it is all zeros: whoever asks for it has held its count against the limits.
+        """
         accessor = self.item("accessors", index)
-        dtype, width = _DTYPES.get(accessor.get("componentType", 0)), _WIDTHS.get(accessor.get("type", ""))
-        count = accessor.get("count", 0)
-        if dtype is None or width is None or not isinstance(count, int) or count < 0:
+        dtype, width = _DTYPES.get(accessor.whole("componentType", 0)), _WIDTHS.get(accessor.text("type"))
+        if dtype is None or width is None:
             raise self.damaged(f"accessors[{index}] has no valid type or count")
         values = self._dense(accessor, index, np.dtype(dtype), width)
         if "sparse" in accessor:
-            values = self._sparse(values, accessor["sparse"])
+            self._set_sparse(values, accessor.member("sparse"))
         if accessor.get("normalized") and values.dtype.kind in "iu":
             values = np.maximum(values / np.iinfo(values.dtype).max, -1.0)
         return values
 
-    def _dense(self, accessor: dict[str, Any], index: Any, dtype: np.dtype[Any], width: int) -> np.ndarray:
-        count = accessor["count"]
+    def _dense(self, accessor: JsonObject, index: Any, dtype: np.dtype[Any], width: int) -> np.ndarray:
+        count = accessor.whole("count", 0)
         if "bufferView" not in accessor:
-            if count * width > _MOST_ZEROS:
-                raise AssetTooLarge(f"{self.path}: accessors[{index}] declares {count:,} elements without data")
             return np.zeros((count, width), dtype)
-        data, stride = self.view(accessor["bufferView"])
-        offset, element = int(accessor.get("byteOffset", 0)), dtype.itemsize * width
+        data, stride = self.view(accessor.get("bufferView"))
+        offset, element = accessor.whole("byteOffset", 0), dtype.itemsize * width
         stride = stride or element
-        if offset < 0 or stride < element or (count and offset + stride * (count - 1) + element > len(data)):
+        if stride < element or (count and offset + stride * (count - 1) + element > len(data)):
             raise self.damaged(f"accessors[{index}] declares {count:,} elements, more than its buffer holds")
         if not count:
             return np.zeros((0, width), dtype)
         return np.ndarray((count, width), dtype, data, offset, (stride, dtype.itemsize)).copy()
 
-    def _sparse(self, values: np.ndarray, sparse: dict[str, Any]) -> np.ndarray:
-        try:
-            count, places, news = sparse["count"], sparse["indices"], sparse["values"]
-            where = np.frombuffer(self.view(places["bufferView"])[0], _DTYPES[places["componentType"]], count)
-            data = self.view(news["bufferView"])[0]
-            values[where] = np.frombuffer(data, values.dtype, count * values.shape[1]).reshape(count, -1)
-        except (KeyError, ValueError, IndexError, TypeError):
-            raise self.damaged("a sparse accessor does not fit") from None
-        return values
+    def _set_sparse(self, values: np.ndarray, sparse: JsonObject) -> None:
+        """Puts the elements that a sparse accessor lists in their places."""
+        count, places, news = sparse.whole("count", 0), sparse.member("indices"), sparse.member("values")
+        kind = _DTYPES.get(places.whole("componentType", 0), "")
+        if kind not in ("<u1", "<u2", "<u4") or count > len(values):
+            raise self.damaged("a sparse accessor does not fit")
+        where = self._elements(places, np.dtype(kind), count, 1)[:, 0]
+        if len(where) and where.max() >= len(values):
+            raise self.damaged("a sparse accessor does not fit")
+        values[where] = self._elements(news, values.dtype, count, values.shape[1])
 
-    def image(self, index: Any) -> tuple[bytes, str] | None:
-        """Returns the encoded bytes of an image and its name, or None where its file is missing."""
+    def _elements(self, part: JsonObject, dtype: np.dtype[Any], count: int, width: int) -> np.ndarray:
+        data = self.view(part.get("bufferView"))[0][part.whole("byteOffset", 0) :]
+        if count * width * dtype.itemsize > len(data):
+            raise self.damaged("a sparse accessor does not fit")
+        return np.frombuffer(data, dtype, count * width).reshape(count, width)
+
+    def image(self, index: Any) -> Texture | str:
+        """Returns an image, checked, or in words why it cannot be had."""
         image = self.item("images", index)
+        name = image.text("name") or f"image_{index}"
         if "bufferView" in image:
-            return self.view(image["bufferView"])[0], str(image.get("name", f"image_{index}"))
-        uri = str(image.get("uri", ""))
+            return self.files.image(self.view(image.get("bufferView"))[0], name)
+        uri = image.text("uri")
         data = _data_uri(uri)
         if data is not None:
-            return data, str(image.get("name", f"image_{index}"))
-        path = self.path.parent / unquote(uri)
-        return (path.read_bytes(), path.name) if uri and path.is_file() else None
+            return self.files.image(data, name)
+        sought = self.files.seek(unquoted(uri), self.path.parent)
+        return sought.why if sought.path is None else self.files.texture(sought.path)
 
 
-def read_gltf_file(path: Path, limits: Limits) -> GltfFile:
+def read_gltf_file(path: Path, files: ModelFiles) -> GltfFile:
     """Returns the parsed document of a .glb or .gltf file.
 
     Raises:
         UnreadableAsset: if it is missing, truncated, no glTF 2.0, or compressed in a way that is not read.
+        AssetTooLarge: if it has more bytes than the limit.
     """
-    data = read_bytes(path, limits)
-    text, binary = _chunks(data, path) if data[:4] == b"glTF" else (data, None)
-    try:
-        document = json.loads(text)
-    except (ValueError, RecursionError):
-        raise UnreadableAsset(f"{path} is not glTF: expected JSON or a GLB container; export it again") from None
-    if not isinstance(document, dict) or "asset" not in document:
+    data = files.read(path)
+    text, binary = chunks_of(data, path) if data[:4] == b"glTF" else (data, None)
+    values = parse_json(bytes(text), path, "glTF, JSON or a GLB container; export it again", files.limits)
+    document = object_of(values, "", lambda why: _damaged(path, why))
+    if "asset" not in document:
         raise UnreadableAsset(f"{path} is not glTF: expected an `asset` entry; export it again")
-    version = document["asset"].get("version") if isinstance(document["asset"], dict) else None
+    version = document.member("asset").get("version")
     if not str(version).startswith("2"):
-        raise UnreadableAsset(f"{path} is glTF version {version}: expected 2.0; export it again")
-    for extension in document.get("extensionsRequired", ()):
-        if extension in _REFUSED:
+        raise UnreadableAsset(f"{path} is glTF version {str(version)[:20]}: expected 2.0; export it again")
+    for extension in document.array("extensionsRequired"):
+        if isinstance(extension, str) and extension in _REFUSED:
             kind = _REFUSED[extension]
             raise UnreadableAsset(f"{path} is compressed with {kind}, which is not read: export it without compression")
-    return GltfFile(path, document, _buffers(path, document, binary, limits))
+    return GltfFile(path, document, _buffers(path, document, binary, files), files)
 
 
-def _chunks(data: bytes, path: Path) -> tuple[bytes, bytes | None]:
-    if len(data) < 20:
-        raise UnreadableAsset(f"{path} is truncated ({len(data)} bytes): expected a whole GLB; export it again")
-    _, version, total = struct.unpack_from("<4sII", data)
-    if version != 2:
-        raise UnreadableAsset(f"{path} is GLB version {version}: expected version 2; export it again")
-    if total > len(data):
-        raise UnreadableAsset(f"{path} is truncated: it has {len(data)} of {total} bytes; fetch or export it again")
-    chunks: dict[bytes, bytes] = {}
-    at = 12
-    while at + 8 <= total:
-        length, kind = struct.unpack_from("<I4s", data, at)
-        if at + 8 + length > total:
-            raise UnreadableAsset(f"{path} is truncated: a chunk reaches beyond the file; fetch or export it again")
-        chunks.setdefault(kind, data[at + 8 : at + 8 + length])
-        at += 8 + length
-    if b"JSON" not in chunks:
-        raise UnreadableAsset(f"{path} has no JSON chunk: expected a whole GLB; export it again")
-    return chunks[b"JSON"], chunks.get(b"BIN\0")
+def _damaged(path: Path, why: str) -> UnreadableAsset:
+    return UnreadableAsset(f"{path} is damaged ({why}): expected a valid glTF 2.0 file; export it again")
 
 
-def _buffers(path: Path, document: dict[str, Any], binary: bytes | None, limits: Limits) -> tuple[bytes, ...]:
+def _buffers(path: Path, document: JsonObject, binary: memoryview | None, files: ModelFiles) -> tuple[memoryview, ...]:
     buffers = []
-    for index, buffer in enumerate(document.get("buffers", ())):
-        uri = buffer.get("uri")
-        if uri is None:
-            data = binary if index == 0 and binary is not None else b""
-        else:
-            inline = _data_uri(uri)
-            data = read_bytes(path.parent / unquote(uri), limits) if inline is None else inline
-        if len(data) < int(buffer.get("byteLength", 0)):
-            raise UnreadableAsset(
-                f"{path} is truncated: buffer {index} holds {len(data)} of {buffer['byteLength']} bytes"
-            )
+    for index, buffer in enumerate(document.objects("buffers")):
+        data = _buffer(path, index, buffer.text("uri"), binary, files)
+        length = buffer.whole("byteLength", 0)
+        if len(data) < length:
+            raise UnreadableAsset(f"{path} is truncated: buffer {index} holds {len(data)} of {length} bytes")
         buffers.append(data)
     return tuple(buffers)
+
+
+def _buffer(path: Path, index: int, uri: str, binary: memoryview | None, files: ModelFiles) -> memoryview:
+    if not uri:
+        return binary if index == 0 and binary is not None else memoryview(b"")
+    inline = _data_uri(uri)
+    if inline is not None:
+        return memoryview(inline)
+    sought = files.seek(unquoted(uri), path.parent)
+    if sought.path is None:
+        raise UnreadableAsset(f"{path}: buffer {index}, {uri[:200]}, {sought.why}: expected a file of the model")
+    return memoryview(files.read(sought.path))
+
+
+def unquoted(uri: str) -> str:
+    """Returns the file name that a URI means; what is no text becomes a name that no file has."""
+    try:
+        return unquote_to_bytes(uri).decode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:
+        return "\0"
 
 
 def _data_uri(uri: str) -> bytes | None:
@@ -202,6 +205,6 @@ def _data_uri(uri: str) -> bytes | None:
         return None
     head, _, body = uri.partition(",")
     try:
-        return base64.b64decode(body) if head.endswith(";base64") else unquote(body).encode("latin-1")
+        return base64.b64decode(body) if head.endswith(";base64") else unquote_to_bytes(body)
     except (binascii.Error, ValueError):
         return b""

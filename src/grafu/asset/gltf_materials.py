@@ -3,7 +3,8 @@
 from typing import Any
 
 from grafu.asset.gltf_buffers import GltfFile
-from grafu.asset.mtl import texture_from
+from grafu.asset.json_shapes import JsonObject
+from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Texture
 
 _DEFAULT = Material(base_color=(1.0, 1.0, 1.0, 1.0), metallic=1.0, roughness=1.0)
@@ -34,46 +35,46 @@ class GltfMaterials:
         """Returns which set of texture coordinates the material's base colour uses."""
         if index is None:
             return 0
-        source = self.file.item("materials", index)
-        info = source.get("pbrMetallicRoughness", {}).get("baseColorTexture", {})
-        return int(info.get("texCoord", 0))
+        info = self.file.item("materials", index).member("pbrMetallicRoughness").member("baseColorTexture")
+        return info.whole("texCoord", 0)
 
-    def _material(self, source: dict[str, Any], index: int) -> Material:
-        extensions = source.get("extensions", {})
-        pbr = source.get("pbrMetallicRoughness", {})
-        color, metallic, roughness = (
-            pbr.get("baseColorFactor"),
-            pbr.get("metallicFactor", 1.0),
-            pbr.get("roughnessFactor", 1.0),
-        )
-        base = pbr.get("baseColorTexture")
-        specular = extensions.get("KHR_materials_pbrSpecularGlossiness")
-        if specular is not None and not pbr:
-            color, base = specular.get("diffuseFactor"), specular.get("diffuseTexture")
-            metallic, roughness = 0.0, 1.0 - specular.get("glossinessFactor", 1.0)
-        mode = source.get("alphaMode", "OPAQUE")
+    def _material(self, source: JsonObject, index: int) -> Material:
+        pbr = source.member("pbrMetallicRoughness")
+        color, base = pbr.numbers("baseColorFactor", 4), pbr.member("baseColorTexture")
+        metallic, roughness = pbr.number("metallicFactor", 1.0), pbr.number("roughnessFactor", 1.0)
+        extensions = source.member("extensions")
+        if "KHR_materials_pbrSpecularGlossiness" in extensions and "pbrMetallicRoughness" not in source:
+            specular = extensions.member("KHR_materials_pbrSpecularGlossiness")
+            color, base = specular.numbers("diffuseFactor", 4), specular.member("diffuseTexture")
+            metallic, roughness = 0.0, 1.0 - specular.number("glossinessFactor", 1.0)
+        mode = source.get("alphaMode")
         return Material(
-            name=str(source.get("name", f"material_{index}")),
-            base_color=_clip4(color),
-            metallic=float(metallic),
-            roughness=float(roughness),
-            emissive=_clip3(source.get("emissiveFactor")),
+            name=source.text("name", f"material_{index}"),
+            base_color=_clip4(color or (1.0, 1.0, 1.0, 1.0)),
+            metallic=metallic,
+            roughness=roughness,
+            emissive=_clip3(source.numbers("emissiveFactor", 3, (0.0, 0.0, 0.0))),
             base_color_texture=self._texture(base),
-            metallic_roughness_texture=self._texture(pbr.get("metallicRoughnessTexture")),
-            normal_texture=self._texture(source.get("normalTexture")),
-            occlusion_texture=self._texture(source.get("occlusionTexture")),
-            emissive_texture=self._texture(source.get("emissiveTexture")),
-            alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
-            alpha_cutoff=float(source.get("alphaCutoff", 0.5)),
-            double_sided=bool(source.get("doubleSided", False)),
+            metallic_roughness_texture=self._texture(pbr.member("metallicRoughnessTexture")),
+            normal_texture=self._texture(source.member("normalTexture")),
+            occlusion_texture=self._texture(source.member("occlusionTexture")),
+            emissive_texture=self._texture(source.member("emissiveTexture")),
+            alpha_mode=mode if mode in ("MASK", "BLEND") else "OPAQUE",
+            alpha_cutoff=source.number("alphaCutoff", 0.5),
+            double_sided=bool(source.get("doubleSided")),
         )
 
-    def _texture(self, info: dict[str, Any] | None) -> Texture | None:
-        if not info:
+    def _texture(self, info: JsonObject) -> Texture | None:
+        """Returns the texture that a material names; one that cannot be had costs no model, but is noted."""
+        if not info.data:
             return None
-        if "KHR_texture_transform" in info.get("extensions", {}):
+        if "KHR_texture_transform" in info.member("extensions"):
             self.notes.append("a texture transform (KHR_texture_transform) is not applied")
-        source = self.file.item("textures", info.get("index")).get("source")
+        try:
+            source = self.file.item("textures", info.get("index")).whole("source")
+        except UnreadableAsset as error:
+            self.notes.append(f"a texture was left out: {error}")
+            return None
         if source is None:
             self.notes.append("a texture in a format other than PNG and JPEG was left out")
             return None
@@ -82,18 +83,21 @@ class GltfMaterials:
         return self._textures[source]
 
     def _image(self, index: int) -> Texture | None:
-        found = self.file.image(index)
-        texture = texture_from(found[0], found[1]) if found is not None else None
-        if texture is None:
-            self.notes.append(f"image {index} is missing or neither PNG nor JPEG and was left out")
-        return texture
+        try:
+            found = self.file.image(index)
+        except UnreadableAsset as error:
+            found = f"cannot be read: {error}"
+        if isinstance(found, Texture):
+            return found
+        self.notes.append(f"image {index} {found} and was left out")
+        return None
 
 
-def _clip4(values: Any) -> tuple[float, float, float, float]:
-    r, g, b, a = (min(max(float(v), 0.0), 1.0) for v in (values or (1.0, 1.0, 1.0, 1.0)))
+def _clip4(values: tuple[float, ...]) -> tuple[float, float, float, float]:
+    r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
     return (r, g, b, a)
 
 
-def _clip3(values: Any) -> tuple[float, float, float]:
-    r, g, b = (min(max(float(v), 0.0), 1.0) for v in (values or (0.0, 0.0, 0.0)))
+def _clip3(values: tuple[float, ...]) -> tuple[float, float, float]:
+    r, g, b = (min(max(v, 0.0), 1.0) for v in values)
     return (r, g, b)

@@ -6,8 +6,7 @@ import numpy as np
 
 from grafu.asset.gltf_buffers import GltfFile
 from grafu.asset.gltf_materials import GltfMaterials
-from grafu.asset.mesh_files import check_faces
-from grafu.asset.options import Limits
+from grafu.asset.json_shapes import JsonObject
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.mesh import TriangleMesh
@@ -18,51 +17,74 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 class GltfMeshes:
     """The meshes of one document as surfaces, each made once; lines and points are left out with a note."""
 
-    def __init__(self, file: GltfFile, limits: Limits) -> None:
-        self.file, self.limits = file, limits
+    def __init__(self, file: GltfFile) -> None:
+        self.file = file
         self.materials = GltfMaterials(file)
-        self.faces = 0
         self._own_notes: list[str] = []
         self._made: dict[int, tuple[Surface, ...]] = {}
+        self._sizes: dict[int, dict[str, int]] = {}
 
     @property
     def notes(self) -> list[str]:
         """What was left out, in words."""
         return self._own_notes + self.materials.notes
 
-    def get(self, index: Any) -> tuple[Surface, ...]:
-        """Returns the surfaces of the mesh with this index.
+    def count(self, index: Any) -> None:
+        """Counts what a mesh will take wherever it is placed, before anything is made of it; once for each place.
 
         Raises:
-            UnreadableAsset: if the mesh is not there or damaged.
-            AssetTooLarge: if it has more faces than the limit.
+            UnreadableAsset: if the mesh is not there, damaged or compressed.
+            AssetTooLarge: if the model has more of something than is read.
         """
-        if index not in self._made:
-            mesh = self.file.item("meshes", index)
-            found = [self._surface(p) for p in mesh.get("primitives", ())]
-            self._made[index] = tuple(s for s in found if s is not None and not s.is_empty)
-        surfaces = self._made[index]
-        self.faces += sum(len(s.mesh.faces) for s in surfaces)
-        check_faces(self.faces, str(self.file.path), self.limits)
-        return surfaces
+        if index not in self._sizes:
+            primitives = self.file.item("meshes", index).objects("primitives")
+            # of a mesh that lists one primitive many times no more is looked at than may be read
+            self.file.files.limits.require("primitives", len(primitives), self.file.path)
+            self._sizes[index] = _sum([self._size(p) for p in primitives])
+        self.file.files.tally.add(self.file.path, **self._sizes[index])
 
-    def _surface(self, primitive: dict[str, Any]) -> Surface | None:
-        if "KHR_draco_mesh_compression" in primitive.get("extensions", {}) and "POSITION" not in self._usable(
-            primitive
-        ):
+    def get(self, index: Any) -> tuple[Surface, ...]:
+        """Returns the surfaces of the mesh with this index, which was counted before (here, where it was not).
+
+        Raises:
+            UnreadableAsset: if the mesh is not there, damaged or compressed.
+            AssetTooLarge: if the model has more of something than is read.
+        """
+        if index not in self._sizes:
+            self.count(index)
+        if index not in self._made:
+            found = [self._surface(p) for p in self.file.item("meshes", index).objects("primitives")]
+            self._made[index] = tuple(s for s in found if s is not None and not s.is_empty)
+        return self._made[index]
+
+    def _size(self, primitive: JsonObject) -> dict[str, int]:
+        attributes, mode = primitive.member("attributes"), primitive.whole("mode", _TRIANGLES)
+        self._refuse_draco(primitive, attributes)
+        if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:
+            return {"primitives": 1, "faces": 0, "vertices": 0}
+        vertices = self.file.count(attributes.get("POSITION"))
+        corners = self.file.count(primitive.get("indices")) if "indices" in primitive else vertices
+        return {"primitives": 1, "faces": corners // 3 if mode == _TRIANGLES else corners, "vertices": vertices}
+
+    def _refuse_draco(self, primitive: JsonObject, attributes: JsonObject) -> None:
+        """Refuses a primitive whose positions are compressed with Draco alone (it may carry plain ones besides)."""
+        if "KHR_draco_mesh_compression" not in primitive.member("extensions"):
+            return
+        plain = "POSITION" in attributes and "bufferView" in self.file.item("accessors", attributes.get("POSITION"))
+        if not plain:
             raise UnreadableAsset(
                 f"{self.file.path} is compressed with Draco, which is not read: export it uncompressed"
             )
-        mode, attributes = primitive.get("mode", _TRIANGLES), primitive.get("attributes", {})
+
+    def _surface(self, primitive: JsonObject) -> Surface | None:
+        mode, attributes = primitive.whole("mode", _TRIANGLES), primitive.member("attributes")
         if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:
             self._own_notes.append("points or lines were left out")
             return None
-        positions = self.file.accessor(attributes["POSITION"]).astype(np.float64)
+        positions = self.file.accessor(attributes.get("POSITION")).astype(np.float64)
         if positions.shape[1] != 3 or not np.isfinite(positions).all():
             raise self.file.damaged("positions are not three finite numbers each")
-        indices = self._indices(primitive, len(positions))
-        check_faces(len(indices) // 3, str(self.file.path), self.limits)
-        faces = _faces(indices, mode)
+        faces = _faces(self._indices(primitive, len(positions)), mode)
         material = primitive.get("material")
         uv = self._attribute(attributes, f"TEXCOORD_{self.materials.uv_set(material)}", len(positions), 2)
         if uv is not None:
@@ -71,37 +93,37 @@ class GltfMeshes:
         colors = self._colors(attributes, len(positions))
         return Surface(TriangleMesh(positions, faces), self.materials.get(material), uv, normals, colors)
 
-    def _usable(self, primitive: dict[str, Any]) -> set[str]:
-        """Returns the attributes whose accessors point to plain bytes (a Draco primitive may carry such a fallback)."""
-        attributes = primitive.get("attributes", {})
-        return {k for k, v in attributes.items() if "bufferView" in self.file.item("accessors", v)}
-
-    def _indices(self, primitive: dict[str, Any], count: int) -> np.ndarray:
+    def _indices(self, primitive: JsonObject, count: int) -> np.ndarray:
         if "indices" not in primitive:
             return np.arange(count)
-        indices = self.file.accessor(primitive["indices"]).ravel().astype(np.int64)
+        indices = self.file.accessor(primitive.get("indices")).ravel().astype(np.int64)
         if len(indices) and (indices.min() < 0 or indices.max() >= count):
             raise self.file.damaged(f"a face names vertex {indices.max()} of {count}")
         return indices
 
-    def _attribute(self, attributes: dict[str, Any], key: str, count: int, width: int) -> np.ndarray | None:
+    def _attribute(self, attributes: JsonObject, key: str, count: int, width: int) -> np.ndarray | None:
         if key not in attributes:
             return None
-        values = self.file.accessor(attributes[key]).astype(np.float64)
+        fits = self.file.count(attributes.get(key)) == count  # asked before memory is taken for it
+        values = self.file.accessor(attributes.get(key)).astype(np.float64) if fits else np.zeros((0, 0))
         if values.shape != (count, width) or not np.isfinite(values).all():
             self._own_notes.append(f"damaged {key} values were left out")
             return None
         return values
 
-    def _colors(self, attributes: dict[str, Any], count: int) -> np.ndarray | None:
-        if "COLOR_0" not in attributes:
+    def _colors(self, attributes: JsonObject, count: int) -> np.ndarray | None:
+        if "COLOR_0" not in attributes or self.file.count(attributes.get("COLOR_0")) != count:
             return None
-        values = self.file.accessor(attributes["COLOR_0"])
-        if len(values) != count or values.shape[1] not in (3, 4):
+        values = self.file.accessor(attributes.get("COLOR_0"))
+        if values.shape[1] not in (3, 4):
             return None
         rgba = np.ones((count, 4))
         rgba[:, : values.shape[1]] = values
-        return np.clip(np.round(rgba * 255), 0, 255).astype(np.uint8)
+        return np.clip(np.round(np.nan_to_num(rgba) * 255), 0, 255).astype(np.uint8)
+
+
+def _sum(sizes: list[dict[str, int]]) -> dict[str, int]:
+    return {name: sum(size[name] for size in sizes) for name in ("primitives", "faces", "vertices")}
 
 
 def _faces(indices: np.ndarray, mode: int) -> np.ndarray:

@@ -9,7 +9,8 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.bodies import Body, Motion, Visual, parts_of_bodies
+from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.gltf import read_scene_meshes
 from grafu.asset.hssd_annotation import (
     MOTIONS,
@@ -23,8 +24,9 @@ from grafu.asset.hssd_annotation import (
 )
 from grafu.asset.labels import label_of
 from grafu.asset.options import LoadOptions, check_parts
-from grafu.asset.part import Part
+from grafu.asset.part import Annotation, Part
 from grafu.asset.reading import Convention, Reading
+from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
@@ -65,27 +67,32 @@ def model_of_annotation(path: Path) -> Path | None:
     return next((m for s in stems if is_hssd(m := path.with_name(f"{s}.glb"))), None)
 
 
-def read_hssd(path: Path, options: LoadOptions) -> Reading:
+def read_hssd(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
     """Returns the annotated parts of a model in the coordinates of its GLB, with the joints that are stated.
 
     Raises:
         UnreadableAsset: if a file is damaged, or the annotation does not fit the GLB.
         AssetTooLarge: if it has more bytes, parts or faces than the limits allow.
     """
-    annotation = read_annotation(path, options.limits)
+    files = files or ModelFiles(path, options.limits)
+    annotation = read_annotation(path, files)
     check_parts(len(annotation.parts), path, options.limits)
-    nodes, notes = read_scene_meshes(path, options.limits)
+    nodes, notes = read_scene_meshes(path, files)
     meshes = _fitting(nodes, annotation, path)
     cut, said = _cut(meshes, annotation)
     bodies, kept = _bodies(annotation, cut, path.name)
-    made = parts_of_bodies(bodies, up=_up_axis(annotation))
+    stated = annotation_of_bodies(bodies, up=_up_axis(annotation))
     silent = [] if find_motions(path) else [f"there is no {path.stem}{MOTIONS}: no joint is stated"]
     convention = Convention(
         "the annotation (upAxis, frontAxis; metres)", annotation.up or "+Y", annotation.front or "+Z", unit=1.0
     )
-    words = dict.fromkeys([*notes, *said, *silent, *kept, *made.notes, *_misplaced(annotation, cut)])
-    parts = tuple(_named_still(part, annotation) for part in made.parts)
-    return Reading("hssd", parts, convention, made.joints, None, tuple(words), grouped=True)
+    words = tuple(dict.fromkeys([*notes, *said, *silent, *_misplaced(annotation, cut)]))
+    pieces = parts_of_drafts(drafts_of_visuals(visual for body in bodies for visual in body.visuals))
+    parts = tuple(_named_still(part, annotation) for part in pieces)
+    if stated is not None:
+        still = tuple(_named_still(part, annotation) for part in stated.parts)
+        stated = Annotation(still, stated.joints, (*kept, *stated.notes))
+    return Reading("hssd", parts, convention, stated, None, words, grouped=True)
 
 
 def _named_still(part: Part, annotation: HssdAnnotation) -> Part:
@@ -136,34 +143,44 @@ def _misfit(meshes: list[_Mesh], annotation: HssdAnnotation) -> str:
 
 def _cut(meshes: list[_Mesh], annotation: HssdAnnotation) -> tuple[dict[str, tuple[Surface, ...]], list[str]]:
     """Returns each part's surfaces by pid, those of no part as `REST`, and notes; the first that names one has it."""
-    free = [np.ones(mesh.count, dtype=bool) for mesh in meshes]
+    free = {place: np.ones(mesh.count, dtype=bool) for place, mesh in enumerate(meshes)}
     cut: dict[str, tuple[Surface, ...]] = {}
     twice = 0
     for part in annotation.parts:
-        taken = [np.zeros(mesh.count, dtype=bool) for mesh in meshes]
-        for run in part.runs:
-            taken[run.mesh][_slice(run)] = True
-        twice += sum(int((t & ~f).sum()) for t, f in zip(taken, free, strict=True))
-        cut[part.pid] = _surfaces(meshes, [t & f for t, f in zip(taken, free, strict=True)])
-        free = [f & ~t for t, f in zip(taken, free, strict=True)]
+        taken = _taken(part, meshes)
+        twice += sum(int((t & ~free[place]).sum()) for place, t in taken.items())
+        cut[part.pid] = _surfaces(meshes, {place: t & free[place] for place, t in taken.items()})
+        for place, t in taken.items():
+            free[place] &= ~t
     notes = [f"{twice:,} triangles are annotated as two parts: the first has them"] if twice else []
-    left = sum(int(f.sum()) for f in free)
+    left = sum(int(f.sum()) for f in free.values())
     if left:
         cut[REST] = _surfaces(meshes, free)
         notes.append(f"{left:,} triangles belong to no annotated part: kept in place as `{REST}`")
     return cut, notes
 
 
+def _taken(part: AnnotatedPart, meshes: list[_Mesh]) -> dict[int, np.ndarray]:
+    """Returns which triangles a part names, for each mesh that it names."""
+    taken: dict[int, np.ndarray] = {}
+    for run in part.runs:
+        marks = taken.setdefault(run.mesh, np.zeros(0, dtype=bool))
+        if not len(marks):
+            marks = taken[run.mesh] = np.zeros(meshes[run.mesh].count, dtype=bool)
+        marks[_slice(run)] = True
+    return dict(sorted(taken.items()))
+
+
 def _slice(run: TriangleRun) -> slice:
     return slice(run.first, run.last)
 
 
-def _surfaces(meshes: list[_Mesh], masks: list[np.ndarray]) -> tuple[Surface, ...]:
+def _surfaces(meshes: list[_Mesh], masks: dict[int, np.ndarray]) -> tuple[Surface, ...]:
     """Returns the marked triangles, each mesh's mask running over its surfaces in turn; empty ones are left out."""
     found = []
-    for mesh, mask in zip(meshes, masks, strict=True):
+    for place, mask in masks.items():
         first = 0
-        for surface in mesh.surfaces:
+        for surface in meshes[place].surfaces:
             last = first + len(surface.mesh.faces)
             marked = np.flatnonzero(mask[first:last])
             if len(marked):

@@ -4,8 +4,6 @@
 Coordinates are the GLB's: metres, Y up. It reads no meshes and settles no labels.
 """
 
-import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,8 +11,9 @@ from typing import Any, TypeGuard, final
 
 import numpy as np
 
-from grafu.asset.mesh_files import read_bytes
-from grafu.asset.options import Limits
+from grafu.asset.json_files import read_json
+from grafu.asset.json_shapes import finite
+from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -79,14 +78,14 @@ class HssdAnnotation:
     front: str | None
 
 
-def read_annotation(model: Path, limits: Limits) -> HssdAnnotation:
+def read_annotation(model: Path, files: ModelFiles) -> HssdAnnotation:
     """Returns what the files beside `<id>.glb` say.
 
     Raises:
         UnreadableAsset: if one is damaged, or states a motion of a part that is not there.
     """
     parts_file = model.with_name(model.stem + PARTS)
-    stated = _Json(parts_file, limits)
+    stated = _Json(parts_file, files)
     parts = tuple(_part(stated, entry, k) for k, entry in enumerate(stated.list("parts", stated.root)) if entry)
     known = {part.pid for part in parts}
     if len(known) < len(parts):
@@ -95,7 +94,7 @@ def read_annotation(model: Path, limits: Limits) -> HssdAnnotation:
     motions_file = find_motions(model)
     articulations: tuple[Articulation, ...] = ()
     if motions_file is not None:
-        said = _Json(motions_file, limits)
+        said = _Json(motions_file, files)
         annotation = said.root.get("annotation", said.root)
         if not isinstance(annotation, dict):
             raise said.damaged("`annotation` is no object")
@@ -117,12 +116,9 @@ def find_motions(model: Path) -> Path | None:
 class _Json:
     """One JSON file with an object at its root; a byte order mark is skipped."""
 
-    def __init__(self, path: Path, limits: Limits) -> None:
+    def __init__(self, path: Path, files: ModelFiles) -> None:
         self.path = path
-        try:
-            root = json.loads(read_bytes(path, limits).decode("utf-8-sig"))
-        except (ValueError, RecursionError):
-            raise self.damaged("it is not JSON in UTF-8") from None
+        root = read_json(path, files, "an HSSD annotation; fetch it again")
         if not isinstance(root, dict):
             raise self.damaged("it holds no object")
         self.root: dict[str, Any] = root
@@ -167,12 +163,12 @@ def _runs(file: _Json, pid: str, entry: dict[str, Any]) -> list[TriangleRun]:
 
 
 def _is_count(value: Any) -> TypeGuard[int]:
-    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**53
 
 
 def _number(value: Any) -> float | None:
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _LARGEST
-    return float(value) if is_number and math.isfinite(value) else None
+    number = finite(value)
+    return number if number is not None and abs(number) < _LARGEST else None
 
 
 def _box(obb: Any) -> Box | None:

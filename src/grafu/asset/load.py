@@ -9,26 +9,27 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-import numpy as np
-
 from grafu.asset.clean import cleaned
 from grafu.asset.folder import divide, mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.folders import files_below
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
 from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
 from grafu.asset.loose import loose_parts
 from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.options import LoadOptions, check_parts
-from grafu.asset.part import AnnotatedJoint, Asset, Frame, Part
+from grafu.asset.part import Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
 from grafu.asset.pieces import with_joined_pieces
+from grafu.asset.placing import Placing
 from grafu.asset.reading import Reading
-from grafu.asset.riders import with_riders
+from grafu.asset.regular_files import read_head
+from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf import read_urdf
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
-Reader = Callable[[Path, LoadOptions], Reading]
+Reader = Callable[[Path, LoadOptions, ModelFiles], Reading]
 
 READERS: Final[dict[str, Reader]] = {
     "partnet-mobility": read_partnet_mobility,
@@ -67,8 +68,10 @@ def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
     """
     path = Path(path)
     kind, place = detect(path)
+    # named as a file of its folder, a model of the data set is that folder
+    files = ModelFiles(place if kind == "partnet-mobility" else path, options.limits)
     name = _name(place if kind == "partnet-mobility" else path)  # its folder names the model, never `mobility.urdf`
-    return settled(READERS[kind](place, options), name, path, options)
+    return settled(READERS[kind](place, options, files), name, path, options)
 
 
 def settled(reading: Reading, name: str, path: Path, options: LoadOptions = LoadOptions()) -> Asset:
@@ -86,9 +89,11 @@ def settled(reading: Reading, name: str, path: Path, options: LoadOptions = Load
     reading = reading if reading.grouped or options.parts == "loose" else _joined(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
-    parts = with_riders(tuple(_placed_part(p, frame) for p in reading.parts))
-    joints = tuple(_placed_joint(j, frame) for j in reading.joints)
-    return Asset(name, str(path), reading.kind, parts, frame, joints, reading.notes)
+    place = Placing(frame)
+    annotation = reading.annotation and place.annotation(reading.annotation)
+    return Asset(
+        name, str(path), reading.kind, place.parts(reading.parts), frame, notes=reading.notes, annotation=annotation
+    )
 
 
 def _name(path: Path) -> str:
@@ -105,8 +110,9 @@ def detect(path: Path) -> tuple[str, Path]:
         if not path.exists():
             raise UnreadableAsset(f"{path} does not exist: expected {_EXPECTED}")
         return _detect_folder(path) if path.is_dir() else _detect_file(path)
-    except OSError as error:
-        raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {_EXPECTED}") from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or "no file can have this name"
+        raise UnreadableAsset(f"{path} cannot be read ({why}): expected {_EXPECTED}") from None
 
 
 def _detect_file(path: Path) -> tuple[str, Path]:
@@ -116,8 +122,7 @@ def _detect_file(path: Path) -> tuple[str, Path]:
     model = path if is_hssd(path) else model_of_annotation(path)
     if model is not None:
         return "hssd", model
-    with path.open("rb") as stream:
-        head = stream.read(4096)
+    head = read_head(path, 4096)
     if suffix == ".urdf" or b"<robot" in head:
         return "urdf", path
     if suffix in (".glb", ".gltf") or head[:4] == b"glTF":
@@ -132,7 +137,7 @@ def _detect_folder(folder: Path) -> tuple[str, Path]:
     if is_partnet_mobility(folder):
         return "partnet-mobility", folder
     for kind, suffixes in (("urdf", (".urdf",)), ("gltf", (".glb", ".gltf"))):
-        found = _files(folder, suffixes)
+        found = files_below(folder, suffixes)
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]
         if len(found) > 1:
@@ -151,12 +156,6 @@ def _several(folder: Path, found: list[Path]) -> str:
     return f"{folder} holds {len(found)} {kind} files ({names}): name one, or all of them as {folder}/{pattern}"
 
 
-def _files(folder: Path, suffixes: tuple[str, ...]) -> list[Path]:
-    """Returns the files of a kind in the folder, or else one level below it."""
-    here = sorted(p for p in folder.iterdir() if p.suffix.lower() in suffixes and p.is_file())
-    return here or sorted(p for p in folder.glob("*/*") if p.suffix.lower() in suffixes and p.is_file())
-
-
 def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
     count = len(reading.parts)
     check_parts(count, path, options.limits)
@@ -171,12 +170,15 @@ def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
 
 
 def _taken_apart(reading: Reading) -> Reading:
-    """Returns the reading with shells as parts; what the input states to move, to ride or to carry stays whole."""
-    held = {joint.part for joint in reading.joints}
-    held |= {part for p in reading.parts if p.rides_on for part in (p.id, p.rides_on)}
-    parts = loose_parts(reading.parts, held)
+    """Returns the reading with shells as parts; what an annotation lets move, ride or carry stays whole in that."""
+    parts = loose_parts(reading.parts)
     note = f"each connected shell is a part (--parts loose): {len(reading.parts)} became {len(parts)}"
-    return replace(reading, parts=parts, notes=(*reading.notes, note))
+    annotation = reading.annotation
+    if annotation is not None:
+        held = {joint.part for joint in annotation.joints}
+        held |= {part for p in annotation.parts if p.rides_on for part in (p.id, p.rides_on)}
+        annotation = replace(annotation, parts=loose_parts(annotation.parts, held))
+    return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, note))
 
 
 def _joined(reading: Reading) -> Reading:
@@ -185,19 +187,11 @@ def _joined(reading: Reading) -> Reading:
 
 
 def _without_labels(reading: Reading) -> Reading:
-    return replace(reading, parts=tuple(_unlabelled(p) for p in reading.parts), furniture=None)
+    stated = reading.annotation
+    annotation = stated and replace(stated, parts=tuple(_unlabelled(p) for p in stated.parts))
+    parts = tuple(_unlabelled(p) for p in reading.parts)
+    return replace(reading, parts=parts, annotation=annotation, furniture=None)
 
 
 def _unlabelled(part: Part) -> Part:
     return replace(part, label=PartLabel.UNKNOWN, labelled_by="none")
-
-
-def _placed_part(part: Part, frame: Frame) -> Part:
-    return replace(part, surfaces=tuple(s.transformed(np.asarray(frame.input_to_output)) for s in part.surfaces))
-
-
-def _placed_joint(joint: AnnotatedJoint, frame: Frame) -> AnnotatedJoint:
-    T = np.asarray(frame.input_to_output)
-    axis = joint.axis.transformed(T, rotational=joint.type is JointType.REVOLUTE)
-    metres = frame.scale if joint.type is JointType.PRISMATIC else 1.0
-    return replace(joint, axis=axis, lower=joint.lower * metres, upper=joint.upper * metres)

@@ -1,31 +1,34 @@
 """Wavefront MTL libraries to materials. It reads the library and its images, and nothing else."""
 
+import math
 from pathlib import Path
 
+from grafu.asset.resources import ModelFiles
+from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Texture
 
-_MIMES = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 
-
-def texture_from(data: bytes, name: str) -> Texture | None:
-    """Returns the image as a texture, or None where it is neither PNG nor JPEG."""
-    for magic, mime in _MIMES.items():
-        if data.startswith(magic):
-            return Texture(name, data, mime)  # type: ignore[arg-type]
-    return None
-
-
-def read_mtl(path: Path) -> tuple[dict[str, Material], list[str]]:
+def read_mtl(name: str, beside: Path, files: ModelFiles) -> tuple[dict[str, Material], list[str]]:
     """Returns the materials of a library by name, and notes on what could not be read.
 
-    A library that is missing is a note, not an error: the shapes are still good.
+    A library or an image that cannot be had is a note, not an error: the shapes are still good.
+
+    Args:
+        name: the library as the mesh names it.
+        beside: the folder of the mesh.
+        files: the files of the model.
     """
-    if not path.is_file():
-        return {}, [f"material library {path.name} is missing; default materials are used"]
+    sought = files.seek(name, beside)
+    if sought.path is None:
+        return {}, [f"material library {name.rpartition('/')[2]} {sought.why}; default materials are used"]
+    try:
+        text = files.read(sought.path).decode("utf-8", "replace")
+    except UnreadableAsset as error:
+        return {}, [f"material library {sought.path.name} {error}; default materials are used"]
     materials: dict[str, Material] = {}
     notes: list[str] = []
-    for name, entries in _entries(path.read_text("utf-8", "replace")):
-        materials[name] = _material(name, entries, path.parent, notes)
+    for material, entries in _entries(text):
+        materials[material] = _material(material, entries, sought.path.parent, files, notes)
     return materials, notes
 
 
@@ -40,13 +43,13 @@ def _entries(text: str) -> list[tuple[str, dict[str, str]]]:
     return found
 
 
-def _material(name: str, entries: dict[str, str], folder: Path, notes: list[str]) -> Material:
+def _material(name: str, entries: dict[str, str], folder: Path, files: ModelFiles, notes: list[str]) -> Material:
     diffuse = _floats(entries.get("kd", ""), (0.8, 0.8, 0.8))
     alpha = _floats(entries.get("d", ""), (1.0,))[0]
     if "d" not in entries and "tr" in entries:
         alpha = 1.0 - _floats(entries["tr"], (0.0,))[0]
     shininess = _floats(entries.get("ns", ""), (10.0,))[0]
-    texture = _texture(entries["map_kd"], folder, notes) if "map_kd" in entries else None
+    texture = _texture(entries["map_kd"], folder, files, notes) if "map_kd" in entries else None
     red, green, blue = (_linear(c) for c in diffuse)
     # Exporters write Kd 0 under a texture that is meant to show as it is.
     color = (1.0, 1.0, 1.0) if texture and max(diffuse) <= 0 else (red, green, blue)
@@ -60,16 +63,18 @@ def _material(name: str, entries: dict[str, str], folder: Path, notes: list[str]
     )
 
 
-def _texture(value: str, folder: Path, notes: list[str]) -> Texture | None:
+def _texture(value: str, folder: Path, files: ModelFiles, notes: list[str]) -> Texture | None:
     # Options such as `-s 1 1 1` stand before the file name; names may hold spaces, so the whole value is tried first.
-    for name in (value, value.split()[-1] if value.split() else value):
-        path = folder / name.replace("\\", "/")
-        if path.is_file():
-            texture = texture_from(path.read_bytes(), path.name)
-            if texture is None:
-                notes.append(f"texture {path.name} is neither PNG nor JPEG and was left out")
-            return texture
-    notes.append(f"texture {value} is missing and was left out")
+    names = dict.fromkeys((value, value.split()[-1] if value.split() else value))
+    tried = [files.seek(name.replace("\\", "/"), folder) for name in names]
+    path = next((sought.path for sought in tried if sought.path is not None), None)
+    if path is None:
+        notes.append(f"texture {value} {tried[-1].why} and was left out")
+        return None
+    found = files.texture(path)
+    if isinstance(found, Texture):
+        return found
+    notes.append(f"texture {path.name} {found} and was left out")
     return None
 
 
@@ -78,7 +83,7 @@ def _floats(value: str, default: tuple[float, ...]) -> tuple[float, ...]:
         numbers = tuple(float(v) for v in value.split()[: len(default)])
     except ValueError:
         return default
-    return numbers if len(numbers) == len(default) else default
+    return numbers if len(numbers) == len(default) and all(map(math.isfinite, numbers)) else default
 
 
 def _linear(srgb: float) -> float:

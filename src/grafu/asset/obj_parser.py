@@ -1,12 +1,18 @@
 """Wavefront OBJ text to arrays, fast: polygons, negative indices, v/vt/vn in every form. It knows no materials."""
 
 import warnings
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
+from grafu.asset.obj_lines import FACE, NORMAL, STATE, TEXTURE, VERTEX, ObjLines, lines_of
+from grafu.asset.options import Limits
+from grafu.asset.tally import Tally
 from grafu.errors import UnreadableAsset
+
+_LARGEST = 1e15  # of a number: squares and products of such stay finite
 
 
 @final
@@ -39,62 +45,75 @@ class ObjData:
     libraries: tuple[str, ...]
 
 
-def parse_obj(data: bytes, where: str) -> ObjData:
-    """Returns the content of an OBJ file's bytes; `where` names the file in errors.
+def parse_obj(data: bytes, where: str, tally: Tally | None = None) -> ObjData:
+    """Returns the content of an OBJ file's bytes; `where` names the file in errors, `tally` counts what it holds.
 
     Raises:
         UnreadableAsset: if a number is damaged or not finite, or a face names a vertex that is not there.
+        AssetTooLarge: if the model has more of something than the limits allow.
     """
-    lines = _lines(data)
-    v_lines = [line[2:] for line in lines if line[:2] == b"v "]
-    tables = [_numbers([line[3:] for line in lines if line[:3] == key], where) for key in (b"vt ", b"vn ")]
-    vertices, colors = _positions(_numbers(v_lines, where), where)
-    face_rows = [i for i, line in enumerate(lines) if line[:2] == b"f "]
-    corners, starts = _corners([lines[i][2:] for i in face_rows], where)
-    sizes = (len(vertices), len(tables[0]), len(tables[1]))
+    tally = Tally(Limits()) if tally is None else tally
+    lines = lines_of(data, where, tally)
+    vertices, colors = _positions(_numbers(lines.text(VERTEX), where), where)
+    uv, normals = (_numbers(lines.text(kind), where) for kind in (TEXTURE, NORMAL))
+    corners, starts = _corners(lines.text(FACE), where)
+    _count(vertices, starts, where, tally)
     if len(corners) and corners.min() < 0:
-        corners = _resolve_negative(corners, starts, lines, face_rows)
+        corners = _resolve_negative(corners, starts, lines)
     corners = corners - 1
+    sizes = (len(vertices), len(uv), len(normals))
     for column, (size, noun) in enumerate(zip(sizes, ("vertex", "texture coordinate", "normal"), strict=True)):
         if len(corners) and (corners[:, column].max() >= size or corners[:, column].min() < (0, -1, -1)[column]):
             raise UnreadableAsset(f"{where}: a face names a {noun} that is not there ({size} are); re-export the OBJ")
-    return ObjData(
-        vertices, colors, _width(tables[0], 2), _width(tables[1], 3), corners, starts, *_runs(lines, face_rows)
-    )
+    return ObjData(vertices, colors, _width(uv, 2), _width(normals, 3), corners, starts, *_runs(lines))
 
 
-def _lines(data: bytes) -> list[bytes]:
-    data = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").replace(b"\t", b" ")
-    lines = data.splitlines()
-    return [line.strip() for line in lines] if b"\n " in data else lines
+def _count(vertices: np.ndarray, starts: np.ndarray, where: str, tally: Tally) -> None:
+    """Counts the vertices and the triangles that the polygons will come to."""
+    sizes = np.diff(starts)
+    tally.require(where, corners=int(sizes.max(initial=0)))
+    tally.add(where, vertices=len(vertices), faces=int(np.maximum(sizes - 2, 0).sum()))
 
 
-def _numbers(rows: list[bytes], where: str) -> np.ndarray:
-    """Returns the rows' numbers, (rows, columns); the column count is that of the shortest row."""
-    if not rows:
+def _numbers(text: bytes, where: str) -> np.ndarray:
+    """Returns the numbers of lines of text, (rows, columns); the column count is that of the shortest row."""
+    if not text:
         return np.zeros((0, 0))
-    flat = _parse_flat(b" ".join(rows), float, where)
-    width = len(rows[0].split())
-    if len(flat) != width * len(rows) or len({len(r.split()) for r in rows[:: max(1, len(rows) // 50)]}) > 1:
-        split = [r.split() for r in rows]
-        width = min(len(s) for s in split)
-        if width == 0:
-            raise UnreadableAsset(f"{where} is not a readable OBJ: a line without its numbers; re-export the mesh")
-        flat = _parse_flat(b" ".join(b" ".join(s[:width]) for s in split), float, where)
-    table = flat.reshape(len(rows), width)
+    counts = _token_counts(text)
+    width = int(counts.min())
+    if width == 0:
+        raise UnreadableAsset(f"{where} is not a readable OBJ: a line without its numbers; re-export the mesh")
+    flat = _parse_flat(text, np.float64, int(counts.sum()), where)
+    if width < counts.max():
+        begins = np.cumsum(counts) - counts
+        flat = flat[np.arange(len(flat)) - np.repeat(begins, counts) < width]
+    table = flat.reshape(len(counts), width)
     if not np.isfinite(table).all():
         raise UnreadableAsset(f"{where} holds NaN or infinite coordinates: expected finite numbers; re-export the mesh")
+    if len(table) and not np.abs(table).max() < _LARGEST:
+        raise UnreadableAsset(f"{where} holds numbers beyond all furniture: expected coordinates; re-export the mesh")
     return table
 
 
-def _parse_flat(text: bytes, dtype: type, where: str) -> np.ndarray:
-    with warnings.catch_warnings():
+def _token_counts(text: bytes) -> np.ndarray:
+    """Returns how many words each line has."""
+    raw = np.frombuffer(text, np.uint8)
+    gap = (raw == 32) | ((raw >= 9) & (raw <= 13))
+    begins = ~gap
+    begins[1:] &= gap[:-1]
+    ends = np.flatnonzero(raw == 10)
+    return np.diff(np.searchsorted(np.flatnonzero(begins), ends), prepend=0)
+
+
+def _parse_flat(text: bytes, dtype: type, count: int, where: str) -> np.ndarray:
+    found: np.ndarray | None = None
+    with warnings.catch_warnings(), suppress(ValueError, DeprecationWarning):
         warnings.simplefilter("error")
-        try:
-            return np.fromstring(text.decode("ascii", "replace"), dtype=dtype, sep=" ")
-        except (ValueError, DeprecationWarning):
-            found = "a line that should hold numbers holds something else"
-            raise UnreadableAsset(f"{where} is not a readable OBJ: {found}; re-export the mesh") from None
+        found = np.fromstring(text, dtype=dtype, sep=" ")
+    if found is None or len(found) != count:
+        what = "a line that should hold numbers holds something else"
+        raise UnreadableAsset(f"{where} is not a readable OBJ: {what}; re-export the mesh")
+    return found
 
 
 def _positions(table: np.ndarray, where: str) -> tuple[np.ndarray, np.ndarray | None]:
@@ -113,73 +132,66 @@ def _width(table: np.ndarray, columns: int) -> np.ndarray:
     return np.hstack([table, np.zeros((len(table), columns - table.shape[1]))])
 
 
-def _corners(rows: list[bytes], where: str) -> tuple[np.ndarray, np.ndarray]:
+def _corners(text: bytes, where: str) -> tuple[np.ndarray, np.ndarray]:
     """Returns all corners (vertex, texture, normal; 0 where absent), and where each polygon starts."""
-    if not rows:
+    if not text:
         return np.zeros((0, 3), np.int64), np.zeros(1, np.int64)
-    text = b"\n".join(rows)
-    raw = np.frombuffer(text + b"\n", np.uint8)
-    gap = (raw == 32) | (raw == 10)
+    text = _with_all_fields(text)
+    raw = np.frombuffer(text, np.uint8)
+    gap = (raw == 32) | ((raw >= 9) & (raw <= 13))
     begins = np.flatnonzero(~gap & np.concatenate([[True], gap[:-1]]))
-    per_corner = np.diff(np.searchsorted(np.flatnonzero(raw == 47), np.append(begins, len(raw))))
-    row_ends = np.flatnonzero(raw == 10)
-    starts = np.concatenate([[0], np.searchsorted(begins, row_ends)])
-    corners = _uniform_corners(text, per_corner, where)
-    return (corners if corners is not None else _mixed_corners(text, where)), starts
+    starts = np.concatenate([[0], np.searchsorted(begins, np.flatnonzero(raw == 10))])
+    fields = 1 + np.diff(np.searchsorted(np.flatnonzero(raw == 47), np.append(begins, len(raw))))
+    corners = np.zeros((len(begins), 3), np.int64)
+    if not len(begins):
+        return corners, starts
+    if fields.max() > 3:
+        raise UnreadableAsset(f"{where} is not a readable OBJ: a face holds something else than indices")
+    flat = _parse_flat(text.replace(b"/", b" "), np.int64, int(fields.sum()), where)
+    if fields.min() == fields.max():
+        corners[:, : fields[0]] = flat.reshape(-1, fields[0])
+    else:
+        own = np.cumsum(fields) - fields
+        corners[np.repeat(np.arange(len(begins)), fields), np.arange(len(flat)) - np.repeat(own, fields)] = flat
+    return corners, starts
 
 
-def _uniform_corners(text: bytes, per_corner: np.ndarray, where: str) -> np.ndarray | None:
-    fields = int(per_corner[0]) + 1
-    if not (per_corner == fields - 1).all() or fields > 3 or b"/ " in text or b"/\n" in text:
-        return None
-    middle_missing = b"//" in text
-    if middle_missing:
+def _with_all_fields(text: bytes) -> bytes:
+    """Returns the text with 0 for each index that is left out between or beside slashes (`1//3`, `1/`)."""
+    if b"//" in text:
         text = text.replace(b"//", b"/0/")
-    flat = _parse_flat(text.replace(b"/", b" "), np.int64, where)
-    if len(flat) != fields * len(per_corner):
-        return None
-    corners = np.zeros((len(per_corner), 3), np.int64)
-    corners[:, :fields] = flat.reshape(-1, fields)
-    return corners
+    if b"/ " in text or b"/\n" in text:
+        text = text.replace(b"/ ", b"/0 ").replace(b"/\n", b"/0\n")
+    return text
 
 
-def _mixed_corners(text: bytes, where: str) -> np.ndarray:
-    tokens = [(*token.split(b"/"), b"", b"")[:3] for token in text.split()]
-    try:
-        return np.array([[int(field or 0) for field in token] for token in tokens], np.int64)
-    except ValueError:
-        raise UnreadableAsset(f"{where} is not a readable OBJ: a face holds something else than indices") from None
-
-
-def _resolve_negative(corners: np.ndarray, starts: np.ndarray, lines: list[bytes], face_rows: list[int]) -> np.ndarray:
+def _resolve_negative(corners: np.ndarray, starts: np.ndarray, lines: ObjLines) -> np.ndarray:
     """Returns the corners with indices counted from the end turned into ones counted from the start (1-based)."""
     corners = corners.copy()
-    polygon = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    rows = np.asarray(face_rows)[polygon]
-    for column, key in enumerate((b"v ", b"vt ", b"vn ")):
-        defined = np.cumsum([line[: len(key)] == key for line in lines])
+    rows = lines.rows(FACE)[np.repeat(np.arange(len(starts) - 1), np.diff(starts))]
+    for column, kind in enumerate((VERTEX, TEXTURE, NORMAL)):
+        defined = np.cumsum(lines.kinds == kind)
         below = corners[:, column] < 0
         corners[below, column] += defined[rows[below]] + 1
     return corners
 
 
-def _runs(lines: list[bytes], face_rows: list[int]) -> tuple[tuple[ObjRun, ...], tuple[str, ...]]:
+def _runs(lines: ObjLines) -> tuple[tuple[ObjRun, ...], tuple[str, ...]]:
     state = {"o": "", "g": "", "usemtl": ""}
     runs: list[ObjRun] = []
     libraries: list[str] = []
     first = 0
-    states = [(i, line) for i, line in enumerate(lines) if line[:2] in (b"o ", b"g ", b"us", b"mt")]
-    at: Any = np.searchsorted(face_rows, [i for i, _ in states]) if states else []
-    for (_, line), face in zip(states, at, strict=True):
-        key, _, value = line.decode("utf-8", "replace").partition(" ")
+    faces, rows = lines.rows(FACE), lines.rows(STATE)
+    for row, face in zip(rows.tolist(), np.searchsorted(faces, rows).tolist(), strict=True):
+        key, _, value = lines.line(row).partition(" ")
         if key == "mtllib":
             libraries.append(value.strip())
         if key not in state:
             continue
         if face > first:
-            runs.append(ObjRun(state["o"], state["g"], state["usemtl"], first, int(face)))
-            first = int(face)
+            runs.append(ObjRun(state["o"], state["g"], state["usemtl"], first, face))
+            first = face
         state[key] = value.strip()
-    if len(face_rows) > first:
-        runs.append(ObjRun(state["o"], state["g"], state["usemtl"], first, len(face_rows)))
+    if len(faces) > first:
+        runs.append(ObjRun(state["o"], state["g"], state["usemtl"], first, len(faces)))
     return tuple(runs), tuple(libraries)

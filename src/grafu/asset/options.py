@@ -1,8 +1,8 @@
 """What a user can say about an input before it is read. It reads nothing."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import Literal, final
+from typing import Any, Literal, final
 
 from grafu.errors import AssetError, AssetTooLarge
 
@@ -12,22 +12,74 @@ Labelling = Literal["input", "none"]
 Division = Literal["input", "loose"]
 
 
+def _limit(default: int, counts: str) -> Any:
+    return field(default=default, metadata={"counts": counts})
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The largest input that is read: bytes per file, parts, and faces in all."""
+    """What is read of one model at most: all its files together, and what is placed several times each time.
 
-    max_bytes: int = 512 * 2**20
-    max_parts: int = 5_000
-    max_faces: int = 20_000_000
+    `--limit NAME=NUMBER` raises or lowers one; NAME is the field without `max_`, hyphens for underscores.
+
+    Raises:
+        AssetError: if one is not a whole number above 0.
+    """
+
+    max_bytes: int = _limit(256 * 2**20, "bytes of all files that are read")
+    max_parts: int = _limit(5_000, "parts")
+    max_faces: int = _limit(2_000_000, "triangles")
+    max_vertices: int = _limit(3_000_000, "vertices")
+    max_primitives: int = _limit(20_000, "pieces of one material: primitives in glTF, visuals in URDF")
+    max_lines: int = _limit(10_000_000, "lines of one OBJ")
+    max_groups: int = _limit(200_000, "changes of object, group or material in OBJ files")
+    max_corners: int = _limit(2_000, "corners of one polygon")
+    max_nodes: int = _limit(50_000, "nodes of a scene, links of a robot")
+    max_depth: int = _limit(500, "nodes, links or XML elements one below the other")
+    max_values: int = _limit(3_000_000, "values in one JSON, elements and attributes in one XML")
+    max_image_pixels: int = _limit(8192 * 8192, "pixels of one image; a larger one is left out")
+    max_pixels: int = _limit(4 * 8192 * 8192, "pixels of all images; those beyond are left out")
+
+    def __post_init__(self) -> None:
+        for name, value in self.by_name().items():
+            if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+                raise AssetError(f"--limit {name} must be a whole number above 0: got {value!r}")
+
+    def by_name(self) -> dict[str, int]:
+        """Returns every limit by the name that `--limit` knows it by."""
+        return {limit_name(f.name): getattr(self, f.name) for f in fields(self)}
+
+    def with_limit(self, name: str, value: int) -> "Limits":
+        """Returns the limits with one of them changed, named as by `--limit`.
+
+        Raises:
+            AssetError: if there is no such limit, or the value is not a whole number above 0.
+        """
+        if name not in self.by_name():
+            raise AssetError(f"--limit must name one of {', '.join(self.by_name())}: got {name!r}")
+        return replace(self, **{f"max_{name.replace('-', '_')}": value})
+
+    def require(self, name: str, count: int, where: object) -> None:
+        """Raises AssetTooLarge where `count` of what `name` limits is more than is read; `where` names the input."""
+        most = getattr(self, f"max_{name.replace('-', '_')}")  # asked for every file and line: quicker than by_name
+        if count > most:
+            raise AssetTooLarge(f"{where} has {count:,} {name}: at most {most:,} are read; {how_to_allow(name, count)}")
+
+
+def limit_name(field_name: str) -> str:
+    """Returns the name by which `--limit` knows a field of `Limits`."""
+    return field_name.removeprefix("max_").replace("_", "-")
+
+
+def how_to_allow(name: str, count: int) -> str:
+    """Returns what to do where a limit is exceeded."""
+    return f"simplify it, or allow more by --limit {name}={count}"
 
 
 def check_parts(count: int, path: Path, limits: Limits) -> None:
     """Raises AssetTooLarge where `count` parts are more than the limit."""
-    if count > limits.max_parts:
-        raise AssetTooLarge(
-            f"{path} has {count:,} parts: at most {limits.max_parts:,} are read; merge or leave out some"
-        )
+    limits.require("parts", count, path)
 
 
 @final

@@ -13,6 +13,7 @@ from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.visible import writable
 from grafu.vocabulary import JointType, PartLabel
 
 AssetKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh folder", "mesh file", "release", "made"]
@@ -21,15 +22,22 @@ AssetKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh folder", "m
 @final
 @dataclass(frozen=True, slots=True)
 class PartSource:
-    """Where a part came from: its original name, and the file and link that held it (empty where there is none)."""
+    """Where a part came from: its original name, and the file and link that held it (empty where there is none).
+
+    Names are kept as UTF-8 can hold them (`writable`).
+    """
 
     name: str
     file: str = ""
     link: str = ""
 
+    def __post_init__(self) -> None:
+        for field in ("name", "file", "link"):
+            object.__setattr__(self, field, writable(getattr(self, field)))
+
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Part:
     """One part, its surfaces in the object frame (metres, Z up, front -Y).
 
@@ -44,6 +52,9 @@ class Part:
     source: PartSource
     labelled_by: Literal["name", "annotation", "joint", "user", "prediction", "added", "none"] = "none"
     rides_on: str | None = None
+
+    def __repr__(self) -> str:
+        return f"<Part {self.id}: {self.label}, {sum(len(s.mesh.faces) for s in self.surfaces):,} faces>"
 
     @cached_property
     def mesh(self) -> TriangleMesh:
@@ -76,6 +87,25 @@ class AnnotatedJoint:
 
 
 @final
+@dataclass(frozen=True)
+class Annotation:
+    """What an input says of its motions: its parts as its moving bodies group, label and carry them, and their joints.
+
+    The pieces of a body that moves are one part here, whatever they are called. `notes` says what was decided.
+
+    Raises:
+        AssetError: if part ids repeat, or `rides_on` or a joint names a part that is not there.
+    """
+
+    parts: tuple[Part, ...]
+    joints: tuple[AnnotatedJoint, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        _check_names(self.parts, self.joints, "an annotation")
+
+
+@final
 @dataclass(frozen=True, eq=False, slots=True)
 class Frame(ArrayValue):
     """How the input's own coordinates became the object frame.
@@ -99,9 +129,15 @@ IDENTITY_FRAME = Frame(np.eye(4), "+Z", "-Y", 1.0)
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Asset:
-    """A part-segmented model in the object frame, and the joints that it states itself.
+    """A part-segmented model in the object frame.
+
+    Of a file, `parts` are read without its joints: the same with them and without. What it says of its motions is the
+    `annotation`, in the same frame, and `as_annotated` is how that sees it. `joints` are those of an asset that was
+    read so, that was made with joints, or that another system's were attached to.
+
+    Name, path and notes are kept as UTF-8 can hold them (`writable`).
 
     Raises:
         AssetError: if part ids repeat, or `rides_on` or a joint names a part that is not there.
@@ -114,16 +150,16 @@ class Asset:
     frame: Frame = IDENTITY_FRAME
     joints: tuple[AnnotatedJoint, ...] = ()
     notes: tuple[str, ...] = ()  # what the reader left out or mended, in words
+    annotation: Annotation | None = None
+
+    def __repr__(self) -> str:
+        return f"<Asset {self.name}: {self.kind}, {len(self.parts)} parts>"
 
     def __post_init__(self) -> None:
-        known = {part.id for part in self.parts}
-        if len(known) < len(self.parts):
-            raise AssetError(f"part ids must be unique: {self.path or self.name} repeats one")
-        named = {joint.part for joint in self.joints} | {p.rides_on for p in self.parts if p.rides_on}
-        if not named <= known:
-            raise AssetError(
-                f"joints and riders must name parts: {self.path or self.name} lacks {sorted(named - known)}"
-            )
+        object.__setattr__(self, "name", writable(self.name))
+        object.__setattr__(self, "path", writable(self.path))
+        object.__setattr__(self, "notes", tuple(map(writable, self.notes)))
+        _check_names(self.parts, self.joints, self.path or self.name)
 
     @cached_property
     def _by_id(self) -> dict[str, Part]:
@@ -143,17 +179,42 @@ class Asset:
         """The object's largest side in metres: the paper's unit cube (metrics scale by it)."""
         return float(self.box.size.max())
 
+    @property
+    def stated_joints(self) -> tuple[AnnotatedJoint, ...]:
+        """The joints that the input itself states, read or not; their parts are those of `as_annotated`."""
+        found = self.joints if self.annotation is None else self.annotation.joints
+        return tuple(joint for joint in found if joint.stated_by == "annotation")
+
+    def as_annotated(self) -> "Asset":
+        """Returns the asset as its annotation sees it, with its joints; itself where it has no annotation apart."""
+        found = self.annotation
+        if found is None:
+            return self
+        notes = tuple(dict.fromkeys((*self.notes, *found.notes)))
+        return replace(self, parts=found.parts, joints=found.joints, notes=notes, annotation=None)
+
     def without_annotation(self) -> "Asset":
         """Returns the same parts without the joints and riders that the input stated, and what joints alone labelled.
 
-        That a part is one part, and what it is called, is no annotation of its motion.
+        Of an asset as a file is read, these are the parts of the same file without joints. Of one `as_annotated`, that
+        some pieces are one part is kept: a method that is given them is told what hangs together, not how it moves.
         """
-        return replace(self, parts=tuple(_without_annotation(part) for part in self.parts), joints=())
+        bare = tuple(_without_annotation(part) for part in self.parts)
+        return replace(self, parts=bare, joints=(), annotation=None)
 
     def with_labels(self, labels: dict[str, PartLabel]) -> "Asset":
         """Returns the same asset with some parts relabelled by the user or a prediction."""
         parts = tuple(replace(p, label=labels[p.id]) if p.id in labels else p for p in self.parts)
         return replace(self, parts=parts)
+
+
+def _check_names(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], whose: str) -> None:
+    known = {part.id for part in parts}
+    if len(known) < len(parts):
+        raise AssetError(f"part ids must be unique: {whose} repeats one")
+    named = {joint.part for joint in joints} | {p.rides_on for p in parts if p.rides_on}
+    if not named <= known:
+        raise AssetError(f"joints and riders must name parts: {whose} lacks {sorted(named - known)}")
 
 
 def _without_annotation(part: Part) -> Part:

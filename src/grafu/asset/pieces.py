@@ -1,10 +1,12 @@
 """Loose pieces of doors and drawers become one part each, by where they lie. It reads no names but to tell pieces.
 
-A drawer's sides, back and bottom belong to the `front` whose outline, seen along its thin axis, covers them; a door's
-pane or panel belongs to the larger door piece around it. Pieces that no front covers stay parts of their own.
+A drawer's sides, back and bottom belong to the `front` whose outline, seen from where it faces, covers them; so does
+the box's own front behind it. A door's pane or panel belongs to the larger door piece around it. Pieces that no front
+covers stay parts of their own.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 
@@ -16,6 +18,26 @@ from grafu.vocabulary import PartLabel
 
 # Shares of the object's diagonal: how far a piece may stand out of the outline, and how far it may lie from it.
 _STAND_OUT, _TOUCH = 0.01, 0.004
+# A door's frame may have this share of its pane's face.
+_LEAF = 0.2
+
+
+@final
+@dataclass(frozen=True)
+class _Front:
+    """A piece that may hold others, and the axis that it faces along."""
+
+    part: Part
+    axis: int
+
+    def gap(self, piece: Part) -> float:
+        """How far a piece lies before or behind it."""
+        return max(float(self.part.box.axis_gaps(piece.box)[self.axis]), 0.0)
+
+    def misses(self, piece: Part) -> float:
+        """How far a piece stands out of its outline, 0 where that covers it."""
+        beyond = np.maximum(self.part.box.low - piece.box.low, piece.box.high - self.part.box.high)
+        return float(max(np.delete(beyond, self.axis).max(), 0.0))
 
 
 def with_joined_pieces(parts: tuple[Part, ...], whole: Box) -> tuple[tuple[Part, ...], list[str]]:
@@ -37,13 +59,13 @@ def with_joined_pieces(parts: tuple[Part, ...], whole: Box) -> tuple[tuple[Part,
 
 
 def _pairs(pieces: list[Part], label: PartLabel, size: float) -> list[tuple[Part, Part]]:
-    fronts = [p for p in pieces if label is PartLabel.DOOR or {"front", "face"} & set(words(p.source.name))]
-    ranked = sorted(fronts, key=lambda p: -_face_area(p.box))
+    fronts = {p.id: _Front(p, _faces(p)) for p in pieces if label is PartLabel.DOOR or _is_front(p)}
+    ranked = sorted(fronts.values(), key=lambda f: -_face_area(f.part.box))
     pairs: list[tuple[Part, Part]] = []
     taken: set[str] = set()
     for piece in sorted(pieces, key=lambda p: _face_area(p.box)):
-        others = [f for f in ranked if f.id not in taken and f is not piece]
-        host = _host(piece, others, size) if label is PartLabel.DOOR or piece not in fronts else None
+        others = [f for f in ranked if f.part.id not in taken and f.part is not piece]
+        host = _host(piece, others, size, touching=piece.id in fronts)
         if host is not None:
             pairs.append((piece, host))
             taken.add(piece.id)
@@ -60,23 +82,28 @@ def _followed(pairs: list[tuple[Part, Part]]) -> list[tuple[Part, Part]]:
     return [(piece, last(host)) for piece, host in pairs]
 
 
-def _host(piece: Part, fronts: list[Part], size: float) -> Part | None:
-    """Returns the front that covers the piece, the nearest of several, or None."""
-    covering = [
-        f for f in fronts if _covers(f.box, piece.box, size) and _face_area(f.box) >= _face_area(piece.box) * 0.2
-    ]
-    near = {f.id: float(f.box.axis_gaps(piece.box)[f.box.thin_axis]) for f in covering}
-    best = min(covering, key=lambda f: max(near[f.id], 0.0), default=None)
-    if best is None or (best.label is PartLabel.DOOR and near[best.id] > _TOUCH * size):
+def _is_front(part: Part) -> bool:
+    return bool({"front", "face"} & set(words(part.source.name)))
+
+
+def _host(piece: Part, fronts: list[_Front], size: float, touching: bool) -> Part | None:
+    """Returns the front that covers the piece, the nearest of several, or None; it may have to touch the piece."""
+    covering = [f for f in fronts if f.misses(piece) <= _STAND_OUT * size and _may_hold(f.part, piece)]
+    best = min(covering, key=lambda f: f.gap(piece) + f.misses(piece), default=None)
+    if best is None or (touching and best.gap(piece) > _TOUCH * size):
         return None
-    return best
+    return best.part
 
 
-def _covers(front: Box, piece: Box, size: float) -> bool:
-    wide = np.delete(np.arange(3), front.thin_axis)
-    margin = _STAND_OUT * size
-    inside = (piece.low >= front.low - margin) & (piece.high <= front.high + margin)
-    return bool(inside[wide].all())
+def _may_hold(front: Part, piece: Part) -> bool:
+    return front.label is not PartLabel.DOOR or _face_area(front.box) >= _LEAF * _face_area(piece.box)
+
+
+def _faces(front: Part) -> int:
+    """Returns the axis that most of a front's surface faces: a knob on a low front makes its box deep, but not this."""
+    corners = front.mesh.triangles
+    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return int(np.argmax(np.abs(doubled).sum(axis=0)))
 
 
 def _face_area(box: Box) -> float:

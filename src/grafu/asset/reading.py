@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, final
 
-from grafu.asset.part import AnnotatedJoint, AssetKind, Part
+from grafu.asset.part import Annotation, AssetKind, Part
 
 Furniture = Literal["storage", "table"]
 
@@ -28,12 +28,16 @@ class Convention:
 @final
 @dataclass(frozen=True)
 class Reading:
-    """An input in its own coordinates: every `Part` and joint here is still to be mapped to the object frame."""
+    """An input in its own coordinates: every `Part` and joint here is still to be mapped to the object frame.
+
+    `parts` are what it holds without its joints; the `annotation` is what it says of its motions, None where nothing.
+    `grouped` says that the parts are segmented by hand: pieces of doors and drawers are not joined by where they lie.
+    """
 
     kind: AssetKind
     parts: tuple[Part, ...]
     convention: Convention
-    joints: tuple[AnnotatedJoint, ...] = ()
+    annotation: Annotation | None = None
     furniture: Furniture | None = None
     notes: tuple[str, ...] = ()
-    grouped: bool = False  # whether the input says which pieces make up what moves
+    grouped: bool = False

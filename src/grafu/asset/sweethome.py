@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from grafu.asset.bodies import Body, Motion, Visual, parts_of_bodies
-from grafu.asset.mesh_files import MeshFile, MeshPiece
+from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies
+from grafu.asset.drafts import PartDraft, parts_of_drafts
+from grafu.asset.mesh_pieces import MeshFile, MeshPiece
 from grafu.asset.reading import Convention, Reading
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import merge_meshes
@@ -29,7 +30,10 @@ def is_sweethome(found: MeshFile) -> bool:
 
 
 def read_sweethome(path: Path, found: MeshFile) -> Reading:
-    """Returns the groups as parts, openings as annotated joints; guide groups are dropped from the shape."""
+    """Returns the groups as parts, openings as annotated joints; guide groups are dropped from the shape.
+
+    What an opening is labelled by is the rest of its name: that it opens is its annotation.
+    """
     guides = {_key(m): p for p in found.pieces if (m := _GUIDE.match(p.name)) and p.surfaces}
     notes = list(found.notes)
     bodies: list[Body] = []
@@ -46,11 +50,16 @@ def read_sweethome(path: Path, found: MeshFile) -> Reading:
             notes.append(f"{pieces[0].name} names no {key[0]} group {key[1]}: kept in place")
         visuals = tuple(Visual(p.name, p.surfaces, pieces[0].name, path.name) for p in pieces)
         bodies.append(Body(pieces[0].name, pieces[0].name, visuals, motion))
-    made = parts_of_bodies(bodies, up=1)
-    notes = [*notes, *made.notes]
-    return Reading(
-        "mesh file", made.parts, CONVENTION, made.joints, notes=tuple(dict.fromkeys(notes)), grouped=made.grouped
-    )
+    solid = [piece for piece in found.pieces if piece.surfaces and piece not in guides.values()]
+    parts = parts_of_drafts([_draft(piece, path.name) for piece in solid])
+    annotation = annotation_of_bodies(bodies, up=1)
+    return Reading("mesh file", parts, CONVENTION, annotation, notes=tuple(dict.fromkeys(notes)))
+
+
+def _draft(piece: MeshPiece, file: str) -> PartDraft:
+    match = _MOVING.match(piece.name)
+    spoken = piece.name[match.end() :] or "opening" if match else ""
+    return PartDraft(piece.name, piece.surfaces, label_name=spoken, file=file)
 
 
 def _key(match: re.Match[str]) -> tuple[str, str]:

@@ -5,16 +5,20 @@ Everything comes out in the coordinates of the root link, every joint at zero. I
 
 import math
 from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
 
-from grafu.asset.bodies import Body, Motion, Visual, parts_of_bodies
-from grafu.asset.labels import label_of
+from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.drafts import parts_of_drafts
+from grafu.asset.json_shapes import spelled
+from grafu.asset.labels import is_whole_mover, label_of
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
+from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf_shapes import ShapeReader
 from grafu.asset.xml_files import read_xml
 from grafu.errors import UnreadableAsset
@@ -29,15 +33,17 @@ _MOVING = {
     "continuous": JointType.REVOLUTE,
     "prismatic": JointType.PRISMATIC,
 }
+_LARGEST = 1e12  # metres: products with the sizes of meshes stay finite
 _LOOSE = "floating"  # the link moves, the file does not say how
 
 
 @final
 @dataclass(frozen=True)
 class UrdfBodies:
-    """The bodies of a URDF and notes on what was left out."""
+    """The bodies of a URDF, its visuals link by link as the file has them, and notes on what was left out."""
 
     bodies: tuple[Body, ...]
+    visuals: tuple[Visual, ...]
     notes: tuple[str, ...]
 
 
@@ -65,51 +71,54 @@ class _Tree:
     links: dict[str, Any]
     above: dict[str, _JointElement]
     roots: tuple[str, ...]
-    T_root_link: dict[str, Mat4] = field(default_factory=dict)
+    T_root_link: dict[str, Mat4]
 
 
-def read_urdf(path: Path, options: LoadOptions) -> Reading:
+def read_urdf(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
     """Returns the model in the coordinates of its root link.
 
     Raises:
         UnreadableAsset: if the file is no URDF, its joints do not form a tree, or no shape could be read.
     """
-    found = read_bodies(path, options)
-    made = parts_of_bodies(list(found.bodies), up=2)
-    notes = tuple(dict.fromkeys((*found.notes, *made.notes)))
-    return Reading("urdf", made.parts, CONVENTION, made.joints, notes=notes, grouped=made.grouped)
+    found = read_bodies(path, files or ModelFiles(path, options.limits))
+    parts = parts_of_drafts(drafts_of_visuals(found.visuals))
+    annotation = annotation_of_bodies(list(found.bodies), up=2)
+    return Reading("urdf", parts, CONVENTION, annotation, notes=tuple(dict.fromkeys(found.notes)))
 
 
-def read_bodies(path: Path, options: LoadOptions, mesh_frame: bool = False) -> UrdfBodies:
+def read_bodies(path: Path, files: ModelFiles, mesh_frame: bool = False) -> UrdfBodies:
     """Returns the bodies of a URDF file.
 
     Args:
         path: the file.
-        options: limits on bytes and faces.
-        mesh_frame: give coordinates of the first static link that has visuals instead of the root link's.
+        files: the files of the model.
+        mesh_frame: give coordinates of the link with visuals that is nearest to the root instead of the root link's.
     """
-    tree = _read_tree(path, options)
-    heads = {link: _head(tree, link) for link in tree.links}
-    base = _base_link(tree, heads) if mesh_frame else tree.roots[0]
+    tree = _read_tree(path, files)
+    heads = _heads(tree)
+    base = _base_link(tree) if mesh_frame else tree.roots[0]
     T_base_root = invert(tree.T_root_link[base])
-    shapes = ShapeReader(path, options.limits, _materials(tree.robot))
+    shapes = ShapeReader(path, files, _materials(tree.robot))
     visuals: dict[str, list[Visual]] = {}
     for link in sorted(tree.links, key=lambda name: tree.links[name].find("visual") is None):
         visuals.setdefault(heads[link], []).extend(_link_visuals(tree, link, shapes, T_base_root))
-    bodies = tuple(_body(tree, head, tuple(found), T_base_root) for head, found in visuals.items())
-    if not any(body.visuals for body in bodies):
+    bodies = tuple(_body(tree, heads, head, tuple(found), T_base_root) for head, found in visuals.items())
+    place = {link: number for number, link in enumerate(tree.links)}
+    in_order = tuple(sorted((v for found in visuals.values() for v in found), key=lambda visual: place[visual.link]))
+    if not in_order:
         missing = f" ({shapes.notes[0]})" if shapes.notes else ""
         raise UnreadableAsset(f"{path} has no visual shape that can be read{missing}: expected visuals with meshes")
-    return UrdfBodies(bodies, (*shapes.notes, *_kind_notes(tree)))
+    return UrdfBodies(bodies, in_order, (*shapes.notes, *_kind_notes(tree)))
 
 
-def _read_tree(path: Path, options: LoadOptions) -> _Tree:
-    robot = read_xml(path, options.limits)
+def _read_tree(path: Path, files: ModelFiles) -> _Tree:
+    robot = read_xml(path, files)
     if robot.tag != "robot":
         raise UnreadableAsset(
             f"{path} has the root <{robot.tag}>: expected <robot>, a URDF (xacro must be expanded first)"
         )
     elements = robot.findall("link")
+    files.limits.require("nodes", len(elements), path)
     links = {link.get("name", ""): link for link in elements}
     if not links:
         raise UnreadableAsset(f"{path} has no links: expected a URDF with links and visuals")
@@ -128,23 +137,28 @@ def _read_tree(path: Path, options: LoadOptions) -> _Tree:
             raise UnreadableAsset(f"{path}: link {joint.child!r} has two parent joints; expected a tree; remove one")
         above[joint.child] = joint
     roots = tuple(name for name in links if name not in above)
-    tree = _Tree(path, robot, links, above, roots)
-    for link in links:
-        tree.T_root_link[link] = _pose(tree, link)
-    return tree
+    return _Tree(path, robot, links, above, roots, _poses(path, links, above, files))
 
 
-def _pose(tree: _Tree, link: str) -> Mat4:
-    chain = []
-    while link in tree.above:
-        chain.append(tree.above[link])
-        link = chain[-1].parent
-        if len(chain) > len(tree.links):
-            raise UnreadableAsset(f"{tree.path}: the joints form a cycle through link {link!r}; expected a tree")
-    T = np.eye(4)
-    for joint in reversed(chain):
-        T = T @ joint.origin
-    return T
+def _poses(path: Path, links: Iterable[str], above: dict[str, _JointElement], files: ModelFiles) -> dict[str, Mat4]:
+    """Returns the pose of every link at zero, each from the one above it; none may lie in a cycle."""
+    poses = {link: np.eye(4) for link in links if link not in above}
+    below: dict[str, list[_JointElement]] = {}
+    for joint in above.values():
+        below.setdefault(joint.parent, []).append(joint)
+    reached, depth = list(poses), 1
+    while reached:
+        files.limits.require("depth", depth, path)
+        joints = [joint for link in reached for joint in below.get(link, ())]
+        poses |= {joint.child: poses[joint.parent] @ joint.origin for joint in joints}
+        reached, depth = [joint.child for joint in joints], depth + 1
+    lost = next((link for link in links if link not in poses), None)
+    if lost is not None:
+        raise UnreadableAsset(f"{path}: the joints form a cycle through link {lost!r}; expected a tree")
+    far = next((link for link, T in poses.items() if not np.abs(T).max() < _LARGEST), None)
+    if far is not None:
+        raise UnreadableAsset(f"{path}: link {far!r} lies beyond all furniture; mend the origins of its joints")
+    return poses
 
 
 def _joint_element(element: Any, path: Path) -> _JointElement:
@@ -177,7 +191,7 @@ def numbers(text: str | None, default: tuple[float, ...], path: Path) -> tuple[f
     except ValueError:
         values = ()
     if len(values) != len(default) or not all(math.isfinite(v) for v in values):
-        raise UnreadableAsset(f"{path}: expected {len(default)} finite numbers, got {text!r}; mend the URDF")
+        raise UnreadableAsset(f"{path}: expected {len(default)} finite numbers, got {spelled(text)}; mend the URDF")
     return values
 
 
@@ -196,16 +210,39 @@ def _moves(joint: _JointElement) -> bool:
     return joint.kind in _MOVING and any(joint.axis)
 
 
-def _head(tree: _Tree, link: str) -> str:
-    """Returns the topmost link that this one is rigidly fixed to."""
-    while link in tree.above and not _moves(tree.above[link]) and tree.above[link].kind != _LOOSE:
-        link = tree.above[link].parent
-    return link
+def _is_fixed(joint: _JointElement) -> bool:
+    return not _moves(joint) and joint.kind != _LOOSE
 
 
-def _base_link(tree: _Tree, heads: dict[str, str]) -> str:
-    static = [link for link in tree.links if heads[link] == tree.roots[0]]
-    return next((link for link in static if tree.links[link].find("visual") is not None), tree.roots[0])
+def _heads(tree: _Tree) -> dict[str, str]:
+    """Returns for every link the topmost one that it is rigidly fixed to; poses list each link after the one above."""
+    heads: dict[str, str] = {}
+    for link in tree.T_root_link:
+        joint = tree.above.get(link)
+        heads[link] = heads[joint.parent] if joint is not None and _is_fixed(joint) else link
+    return heads
+
+
+def _base_link(tree: _Tree) -> str:
+    """Returns of the links with visuals the first that hangs on the fewest others, whether these move or not."""
+    shown = [link for link in tree.links if tree.links[link].find("visual") is not None]
+    return min(shown, key=lambda link: len(_upward(tree, link)), default=tree.roots[0])
+
+
+def _upward(tree: _Tree, link: str) -> list[str]:
+    """Returns the link and those that it hangs on, up to the root."""
+    chain = [link]
+    while chain[-1] in tree.above:
+        chain.append(tree.above[chain[-1]].parent)
+    return chain
+
+
+def _group(tree: _Tree, link: str) -> str:
+    """Returns the nearest link, itself or above it, that is named as one whole door or drawer; the root says nothing.
+
+    Links count as the nodes of a scene do, by their names alone: a joint that is made fixed changes nothing.
+    """
+    return next((name for name in _upward(tree, link)[:-1] if is_whole_mover(name)), "")
 
 
 def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4) -> list[Visual]:
@@ -217,7 +254,8 @@ def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4
             continue
         T = T_base_link @ origin_of(element, tree.path)
         name = _visual_name(element.get("name") or "", link, Path(shape.file).stem)
-        made.append(Visual(name, tuple(s.transformed(T) for s in shape.surfaces), link, shape.file))
+        surfaces = tuple(s.transformed(T) for s in shape.surfaces)
+        made.append(Visual(name, surfaces, link, shape.file, _group(tree, link)))
     return made
 
 
@@ -228,11 +266,11 @@ def _visual_name(visual: str, link: str, stem: str) -> str:
     return next(known, visual or link or stem)
 
 
-def _body(tree: _Tree, head: str, visuals: tuple[Visual, ...], T_base_root: Mat4) -> Body:
+def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[Visual, ...], T_base_root: Mat4) -> Body:
     joint = tree.above.get(head)
     if joint is None:
         return Body(head, visuals[0].link if visuals else head, visuals)
-    above = _head(tree, joint.parent)
+    above = heads[joint.parent]
     parent = above if above in tree.above else None
     if joint.kind == _LOOSE:
         return Body(head, head, visuals, parent=parent, is_loose=True)

@@ -7,7 +7,7 @@ from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
-from grafu.cli.messages import complain
+from grafu.cli.messages import complain, say
 from grafu.cli.progress import with_progress
 from grafu.data.asked import VARIANTS
 from grafu.export.whole_file import write_whole
@@ -38,13 +38,14 @@ def run_ablation(options: argparse.Namespace) -> int:
     begin_ablation(options.out, _asked(options, config))
     results = {run.folder: result for run in runs if (result := _known(run))}
     title = _title(options, config, runs)
-    print(f"{title} {len(runs)} runs, {len(results)} of them finished before.", flush=True)
+    say(f"{title} {len(runs)} runs, {len(results)} of them finished before.")
     failed = _train(options, runs, results, title)
     table = _write_tables(options.out, title, runs, results)
     if len(results) + failed < len(runs):
         complain(f"stopped with {len(results)} of {len(runs)} runs finished; the same command goes on")
         return EXIT_INTERRUPTED
-    print(f"\n{table}\nwritten to {options.out / 'table.md'} and table.csv")
+    for line in ("", *table.split("\n"), f"written to {options.out / 'table.md'} and table.csv"):
+        say(line)
     return EXIT_FAILED if failed else EXIT_DONE
 
 
@@ -79,7 +80,7 @@ def _train(options: argparse.Namespace, runs: Sequence[AblationRun], results: di
                 failed += 1
             elif event.figures is not None:
                 result = results[run.folder] = Result(run.experiment, run.seed, event.figures)
-                print(_told(result), flush=True)
+                say(_told(result))
                 _write_tables(options.out, title, runs, results)
     return failed
 

@@ -41,50 +41,26 @@ def addition_config(options: argparse.Namespace, handles: "Collection[str]") -> 
     """Returns what the arguments allow to be added; `handles` are the ids of all handle templates.
 
     Raises:
-        FunctionalizationError: if options contradict each other, or name a style or an interior that there is not.
+        OptionError: if options contradict each other, or name a style or an interior that there is not.
     """
-    from dataclasses import replace
-
     from grafu.errors import OptionError
-    from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
-    from grafu.realization.carcass.config import CarcassConfig
-    from grafu.realization.interior.request import parse_interior
-    from grafu.realization.top.config import TopConfig
+    from grafu.pipeline.addition_choice import choose_additions
+    from grafu.pipeline.addition_config import NO_ADDITIONS
 
     _require_consistent(options)
     if options.only == "dynamic":
         return NO_ADDITIONS
-    config = AdditionConfig()
-    if options.no_top:
-        config = replace(config, top=None)
-    if options.top:
-        config = replace(config, top=TopConfig(shape=options.top))
-    if options.no_drawer_boxes:
-        config = replace(config, drawer_boxes=None)
-    if options.complete == "carcass":
-        config = replace(config, carcass=CarcassConfig())
-    if options.interior:
-        try:
-            config = replace(config, interior=parse_interior(options.interior))
-        except ValueError as error:
-            raise OptionError(str(error).replace("`interior`", "`--interior`")) from None
-    if options.no_handles:
-        return replace(config, handles=None, grips=None)
-    return _with_handle(config, options.handle, handles) if options.handle else config
-
-
-def _with_handle(config: "AdditionConfig", style: str, handles: "Collection[str]") -> "AdditionConfig":
-    from dataclasses import replace
-
-    from grafu.errors import OptionError
-    from grafu.realization.grip.config import GripConfig, GripKind
-    from grafu.realization.handle.config import HandleConfig
-
-    if style in GRIPS:
-        return replace(config, handles=None, grips=GripConfig() if style == "grip" else GripConfig(GripKind(style)))
-    if style not in handles:
-        raise OptionError(f"`--handle` must be one of {', '.join((*handles, *GRIPS))}: got {style!r}")
-    return replace(config, handles=HandleConfig(style=style))
+    try:
+        return choose_additions(
+            handles,
+            top=not options.no_top and (options.top or True),
+            handles=not options.no_handles and (options.handle or True),
+            drawer_boxes=not options.no_drawer_boxes,
+            interior=options.interior or "predicted",
+            carcass=options.complete == "carcass",
+        )
+    except OptionError as error:
+        raise OptionError(str(error).replace("`interior`", "`--interior`").replace("`handle`", "`--handle`")) from None
 
 
 def _require_consistent(options: argparse.Namespace) -> None:

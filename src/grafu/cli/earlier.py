@@ -1,42 +1,83 @@
-"""What an earlier run wrote for an input, for one that goes on from there. It changes nothing."""
+"""What earlier runs wrote: for a run that goes on from there, and for the page of all models. It changes nothing."""
 
 import json
-from dataclasses import replace
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, Final
+from typing import Any, final
 
 from pydantic import ValidationError
 
 from grafu.errors import ExportError
+from grafu.export.files import require_free
+from grafu.export.marker import Marker, read_marker
+from grafu.export.remains import is_hidden_name
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings, settings_from_json
 
-_FILE_OF: Final = MappingProxyType(
-    {"glb": "model.glb", "urdf": "model.urdf", "mjcf": "model.xml", "usd": "model.usdc", "usdz": "model.usdz"}
-    | {"blend": "model.blend"}
-)
+REPORT = "report.json"
 _INSTEAD = "choose another --out, or give --overwrite"
 
 
-def earlier_report(folder: Path, settings: Settings | None, formats: tuple[str, ...]) -> Report | None:
-    """Returns the report of an earlier run with these settings and formats, or None where there is none.
+@final
+@dataclass(frozen=True)
+class Earlier:
+    """The results of one input: their report, the settings that they were made with, and what is grafu's of them."""
+
+    folder: Path
+    report: Report
+    settings: Settings | None
+    marker: Marker
+
+
+def earlier_results(folder: Path, settings: Settings | None) -> Earlier | None:
+    """Returns what an earlier run with these settings wrote, or None where there is nothing.
 
     Raises:
-        ExportError: if what is there is not whole, or was made with other settings.
+        ExportError: if what is there is not grafu's, is not whole, or was made with other settings.
     """
-    if not (folder / "report.json").is_file():
+    if not (folder / REPORT).is_file():
         return None
-    try:
-        report = Report.model_validate_json((folder / "report.json").read_bytes())
-    except ValidationError:
-        raise ExportError(f"`{folder}` holds a report of another form: {_INSTEAD}") from None
-    if _for_any_model(_settings_in(folder)) != _for_any_model(settings):
+    marker = read_marker(folder)
+    if marker is None:
+        require_free(folder, overwrite=True)
+        return None
+    report = _report_in(folder)
+    if report is None:
+        raise ExportError(f"`{folder}` holds a report of another form: {_INSTEAD}")
+    made_with = _settings_in(folder)
+    if _for_any_model(made_with) != _for_any_model(settings):
         raise ExportError(f"`{folder}` was made with other options: {_INSTEAD}")
-    absent = [name for name in formats if name in _FILE_OF and not (folder / _FILE_OF[name]).exists()]
-    if absent:
-        raise ExportError(f"`{folder}` was made without {', '.join(absent)}: {_INSTEAD}")
-    return report
+    return Earlier(folder, report, made_with, marker)
+
+
+def finished_in(out: Path, but: Collection[str] = ()) -> Iterator[tuple[str, Report]]:
+    """Yields the names and reports of all finished models in a folder of results, but for those named."""
+    if not out.is_dir():
+        return
+    for folder in sorted(out.iterdir()):
+        if (
+            folder.name not in but
+            and not is_hidden_name(folder.name)
+            and _is_finished(folder)
+            and (report := _report_in(folder))
+        ):
+            yield folder.name, report
+
+
+def _is_finished(folder: Path) -> bool:
+    try:
+        marker = read_marker(folder)
+    except ExportError:
+        return False
+    return marker is not None and REPORT in marker.files
+
+
+def _report_in(folder: Path) -> Report | None:
+    try:
+        return Report.model_validate_json((folder / REPORT).read_bytes())
+    except (OSError, ValidationError):
+        return None
 
 
 def _settings_in(folder: Path) -> Settings | None:

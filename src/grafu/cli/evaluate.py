@@ -4,10 +4,12 @@ import argparse
 from pathlib import Path
 
 from grafu.cli.input_options import positive_count
+from grafu.cli.limit_options import add_limit_options
 
 # As in `grafu.evaluation.plan`; spelled again, so that `grafu --help` answers at once.
 _TABLES = "motion,masking,static,models,ood"
 _METHODS = "annotation,rule,network"
+_SECONDS = 900.0  # for a task: to make a model and to measure it
 
 _DESCRIPTION = """\
 Has each method make each model, measures every part that counts, and writes tables to DIR/tables as Markdown, CSV,
@@ -45,6 +47,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("--jobs", type=positive_count, metavar="J", help="processes (default: one per core)")
     parser.add_argument("--overwrite", action="store_true", help="measure everything anew")
+    add_limit_options(parser, _SECONDS)
     parser.set_defaults(run=run)
     return parser
 

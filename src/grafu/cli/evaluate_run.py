@@ -4,15 +4,17 @@ import argparse
 import os
 import shlex
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 
 from grafu.cli.evaluation_page import evaluation_page
-from grafu.cli.messages import complain
-from grafu.cli.pool import CRASHED, run_all
+from grafu.cli.limit_options import limits_of, why_stopped
+from grafu.cli.messages import complain, say
+from grafu.cli.pool import run_all
 from grafu.cli.progress import with_progress
-from grafu.cli.run_page import RUN_PAGE
+from grafu.cli.run_page import RUN_PAGE, is_free_for_page
 from grafu.cli.tables import plain_table, wide_console
-from grafu.errors import OptionError
+from grafu.errors import ExportError, OptionError
 from grafu.evaluation.bootstrap import Figure
 from grafu.evaluation.dataset import find_models
 from grafu.evaluation.methods import parse_method
@@ -25,8 +27,9 @@ from grafu.evaluation.rows import NAME, append_rows, begin_rows, done
 from grafu.evaluation.table import Table
 from grafu.evaluation.table_forms import shown
 from grafu.evaluation.tasks import Task, key_of
-from grafu.export.files import ExportFiles, write_files
+from grafu.export.files import ExportFiles, require_free, write_files
 from grafu.export.whole_file import write_whole
+from grafu.processes.limits import Limits
 
 EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 _SHOWN = ("aligned", "reasonable", "collision", "collision_fixed", "connected_fixed", "works", "works_fixed")
@@ -40,13 +43,14 @@ def run_evaluation(options: argparse.Namespace) -> int:
     """
     plan = _plan(options)
     file = options.out / NAME
+    _require_room(options.out)
     rows = begin_rows(file, anew=options.overwrite)
     jobs = options.jobs or os.cpu_count() or 1
     try:
         first = plan.first_tasks()
-        _do(first, rows, file, jobs)
+        _do(first, rows, file, jobs, limits_of(options))
         pairs = plan.twin_tasks(rows)
-        _do(pairs, rows, file, jobs)
+        _do(pairs, rows, file, jobs, limits_of(options))
     except KeyboardInterrupt:
         complain(f"interrupted; {len(rows)} rows stand in {file}, and the same command goes on")
         return EXIT_INTERRUPTED
@@ -57,6 +61,13 @@ def run_evaluation(options: argparse.Namespace) -> int:
     write_whole(evaluation_page(f"Evaluation on {plan.data}", tables), options.out / RUN_PAGE)
     _say(tables, results, options.out)
     return EXIT_FAILED if results.failures else EXIT_DONE
+
+
+def _require_room(out: Path) -> None:
+    """Refuses a folder in which something that is not ours stands where tables or the page go, before any work."""
+    require_free(out / "tables", overwrite=True)
+    if not is_free_for_page(out / RUN_PAGE):
+        raise ExportError(f"`{out / RUN_PAGE}` is no page of grafu's, so it is kept: choose another --out")
 
 
 def _plan(options: argparse.Namespace) -> EvaluationPlan:
@@ -71,15 +82,17 @@ def _words(text: str) -> tuple[str, ...]:
     return tuple(word.strip() for word in text.split(",") if word.strip())
 
 
-def _do(tasks: Sequence[Task], rows: dict[str, Row], file: Path, jobs: int) -> None:
+def _do(tasks: Sequence[Task], rows: dict[str, Row], file: Path, jobs: int, limits: Limits) -> None:
     """Does the tasks that have no row yet, and keeps each row at once."""
     left = [task for task in tasks if not done(rows, key_of(task))]
     if not left:
         return
-    crashed = run_all(left, jobs, perform, lambda task: failed(task, CRASHED))
-    for row in with_progress(crashed, len(left), "tasks"):
-        append_rows(file, [row])
-        rows[row.key] = row
+    with closing(
+        run_all(left, jobs, perform, lambda task, how: failed(task, why_stopped(how, limits)), limits)
+    ) as made:
+        for row in with_progress(made, len(left), "tasks"):
+            append_rows(file, [row])
+            rows[row.key] = row
 
 
 def _command(options: argparse.Namespace) -> str:
@@ -94,7 +107,7 @@ def _say(tables: Sequence[Table], results: Results, out: Path) -> None:
         _print_motion(motion)
     for failure in results.failures:
         complain(f"{failure.model}: {failure.what}: {failure.error}")
-    print(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")
+    say(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")
 
 
 def _print_motion(table: Table) -> None:

@@ -2,7 +2,7 @@
 
 ORDER is a JSON file: `source`, `settings` and `out` (paths), `formats` (a list), `overwrite`, and `object`, where the
 object made goes for another process (`grafu.export.blend.transport`). What `grafu functionalize` writes goes to
-OUT/<the source's stem>/. Every line on stdout is `stage NAME` as a stage begins, then `done` or `error WHY`; the exit
+OUT/<the source's name>/. Every line on stdout is `stage NAME` as a stage begins, then `done` or `error WHY`; the exit
 code is 0, or 2.
 """
 
@@ -13,10 +13,13 @@ from pathlib import Path
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
 from grafu.cli.messages import one_line
 from grafu.errors import FunctionalizationError
+from grafu.export.apart import why_not_apart
 from grafu.export.blend.transport import packed
 from grafu.export.formats import exporter_for
+from grafu.export.output_names import output_name
 from grafu.pipeline.motion_source import MotionChoice
 from grafu.pipeline.settings import settings_from_json
+from grafu.visible import visible
 
 
 def finalize(order_file: Path) -> str:
@@ -26,6 +29,8 @@ def finalize(order_file: Path) -> str:
         settings = settings_from_json(json.loads(Path(order["settings"]).read_text(encoding="utf-8")))
         for name in order["formats"]:
             exporter_for(name)
+        source = Path(order["source"])
+        name = output_name(source)
     except FunctionalizationError as error:
         return one_line(str(error))
     options = JobOptions(
@@ -36,9 +41,11 @@ def finalize(order_file: Path) -> str:
         settings=settings,
         overwrite=order["overwrite"],
     )
-    source, target = Path(order["source"]), Path(order["object"])
+    job, target = Job(source, name, options), Path(order["object"])
+    if why := why_not_apart(job.folder, [source]):
+        return why
     listener = Listener(lambda stage: _say(f"stage {stage}"), lambda made: _write(target, packed(made)))
-    result = run_job(Job(source, source.stem, options), listener)
+    result = run_job(job, listener)
     return result.why if isinstance(result, Failed) else ""
 
 
@@ -47,7 +54,7 @@ def _write(path: Path, data: bytes) -> None:
 
 
 def _say(what: str) -> None:
-    print(what, flush=True)
+    print(visible(what), flush=True)
 
 
 if __name__ == "__main__":

@@ -2,19 +2,20 @@
 
 import argparse
 import os
-from collections import defaultdict
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.cli.addition_options import add_addition_options, addition_config
-from grafu.cli.gallery import open_gallery, open_handles
-from grafu.cli.input_options import add_input_options, load_options, output_name, positive_count
+from grafu.cli.input_options import add_input_options, load_options, positive_count
+from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.messages import complain
 from grafu.cli.motion_option import motion_choice
 from grafu.cli.move_option import part_move, with_moves
+from grafu.cli.reading_limits import add_limit_option, with_limits
 from grafu.cli.settings_option import read_settings
-from grafu.errors import AssetError
 from grafu.pipeline.motion_source import MotionChoice
+from grafu.templates.available import open_gallery, open_handles
 
 if TYPE_CHECKING:
     from grafu.cli.job import Job, JobOptions, JobResult
@@ -68,6 +69,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
     parser.add_argument(
+        "--weights", type=Path, metavar="FILE", help="the network that you trained: a file in ONNX form (`grafu train`)"
+    )
+    parser.add_argument(
         "--no-page", action="store_true", help="leave out report.html of each model, and index.html of several"
     )
     parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
@@ -87,8 +91,18 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     add_addition_options(parser)
     add_input_options(parser)
-    parser.set_defaults(run=run)
+    add_limit_option(parser)
+    add_limit_options(parser)
+    parser.set_defaults(run=run, is_single=_is_single)
     return parser
+
+
+def _is_single(options: argparse.Namespace) -> bool:
+    return len(_distinct(options.inputs)) == 1
+
+
+def _distinct(inputs: list[Path]) -> list[Path]:
+    return list({os.path.realpath(path): path for path in inputs}.values())
 
 
 def run(options: argparse.Namespace) -> int:
@@ -97,34 +111,20 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong; nothing has been written then.
     """
+    from grafu.cli.job_list import jobs_of
     from grafu.cli.run_page import write_index
     from grafu.cli.summary import print_place, print_results
     from grafu.export.remains import clear_remains
 
-    jobs = _jobs(options)
+    inputs = _distinct(options.inputs)
+    jobs, refused = jobs_of(inputs, _job_options(options, alone=len(inputs) == 1))
     clear_remains(options.out)
-    results = [_run_alone(jobs[0])] if len(jobs) == 1 else _run_several(jobs, options.jobs or os.cpu_count() or 1)
+    done = [_run_alone(job) for job in jobs] if len(inputs) == 1 else _run_several(jobs, options)
+    results = sorted([*done, *refused], key=lambda result: inputs.index(result.job.input))
     print_results(results)
-    if len(results) > 1 and not options.no_page and (page := write_index(results, options.out)):
+    if not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
     return _exit_code(results)
-
-
-def _jobs(options: argparse.Namespace) -> "list[Job]":
-    from grafu.cli.job import Job
-
-    inputs = list({path.resolve(): path for path in options.inputs}.values())
-    shared = _job_options(options, alone=len(inputs) == 1)
-    named: dict[str, list[Path]] = defaultdict(list)
-    for path in inputs:
-        named[output_name(path).casefold()].append(path)
-    for paths in named.values():
-        if len(paths) > 1:
-            raise AssetError(
-                f"inputs must have different names, for results go to DIR/<name>: got {paths[0]} and {paths[1]}; "
-                "give their folders where these differ, or run them into different --out"
-            )
-    return [Job(path, output_name(path), shared) for path in inputs]
 
 
 def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
@@ -136,14 +136,16 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     for name in formats:
         exporter_for(name)
     open_gallery(options.templates)
+    _require_weights(options)
     settings = read_settings(options) if options.settings else None
     made = JobOptions(
         out=options.out,
         motion=MotionChoice(settings.motion) if settings else options.motion,
-        load=settings.reading.options if settings else load_options(options),
+        load=with_limits(settings.reading.options if settings else load_options(options), options),
         formats=formats,
         templates=options.templates,
         trim=not options.no_trim,
+        weights=options.weights,
         page=not options.no_page,
         additions=addition_config(options, open_handles(options.templates)),
         settings=settings,
@@ -151,8 +153,23 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         resume=options.resume,
         debug=options.debug,
         alone=alone,
+        limits=limits_of(options),
     )
     return with_moves(made, options.move) if options.move else made
+
+
+def _require_weights(options: argparse.Namespace) -> None:
+    """Raises FunctionalizationError if `--weights` names no file, or is given for a source that is not the network."""
+    from grafu.errors import OptionError, WeightsError
+    from grafu.pipeline.motion_source import MotionSource
+
+    if options.weights is None:
+        return
+    source = options.motion.source
+    if source not in (MotionSource.AUTO, MotionSource.NETWORK):
+        raise OptionError(f"`--weights` and `--motion {source}` exclude each other: leave one of them out")
+    if not options.weights.is_file():
+        raise WeightsError(f"`--weights` must be a file that `grafu train` exported: there is no {options.weights}")
 
 
 def _run_alone(job: "Job") -> "JobResult":
@@ -163,18 +180,24 @@ def _run_alone(job: "Job") -> "JobResult":
         return run_job(job, Listener(on_stage))
 
 
-def _run_several(jobs: "list[Job]", workers: int) -> "list[JobResult]":
+def _run_several(jobs: "list[Job]", options: argparse.Namespace) -> "list[JobResult]":
     from grafu.cli.pool import run_jobs
     from grafu.cli.progress import with_progress
+    from grafu.export.remains import clear_remains
 
-    order = {job.name: i for i, job in enumerate(jobs)}
+    workers = options.jobs or os.cpu_count() or 1
     results: list[JobResult] = []
+    if not jobs:
+        return results
     try:
-        results.extend(with_progress(run_jobs(jobs, workers), len(jobs)))  # when it is cut, what is done stays
+        with closing(run_jobs(jobs, workers)) as ended:  # when it is cut, what is done stays
+            results.extend(with_progress(ended, len(jobs)))
     except KeyboardInterrupt:
         complain(f"{len(results)} of {len(jobs)} inputs were done; with --resume the same command goes on from there")
         raise
-    return sorted(results, key=lambda result: order[result.job.name])
+    finally:
+        clear_remains(options.out)  # of workers that were stopped
+    return results
 
 
 def _exit_code(results: "list[JobResult]") -> int:

@@ -2,7 +2,6 @@
 
 import argparse
 from collections.abc import Sequence
-from pathlib import Path
 
 from grafu.asset.options import LoadOptions
 
@@ -77,9 +76,3 @@ def positive_count(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text) > 0):
         raise argparse.ArgumentTypeError(f"must be a whole number above 0: got {text!r}")
     return int(text)
-
-
-def output_name(path: Path) -> str:
-    """Returns the name that an input's results carry: the file's stem, or the folder's name."""
-    resolved = path.resolve()
-    return resolved.name if resolved.is_dir() else resolved.stem

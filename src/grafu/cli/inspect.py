@@ -1,10 +1,13 @@
 """The verb `inspect`: what is read from an input, and what it lacks, before anything is done to it."""
 
 import argparse
+import json
 import sys
 from pathlib import Path
 
 from grafu.cli.input_options import add_input_options, load_options
+from grafu.cli.limit_options import add_limit_options
+from grafu.cli.reading_limits import add_limit_option, with_limits
 
 _DESCRIPTION = """\
 Shows what is read from an input: its parts and their categories, the frame and scale that were detected, which parts
@@ -25,8 +28,14 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument("input", type=Path, metavar="INPUT", help="a model: file or folder")
     parser.add_argument("--json", action="store_true", help="print JSON instead of tables")
     add_input_options(parser)
-    parser.set_defaults(run=run)
+    add_limit_option(parser)
+    add_limit_options(parser)
+    parser.set_defaults(run=run, is_single=_is_single)
     return parser
+
+
+def _is_single(_: argparse.Namespace) -> bool:
+    return True
 
 
 def run(options: argparse.Namespace) -> int:
@@ -39,10 +48,11 @@ def run(options: argparse.Namespace) -> int:
     from grafu.graph.parse import parse_graph
     from grafu.pipeline.inspection import inspect
 
-    asset = load_asset(options.input, load_options(options))
+    asset = load_asset(options.input, with_limits(load_options(options), options))
     inspection = inspect(asset, parse_graph(asset))
     if options.json:
-        sys.stdout.write(inspection.model_dump_json(by_alias=True, indent=1) + "\n")
+        values = inspection.model_dump(mode="json", by_alias=True)
+        sys.stdout.write(json.dumps(values, indent=1) + "\n")  # ASCII: no name in it steers a terminal
         return 0
     from grafu.cli.inspection_tables import print_inspection
 

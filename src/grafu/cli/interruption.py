@@ -1,27 +1,31 @@
-"""Ctrl-C while libraries are imported: some take it for a missing library of their own, and go on without either."""
+"""Signals while libraries are imported: some take Ctrl-C for a library that is missing, and go on without either."""
 
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+from grafu.processes.lifetime import started_by_main_thread
 
 
 @contextmanager
 def interruption_held() -> Iterator[None]:
-    """Holds an interruption back until the body is done; one that is ignored stays ignored.
+    """Holds an interruption, or a request to end that raises one, back until the body is done; ignored ones stay so.
 
     Raises:
         KeyboardInterrupt: after the body, if one came.
     """
-    on_main_thread = threading.current_thread() is threading.main_thread()
-    if not on_main_thread or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    if not started_by_main_thread():
         yield
         return
     seen: list[int] = []
-    earlier = signal.signal(signal.SIGINT, lambda number, _: seen.append(number))
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    held = {number: handler for number, handler in handlers.items() if callable(handler)}
+    for number in held:
+        signal.signal(number, lambda got, _: seen.append(got))
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, earlier)
+        for number, handler in held.items():
+            signal.signal(number, handler)
     if seen:
-        raise KeyboardInterrupt
+        signal.raise_signal(seen[0])

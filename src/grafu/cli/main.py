@@ -6,17 +6,17 @@ one line on stderr and exit code 2, never in a traceback.
 
 import argparse
 import sys
-from collections.abc import Sequence
-from importlib import import_module
+from collections.abc import Callable, Sequence
+from typing import NoReturn, final
 
 from grafu.cli import ablate, evaluate, functionalize, inspect, synth, templates, train
 from grafu.cli.input_options import join_directions
-from grafu.cli.interruption import interruption_held
-from grafu.cli.messages import INTERRUPTED, complain, internal_fault
-from grafu.errors import FunctionalizationError
+from grafu.cli.supervision import run_supervised
+from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb
+from grafu.processes.privacy import keep_private
+from grafu.processes.signals import end_requests_heard
 from grafu.version import __version__
-
-EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
+from grafu.visible import visible
 
 _EPILOG = """\
 examples:
@@ -28,31 +28,47 @@ examples:
   grafu ablate losses --out runs/losses
   grafu evaluate --data models --out results
 
-exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments
+exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments;
+130 after Ctrl-C, 143 after SIGTERM
 """
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command and returns its exit code (`arguments`: without the program's name; None: the process's)."""
+    """Runs the command and returns its exit code.
+
+    `arguments` are those of the process (None), or given by a caller, without the program's name: then a single model
+    stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
+    """
     options = build_parser().parse_args(join_directions(sys.argv[1:] if arguments is None else arguments))
-    try:
-        with interruption_held():
-            import_module("trimesh")
-        return int(options.run(options))
-    except FunctionalizationError as error:
-        complain(str(error))
-        return EXIT_BAD_INPUT
-    except KeyboardInterrupt:
-        complain(INTERRUPTED)
-        return EXIT_INTERRUPTED
-    except Exception as error:  # the last door: whatever reaches it is our fault, and the user gets one line
-        complain(internal_fault(error, "grafu", options.debug))
-        return EXIT_FAILED
+    keep_private()
+    with end_requests_heard() as requests:
+        code = exit_code(options, _supervised_or_here if arguments is None else _here)
+    return EXIT_TERMINATED if code == EXIT_INTERRUPTED and requests.are_made else code
+
+
+def _supervised_or_here(options: argparse.Namespace) -> int:
+    """Runs the verb: one about a single model in a process of its own, within the limits that the options state."""
+    is_single: Callable[[argparse.Namespace], bool] | None = getattr(options, "is_single", None)
+    return run_supervised(options) if is_single is not None and is_single(options) else _here(options)
+
+
+def _here(options: argparse.Namespace) -> int:
+    prepare_verb()
+    return int(options.run(options))
+
+
+@final
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong with the arguments with nothing in them that steers a terminal."""
+
+    def error(self, message: str) -> NoReturn:
+        """Prints the usage and the message, and ends with exit code 2."""
+        super().error(visible(message))
 
 
 def build_parser() -> argparse.ArgumentParser:
     """Returns the parser of all verbs."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="grafu",
         description="Furniture that only looks right goes in; furniture that works comes out.",
         epilog=_EPILOG,

@@ -1,15 +1,25 @@
-"""What the command says when something goes wrong: one line on stderr. It decides no exit code."""
+"""The lines that the command says: those that tell what went wrong on stderr. It decides no exit code.
+
+What steers a terminal is shown as an escape in all of them: names of files and parts are others' text.
+"""
 
 import sys
 import tempfile
 import traceback
+
+from grafu.visible import visible
 
 INTERRUPTED = "interrupted; no half-written output is left"
 
 
 def complain(message: str) -> None:
     """Prints one line on stderr, whatever line breaks the message holds."""
-    print(f"grafu: {one_line(message)}", file=sys.stderr)
+    print(f"grafu: {visible(one_line(message))}", file=sys.stderr)
+
+
+def say(line: str) -> None:
+    """Prints one line on stdout, at once."""
+    print(visible(line), flush=True)
 
 
 def one_line(message: str) -> str:
@@ -19,7 +29,8 @@ def one_line(message: str) -> str:
 
 def internal_fault(error: BaseException, doing: str, debug: bool) -> str:
     """Returns the line for an error that is our fault; the traceback goes to stderr (`debug`) or into a kept log."""
-    text = "".join(traceback.format_exception(error))
+    lines = "".join(traceback.format_exception(error)).splitlines()
+    text = "".join(f"{visible(line)}\n" for line in lines)
     said = one_line(f"{type(error).__name__}: {error}")[:200]
     if debug:
         print(text, file=sys.stderr)

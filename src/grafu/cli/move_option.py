@@ -8,7 +8,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from grafu.cli.job import JobOptions
-    from grafu.realization.motion_choice import MotionChoice
 
 SIDES = ("left", "right", "top", "bottom")
 WAYS = (*SIDES, "slides", "not")
@@ -35,18 +34,13 @@ def with_moves(options: "JobOptions", moves: "Sequence[Move]") -> "JobOptions":
     """
     from grafu.cli.job import settings_of
     from grafu.errors import OptionError
+    from grafu.realization.motion_choice import choice_in_words
 
     if not options.alone:
         raise OptionError("`--move` names parts of one model: give one input")
     settings = settings_of(options)
     if settings is None:
         raise OptionError(f"`--move` and `--motion {options.motion.source}` exclude each other: leave one of them out")
-    for part, way in moves:
-        settings = settings.with_motion(part, _choice(way))
+    for part, word in moves:
+        settings = settings.with_motion(part, choice_in_words(word))
     return replace(options, settings=settings)
-
-
-def _choice(way: str) -> "MotionChoice":
-    from grafu.realization.motion_choice import MotionChoice, Moves, Side
-
-    return MotionChoice(Moves.TURNS, Side(way)) if way in SIDES else MotionChoice(Moves(way))

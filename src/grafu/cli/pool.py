@@ -1,67 +1,47 @@
-"""Several jobs at once, each in a process of its own kind: one that crashes or hangs memory takes no other with it."""
+"""Several jobs at once, each in a process with limits of its own: one that crashes or takes too much takes no other."""
 
-import multiprocessing
-import signal
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
+from importlib import import_module
 from typing import TypeVar
 
 from grafu.cli.job import Failed, Job, JobResult, run_job
+from grafu.cli.limit_options import why_stopped
+from grafu.cli.verb import prepare_verb
+from grafu.processes.limits import Ending, Limits
+from grafu.processes.pool import run_each
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 Run = Callable[[Job], JobResult]
-CRASHED = "the process died while working on it (out of memory, or a crash in a native library)"
 
 
-def run_jobs(jobs: list[Job], workers: int, run: Run = run_job) -> Iterator[JobResult]:
+def run_jobs(jobs: list[Job], workers: int, run: Run = run_job) -> Generator[JobResult, None, None]:
     """Yields each job's result as it ends, `workers` at a time; `run` must be a function of a module."""
-    return run_all(jobs, workers, run, lambda job: Failed(job, CRASHED, users_fault=False))
+
+    def failed(job: Job, ending: Ending) -> JobResult:
+        return Failed(job, why_stopped(ending, job.options.limits), users_fault=ending is not Ending.DIED)
+
+    return run_all(jobs, workers, run, failed, jobs[0].options.limits)
 
 
 def run_all(
-    items: Sequence[Item], workers: int, run: Callable[[Item], Result], crashed: Callable[[Item], Result]
-) -> Iterator[Result]:
+    items: Sequence[Item],
+    workers: int,
+    run: Callable[[Item], Result],
+    failed: Callable[[Item, Ending], Result],
+    limits: Limits = Limits(),
+) -> Generator[Result, None, None]:
     """Yields the result of each item as it ends, `workers` at a time; `run` must be a function of a module.
 
-    A worker's death breaks the whole pool, and nobody knows which item did it: those left are run again one by one,
-    each in a fresh pool, and the one that kills its worker again gets the result that `crashed` gives it.
+    An item whose process was stopped or died gets the result that `failed` gives it; the others go on.
     """
-    suspects: list[Item] = []
-    for item, results in _run_pool(items, workers, run):
-        if not results:
-            suspects.append(item)
-        yield from results
-    for item in suspects:
-        [(_, results)] = _run_pool([item], 1, run)
-        yield from results or [crashed(item)]
+    with closing(run_each(items, workers, run, limits, _prepare)) as ended:
+        for item, outcome in ended:
+            yield outcome.results[0] if outcome.ending is Ending.DONE else failed(item, outcome.ending)
 
 
-def _run_pool(
-    items: Sequence[Item], workers: int, run: Callable[[Item], Result]
-) -> Iterator[tuple[Item, list[Result]]]:
-    """Yields each item with its result, or with none where its worker died."""
-    context = multiprocessing.get_context("spawn")  # fork would copy locks that native libraries hold
-    with ProcessPoolExecutor(min(workers, len(items)), context, initializer=_die_on_interrupt) as pool:
-        try:
-            futures = {pool.submit(run, item): item for item in items}
-            for future in as_completed(futures):
-                yield futures[future], _result_of(future)
-        except BaseException:  # an interruption, or a caller that stops asking
-            pool.shutdown(wait=False, cancel_futures=True)
-            for worker in multiprocessing.active_children():
-                worker.terminate()
-            raise
-
-
-def _result_of(future: "Future[Result]") -> list[Result]:
-    try:
-        return [future.result()]
-    except BrokenProcessPool:
-        return []
-
-
-def _die_on_interrupt() -> None:
-    """Lets Ctrl-C end a worker without a traceback; the parent says the one line."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+def _prepare() -> None:
+    """Imports what takes long: no model pays for it with its own time."""
+    prepare_verb()
+    import_module("grafu.pipeline.functionalize")

@@ -19,6 +19,8 @@ from rich.progress import (
 )
 from rich.text import Text
 
+from grafu.visible import visible
+
 T = TypeVar("T")
 _STAGES: Final = MappingProxyType(
     {
@@ -75,5 +77,5 @@ def with_stages(name: str) -> Iterator[Callable[[str], None]]:
     )
     console = Console(stderr=True)
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("starting", total=None, name=name)
+        task = progress.add_task("starting", total=None, name=visible(name))
         yield lambda stage: progress.update(task, description=_STAGES.get(stage, stage))

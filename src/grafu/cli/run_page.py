@@ -1,10 +1,12 @@
-"""The page of a run of several inputs: index.html in the folder of the results, over the pages of the models."""
+"""The page over a folder of results: index.html, with a row for each finished model in it, of whatever run."""
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grafu.cli.job import MODEL_PAGE, JobResult, Succeeded
+from grafu.cli.job import MODEL_PAGE, JobResult, Succeeded, small_picture_in
+from grafu.visible import writable
 
 if TYPE_CHECKING:
     from grafu.viewer.run_rows import RunEntry
@@ -13,10 +15,10 @@ RUN_PAGE = "index.html"
 
 
 def write_index(results: Sequence[JobResult], out: Path) -> Path | None:
-    """Writes the page of a run into the folder of its results and returns its path.
+    """Writes the page over all finished models of a folder of results, and the inputs that failed; returns its path.
 
-    A page of an earlier run is replaced. Where nothing succeeded, or a file of that name is none of ours, nothing is
-    written: None.
+    It is written for several inputs, and for one where there is such a page; models of earlier runs stay on it. Where
+    nothing succeeded, or a file of that name is none of ours, nothing is written: None.
 
     Raises:
         ExportError: if it cannot be written.
@@ -26,17 +28,32 @@ def write_index(results: Sequence[JobResult], out: Path) -> Path | None:
     from grafu.viewer.run_rows import functionalized_run
 
     path = out / RUN_PAGE
-    if not any(isinstance(result, Succeeded) for result in results) or (path.exists() and not _is_ours(path)):
+    is_due = path.exists() or len(results) > 1
+    if not is_due or not any(isinstance(result, Succeeded) for result in results) or not is_free_for_page(path):
         return None
-    run = functionalized_run(out.resolve().name or "Run", [_entry(result) for result in results])
-    write_whole(run_page(run), path)
+    run = functionalized_run(out.resolve().name or "Run", _entries(results, out))
+    write_whole(writable(run_page(run)), path)
     return path
 
 
-def _is_ours(path: Path) -> bool:
+def is_free_for_page(path: Path) -> bool:
+    """Whether a page may be written there: nothing is there, or a page of ours."""
     from grafu.viewer.shell import is_page_of_ours
 
-    return path.is_file() and is_page_of_ours(path.read_bytes())
+    return not os.path.lexists(path) or (path.is_file() and is_page_of_ours(path.read_bytes()))
+
+
+def _entries(results: Sequence[JobResult], out: Path) -> "list[RunEntry]":
+    from grafu.cli.earlier import finished_in
+    from grafu.viewer.run_rows import RunEntry
+
+    done = {result.job.name for result in results if isinstance(result, Succeeded)}
+    entries = [_entry(result) for result in results]
+    for name, report in finished_in(out, but=done):
+        seconds, folder = sum(report.timings.values()), out / name
+        link = f"{name}/{MODEL_PAGE}" if (folder / MODEL_PAGE).is_file() else ""
+        entries.append(RunEntry(name, report, "", link, small_picture_in(folder), seconds))
+    return entries
 
 
 def _entry(result: JobResult) -> "RunEntry":

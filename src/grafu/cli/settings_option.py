@@ -4,13 +4,16 @@ import argparse
 import json
 from typing import TYPE_CHECKING
 
+from grafu.asset.options import Limits
 from grafu.cli.addition_options import add_addition_options
 from grafu.cli.input_options import add_input_options
-from grafu.errors import OptionError
+from grafu.errors import AssetError, OptionError
 from grafu.pipeline.motion_source import MotionChoice
 
 if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
+
+_LIMITS = Limits(max_bytes=16 * 2**20)
 
 
 def read_settings(options: argparse.Namespace) -> "Settings":
@@ -19,12 +22,13 @@ def read_settings(options: argparse.Namespace) -> "Settings":
     Raises:
         OptionError: if the file cannot be read or is wrong, or another option says what it says.
     """
+    from grafu.asset.resources import read_bytes
     from grafu.pipeline.settings import settings_from_json
 
     _require_alone(options)
     try:
-        data = json.loads(options.settings.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        data = json.loads(read_bytes(options.settings, _LIMITS))
+    except (AssetError, ValueError, RecursionError) as error:
         raise OptionError(f"`--settings` must be a JSON file: {options.settings}: {error}") from None
     return settings_from_json(data)
 
@@ -34,7 +38,7 @@ def _require_alone(options: argparse.Namespace) -> None:
     parser = argparse.ArgumentParser()
     add_addition_options(parser)
     add_input_options(parser)
-    usual = {**vars(parser.parse_args([])), "motion": MotionChoice(), "no_trim": False}
+    usual = {**vars(parser.parse_args([])), "motion": MotionChoice(), "no_trim": False, "weights": None}
     for name, value in usual.items():
         if getattr(options, name) != value:
             spelled = "--" + name.replace("_", "-")

@@ -1,6 +1,6 @@
 """What `functionalize` prints when it is done: what opened, what did not, and where to look. It decides nothing."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,10 +9,14 @@ from rich.table import Table
 
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
-from grafu.pipeline.report_schema import JointRecord, Report
-from grafu.viewer.wording import added_parts, listed, not_built, opening, stopped
+from grafu.pipeline.faults import Colour, FaultKind
+from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
+from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
+from grafu.pipeline.words import counted, listed, opening, percent
+from grafu.viewer.wording import added, unused_joints
 from grafu.vocabulary import JointType
 
+_NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)
 _ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
 
 
@@ -24,21 +28,30 @@ def print_results(results: Sequence[JobResult]) -> None:
         if shown:
             console.print(_inputs_table(shown))
         console.print(_total(results))
+        for line in _stated(results):
+            console.print(line, highlight=False)
     elif isinstance(results[0], Succeeded):
         report = results[0].report
-        if report.joints or report.skipped:
+        if report.joints or report.skipped or still_fronts(report):
             console.print(_joints_table(report))
-        else:
-            console.print("nothing moves: no part is a door or a drawer (see `grafu inspect`)")
         for line in _said_of_one(report):
             console.print(line, markup=False, highlight=False)
         print_place(*_place(results[0].job))
 
 
 def _said_of_one(report: Report) -> list[str]:
-    """Returns what was added, and what was guessed of the input and can be stated instead."""
-    added = [f"added: {listed(added_parts(report))}"] if report.added else []
-    return added + [f"guessed: {line}" for line in report.frame.assumed if "changes it" in line]
+    """Returns the verdict with what may set it right, what was added, and what was not used or guessed."""
+    verdict, given = verdict_of(report), added(report)
+    said = [f"{verdict.colour}: {verdict.sentence}", *map(_fault, verdict.lines)]
+    said += [f"added: {listed(given)}"] if given else []
+    said += [f"the input {unused}"] if (unused := unused_joints(report)) else []
+    return said + [f"guessed: {line}" for line in report.frame.assumed if "changes it" in line]
+
+
+def _fault(line: FaultRecord) -> str:
+    """Returns one thing that is amiss, with its option; why something was not built stands in the table."""
+    why = "" if line.kind in _NOT_BUILT else f": {line.why}"
+    return f"  {line.part or 'the whole'} {line.kind}{why}{f' ({line.option})' if line.option else ''}"
 
 
 def _place(job: Job) -> tuple[str, Path]:
@@ -62,7 +75,7 @@ def _joints_table(report: Report) -> Table:
             opening(joint.type, joint.opening),
             escape("; ".join(_joint_notes(joint))),
         )
-    for why, requests in _skipped(report).items():
+    for why, requests in _not_built(report).items():
         table.add_row(requests[0], "skipped", "", "", escape(why))
         if len(requests) > 1:
             table.add_row("", "", "", "", escape(f"so are {listed(requests[1:])}"))
@@ -71,19 +84,20 @@ def _joints_table(report: Report) -> Table:
     return table
 
 
-def _skipped(report: Report) -> dict[str, list[str]]:
-    """Returns what could not be built by why it was."""
+def _not_built(report: Report) -> dict[str, list[str]]:
+    """Returns what was not built, doors and drawers that stand still among it, by why it was not."""
     by_reason = defaultdict[str, list[str]](list)
-    for skip in not_built(report):
-        by_reason[f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason].append(skip.request)
+    for line in verdict_of(report).lines:
+        if line.kind in _NOT_BUILT:
+            by_reason[line.why].append(line.part)
     return by_reason
 
 
 def _inputs_table(results: Sequence[JobResult]) -> Table:
-    table = plain_table("input", "doors", "drawers", "skipped", "seconds", "notes")
+    table = plain_table("input", "verdict", "doors", "drawers", "skipped", "seconds", "notes")
     for result in results:
         if isinstance(result, Failed):
-            table.add_row(escape(result.job.name), "", "", "", "", escape(f"FAILED: {result.why}"))
+            table.add_row(escape(result.job.name), "failed", "", "", "", "", escape(f"FAILED: {result.why}"))
         else:
             table.add_row(escape(result.job.name), *_counts(result), escape("; ".join(_report_notes(result.report))))
     return table
@@ -93,27 +107,45 @@ def _is_worth_a_row(result: JobResult) -> bool:
     return isinstance(result, Failed) or bool(_report_notes(result.report))
 
 
-def _counts(result: Succeeded) -> tuple[str, str, str, str]:
+def _counts(result: Succeeded) -> tuple[str, ...]:
+    verdict = verdict_of(result.report)
     types = [joint.type for joint in result.report.joints]
     turning, sliding = types.count(JointType.REVOLUTE), types.count(JointType.PRISMATIC)
-    return str(turning), str(sliding), str(len(not_built(result.report))), f"{result.seconds:.1f}"
+    return verdict.colour, str(turning), str(sliding), str(_skipped(verdict)), f"{result.seconds:.1f}"
+
+
+def _skipped(verdict: VerdictRecord) -> int:
+    return sum(line.kind in _NOT_BUILT for line in verdict.lines)
 
 
 def _total(results: Sequence[JobResult]) -> str:
     done = [result for result in results if isinstance(result, Succeeded)]
     joints = sum(len(result.report.joints) for result in done)
-    skipped = sum(len(not_built(result.report)) for result in done)
+    verdicts = [verdict_of(result.report) for result in done]
+    skipped = sum(map(_skipped, verdicts))
+    colours = Counter(verdict.colour for verdict in verdicts)
+    lights = ", ".join(f"{colours[colour]} {colour}" for colour in Colour if colours[colour])
     failed = len(results) - len(done)
     ending = f"; {failed} of {len(results)} inputs failed" if failed else ""
+    ending = f": {lights}{ending}" if lights else ending
     earlier = sum(result.earlier for result in done)
     ending = f" ({earlier} of them done earlier){ending}" if earlier else ending
     return f"{joints} joints built, {skipped} skipped in {len(done)} inputs{ending}"
 
 
+def _stated(results: Sequence[JobResult]) -> list[str]:
+    """Returns in words how many inputs state joints that nobody read, if any do."""
+    unused = [result.report.motion.unused_joints for result in results if isinstance(result, Succeeded)]
+    inputs, joints = sum(count > 0 for count in unused), sum(unused)
+    states = "states" if inputs == 1 else "state"
+    words = f"{counted(inputs, 'input')} {states} {counted(joints, 'joint')}; --motion annotation builds such"
+    return [words] if joints else []
+
+
 def _joint_notes(joint: JointRecord) -> list[str]:
     notes = ["restricted"] if joint.restricted else []
     if joint.collision_share > 0:
-        notes.append(f"still touches in {joint.collision_share:.0%} of its poses")
+        notes.append(f"collides in {percent(joint.collision_share)} of its poses")
     notes += [f"{c.part} {c.kind}" for c in joint.clearances]
     if joint.after:
         notes.append(f"opens after {', '.join(joint.after)}")
@@ -121,8 +153,8 @@ def _joint_notes(joint: JointRecord) -> list[str]:
 
 
 def _report_notes(report: Report) -> list[str]:
-    restricted = [joint.part for joint in report.joints if joint.restricted]
-    touching = [joint.part for joint in report.joints if joint.collision_share > 0]
-    notes = [f"{skip.request} skipped ({skip.reason})" for skip in not_built(report)]
-    notes += [f"restricted: {', '.join(restricted)}"] if restricted else []
-    return notes + ([f"touching: {', '.join(touching)}"] if touching else [])
+    """Returns what is amiss, by kind with its parts."""
+    parts = defaultdict[str, list[str]](list)
+    for line in verdict_of(report).lines:
+        parts[line.kind].append(line.part)
+    return [f"{kind}: {listed(filter(None, dict.fromkeys(names)))}".removesuffix(": ") for kind, names in parts.items()]

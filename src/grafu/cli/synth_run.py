@@ -10,6 +10,7 @@ from grafu.cli.progress import with_progress
 from grafu.cli.synth_summary import Tally, print_tally
 from grafu.data.write import models_written, write_dataset
 from grafu.data.write_plan import DatasetPlan, ModelSummary
+from grafu.processes.signals import END_REQUESTS
 
 EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 
@@ -29,6 +30,9 @@ def run_dataset(options: argparse.Namespace) -> int:
         complain(f"interrupted; {_kept(options)}")
         return EXIT_INTERRUPTED
     except BrokenProcessPool:
+        if END_REQUESTS.are_made:  # the same request ended the workers
+            complain(f"interrupted; {_kept(options)}")
+            return EXIT_INTERRUPTED
         complain(f"a process died (out of memory, or a crash in a native library): try fewer --jobs; {_kept(options)}")
         return EXIT_FAILED
     seconds = perf_counter() - started

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rich.markup import escape
 
+from grafu.cli.messages import say
 from grafu.cli.progress import with_progress
 from grafu.cli.tables import plain_table, wide_console
 from grafu.data.gallery import gallery_page
@@ -27,7 +28,7 @@ def write_gallery(options: argparse.Namespace) -> int:
     if not options.overwrite and options.out.is_dir() and any(options.out.iterdir()):
         raise ExportError(f"the output `{options.out}` exists already: choose another --out, or give --overwrite")
     write_files(gallery_page(_specimens(options)), options.out, options.overwrite)
-    print(f"written to {options.out}")
+    say(f"written to {options.out}")
     return 0
 
 

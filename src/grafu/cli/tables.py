@@ -1,16 +1,33 @@
-"""How tables look on the terminal, and in a pipe. It knows nothing of what stands in them."""
+"""How tables look on the terminal, and in a pipe. It knows nothing of what stands in them.
+
+What steers a terminal is shown as an escape, whatever is printed: names of files and parts are others' text.
+"""
+
+from typing import Any, final
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
+
+from grafu.visible import visible
 
 PIPE_WIDTH = 200  # a pipe or file has no width of its own; rich would fold at 80
 NUMBERS = ("doors", "drawers", "skipped", "seconds", "opening", "models", "movable")
 
 
+@final
+class _VisibleConsole(Console):
+    """Prints strings, in tables too, with nothing in them that is hidden: one line stays one line."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """Returns the text as it is shown."""
+        return super().render_str(visible(text), **options)
+
+
 def wide_console() -> Console:
     """Returns stdout as rich writes to it; what is not a terminal is wide enough for every table."""
-    console = Console()
-    return console if console.is_terminal else Console(width=PIPE_WIDTH)
+    console = _VisibleConsole(emoji=False)
+    return console if console.is_terminal else _VisibleConsole(width=PIPE_WIDTH, emoji=False)
 
 
 def plain_table(*columns: str) -> Table:

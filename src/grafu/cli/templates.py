@@ -41,19 +41,20 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the user's templates are at fault or the output cannot be written.
     """
-    from grafu.cli.gallery import open_gallery, open_handles
+    from grafu.templates.available import open_gallery, open_handles
 
     gallery, handles = open_gallery(options.templates), open_handles(options.templates)
     _print_gallery(gallery)
     _print_handles(handles.values())
     if options.out is not None:
+        from grafu.cli.messages import say
         from grafu.export.files import ExportFiles, write_files
         from grafu.export.gallery import gallery_files
         from grafu.export.handle_gallery import handle_files
 
         contents = {**gallery_files(gallery).contents, **handle_files(list(handles.values())).contents}
         write_files(ExportFiles(contents), options.out, options.overwrite)
-        print(f"written to {options.out}")
+        say(f"written to {options.out}")
     return 0
 
 

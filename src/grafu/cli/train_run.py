@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from grafu.cli.messages import complain
+from grafu.cli.messages import complain, say
 from grafu.cli.progress import with_progress
 from grafu.export.whole_file import whole_file
 from grafu.training.checkpoint import load_best
@@ -61,7 +61,7 @@ def export_weights(folder: Path, target: Path) -> int:
     with whole_file(target) as fresh:
         fresh.write_bytes(content)
     score = best.figures["score"]
-    print(f"written to {target}: {len(content) / 1e6:.1f} MB, the weights of step {best.step} (score {score:.4f})")
+    say(f"written to {target}: {len(content) / 1e6:.1f} MB, the weights of step {best.step} (score {score:.4f})")
     return EXIT_DONE
 
 
@@ -101,4 +101,4 @@ def _ended(last: StepReport, config: TrainingConfig, folder: Path, workers: Work
 
 def _say(workers: Workers, line: str) -> None:
     if workers.is_first:
-        print(line, flush=True)
+        say(line)

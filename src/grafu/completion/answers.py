@@ -10,6 +10,7 @@ from typing import Any, final
 from grafu.completion.ballot import Verdict
 from grafu.completion.rows import slides_past
 from grafu.completion.scene import Scene
+from grafu.geometry.budget import present_budget
 from grafu.graph.completion import Decision, Question, RefusedMotion
 from grafu.graph.edges import Edge
 from grafu.graph.functional_graph import PartNode
@@ -17,6 +18,9 @@ from grafu.vocabulary import PartLabel
 
 MotionAnswer = tuple[tuple[Edge, ...], tuple[Decision, ...]] | RefusedMotion
 """The edges that a part moves by, with how sure each choice is; or why there are none."""
+
+_DECIDING = 0.9  # of the time that is left: with so many doors, some decided are worth more than none
+_TIME_IS_UP = "too complex: with so many doors and drawers there was no time left to decide how it moves"
 
 
 @final
@@ -34,14 +38,18 @@ def move_parts(
 ) -> Motions:
     """Returns what `hang` says of each door and `run` of each drawer; those whose motion an edge states are passed by.
 
-    A door that slides past another is refused unasked.
+    A door that slides past another is refused unasked; so are those that come when time is up.
     """
+    budget = present_budget().share(_DECIDING)
     edges: list[Edge] = []
     decisions: list[Decision] = []
     refused: list[RefusedMotion] = []
     stated = {hinge.child for hinge in scene.graph.hinges} | {rail.child for rail in scene.graph.rails}
     for node in scene.graph.labelled(PartLabel.DOOR, PartLabel.DRAWER):
         if node.id in stated:
+            continue
+        if budget.left == 0:
+            refused.append(RefusedMotion(node.id, _TIME_IS_UP))
             continue
         answer = _hung(node, scene, hang) if node.label is PartLabel.DOOR else run(node)
         if isinstance(answer, RefusedMotion):
@@ -52,10 +60,10 @@ def move_parts(
     return Motions(tuple(edges), tuple(decisions), tuple(refused))
 
 
-def decision_of(part: str, question: Question, verdict: Verdict[Any]) -> Decision:
-    """Returns a verdict as the answer to a question about a part."""
+def decision_of(part: str, question: Question, verdict: Verdict[Any], by: str = "") -> Decision:
+    """Returns a verdict as the answer to a question about a part; `by` as in `Decision`."""
     runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
-    return Decision(part, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score)
+    return Decision(part, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score, by)
 
 
 def _hung(door: PartNode, scene: Scene, hang: Callable[[PartNode], MotionAnswer]) -> MotionAnswer:

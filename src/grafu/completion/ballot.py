@@ -61,3 +61,17 @@ def verdict_of(choices: Sequence[Choice], weights: Scalars) -> Verdict[Choice]:
     if len(order) == 1:
         return Verdict(choices[0], scores[0])
     return Verdict(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
+
+
+def chosen_of(choices: Sequence[Choice], weights: Scalars, leaned: Scalars) -> Verdict[Choice]:
+    """Returns the choice that `leaned` is the largest for, and the best of the others by `weights`.
+
+    Scores are shares of `weights` alone, so that of a choice that they do not prefer is below its runner-up's.
+    """
+    total, best = float(weights.sum()), int(np.argmax(leaned))
+    shares = np.minimum(weights / total, 1.0) if total > 0 else np.full(len(choices), 1.0 / len(choices))
+    others = np.delete(np.arange(len(choices)), best)
+    if not len(others):
+        return Verdict(choices[best], float(shares[best]))
+    second = int(others[np.argmax(shares[others])])
+    return Verdict(choices[best], float(shares[best]), choices[second], float(shares[second]))

@@ -52,11 +52,8 @@ class DecodeConfig:
     """The rail on a drawer's other flank is taken from this probability on."""
 
     outward: float = 0.5
-    """Power of the carpenter's view of where a door's front is, and a drawer's way out, against the network's: 0 leaves
-    it out."""
-
-    carpenter: float = 0.5
-    """Power of the carpenter's view of which border the hinge is on."""
+    """Power of a rule's view of where a door's front is, and a drawer's way out, in the choice of which way they open;
+    the scores that are told stay the network's. 0 leaves it out."""
 
     edge_for_label: float = 0.2
     """What remains of the probability that an unlabelled part is a door, drawer or handle if no part can carry it."""
@@ -72,5 +69,5 @@ class DecodeConfig:
         shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
         if not all(0.0 <= share <= 1.0 for share in (*shares, self.sure, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
-        if min(self.rounds, self.reach, self.outward, self.carpenter) < 0:
-            raise ValueError(f"`rounds`, `reach`, `outward` and `carpenter` must not be negative: got {self}")
+        if min(self.rounds, self.reach, self.outward) < 0:
+            raise ValueError(f"`rounds`, `reach` and `outward` must not be negative: got {self}")

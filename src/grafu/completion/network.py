@@ -14,6 +14,7 @@ from grafu.completion.features import FeatureConfig, GraphFeatures, graph_featur
 from grafu.completion.labelling import choose_labels
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
+from grafu.geometry.budget import fits, present_budget, require_room, require_time
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
@@ -21,6 +22,8 @@ from grafu.vocabulary import PartLabel
 
 _ACROSS = 0  # furniture is alike on its left and right, not in front and behind
 _MOVERS_PER_ROUND = 4  # handles that one look can add: the paper's free slots
+_PAIR_BYTES = 4_500  # of each two parts, while the network looks
+_ADDING = 0.6  # of the time: asking again for what is missing
 
 
 def complete_by_network(
@@ -30,9 +33,14 @@ def complete_by_network(
 
     `features` says how many points the network wants to see. Nodes should have points; those without are seen as their
     boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen.
+
+    Raises:
+        TooComplex: if there are so many parts, each seen beside each, that the budget in force does not hold them.
     """
     if not graph.nodes:
         return GraphCompletion(graph, graph, "network")
+    require_room(len(graph.nodes) ** 2, _PAIR_BYTES, f"the network's look at {len(graph.nodes):,} parts")
+    adding = present_budget().share(_ADDING)
     seen, labelling = label_parts(graph, network, features, config)
     added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)
@@ -42,7 +50,8 @@ def complete_by_network(
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
         reading = read_graph(seen, beliefs, given, parents, config)
         most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND
-        found = new_parts(reading.view, reading.held) if rounds < most else ()
+        goes_on = rounds < most and adding.left > 0 and fits(len(seen.nodes) ** 2, _PAIR_BYTES)
+        found = new_parts(reading.view, reading.held) if goes_on else ()
         if not found:
             if config.mirror:
                 reading = read_graph(seen, with_image(beliefs, seen, sight, network), given, parents, config)
@@ -64,6 +73,7 @@ def label_parts(
 
 def look(graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig) -> tuple[GraphFeatures, Beliefs]:
     """Returns how a graph is seen, and what a network believes about it."""
+    require_time()
     sight = graph_features(graph, features)
     return sight, beliefs_of(network(sight))
 

@@ -47,7 +47,7 @@ def slides_past(door: PartNode, scene: Scene) -> PartNode | None:
     """Returns a door that this one slides past: lapping, of one height, in the next plane. None for a hinged door."""
     if door.box.thin_axis == 2:
         return None
-    return next((other for other in scene.doors if other.id != door.id and _laps(door, other)), None)
+    return next((d for d in scene.door_boxes.level_with(door.box) if d.id != door.id and _laps(door, d)), None)
 
 
 def _laps(door: PartNode, other: PartNode) -> bool:
@@ -65,7 +65,7 @@ def _laps(door: PartNode, other: PartNode) -> bool:
 def _row_of(door: PartNode, scene: Scene) -> list[PartNode]:
     """Returns the doors of one row, this one among them, in order of position."""
     axis, thin = across_axis(door), door.box.thin_axis
-    alike = [d for d in scene.doors if d.box.thin_axis == thin and _in_line(door, d)]
+    alike = [d for d in scene.door_boxes.level_with(door.box) if d.box.thin_axis == thin and _in_line(door, d)]
     alike.sort(key=lambda d: float(d.box.center[axis]))
     start = next(k for k, d in enumerate(alike) if d.id == door.id)
     first, last = start, start

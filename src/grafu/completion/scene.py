@@ -50,6 +50,11 @@ class NodeBoxes:
         flat = box.size <= _FLAT
         return np.where(flat, lengths >= 0, np.clip(lengths / np.where(flat, 1.0, box.size), 0.0, 1.0))
 
+    def level_with(self, box: Box) -> list[PartNode]:
+        """Returns the nodes at the height of a box, in order: those whose extents along Z meet its own."""
+        level = (self._low[:, 2] <= box.high[2]) & (self._high[:, 2] >= box.low[2])
+        return [self.nodes[k] for k in np.flatnonzero(level).tolist()]
+
     def offset_shares(self, box: Box) -> Points:
         """Returns where the middle of each box lies along each axis of `box`: -1 and 1 are its ends."""
         return ((self._low + self._high) / 2 - box.center) / np.maximum(box.half, _FLAT)
@@ -92,6 +97,11 @@ class Scene:
             return self.graph.box
         lows, highs = [n.box.low for n in solid], [n.box.high for n in solid]
         return Box(np.min(lows, axis=0), np.max(highs, axis=0))
+
+    @cached_property
+    def door_boxes(self) -> NodeBoxes:
+        """The boxes of the doors."""
+        return NodeBoxes(self.doors)
 
     @cached_property
     def doors(self) -> tuple[PartNode, ...]:

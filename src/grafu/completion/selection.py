@@ -1,26 +1,31 @@
 """Exclusive choices out of the network's beliefs: a mount for a door, two rails for a drawer, a parent for a handle.
 
 A motion is a property of the part, while the network answers for each pair: answers are averaged over the parts that
-may carry it, each by how likely it does. What moves ends with its edges or with the reason why not.
+may carry it, each by how likely it does. A score is the network's own, or its decision says that it is a rule's. What
+moves ends with its edges or with the reason why not.
 """
+
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.ballot import Verdict, verdict_of
+from grafu.completion.ballot import Verdict, chosen_of, verdict_of
 from grafu.completion.beliefs import softmax
-from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_front, vote_mount
-from grafu.completion.drawers import run_drawer, vote_way
+from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_mount
+from grafu.completion.drawers import run_drawer
 from grafu.completion.scene import Scene
+from grafu.completion.senses import leaned_motion, leaned_way
 from grafu.completion.view import View
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL
-from grafu.graph.completion import Decision, RefusedMotion
+from grafu.graph.completion import BY_BOTH, BY_RULE, Decision, RefusedMotion
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
-from grafu.graph.motion import opening_face
 
 _NO_SUPPORT = "there is no static part that could carry it: label the parts that stand still"
+SOME_CHANCE = 0.05  # of being the parent, where no edge says so
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -44,15 +49,15 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
     """
     logits = np.append(view.beliefs.parent[slot, slots], view.beliefs.no_parent)
     chosen = softmax(logits)
-    return chosen[:-1] * (0.05 + view.beliefs.edge[slot, slots, ATTACHED]), float(chosen[-1])
+    return chosen[:-1] * (SOME_CHANCE + view.beliefs.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
 def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
-    missing it never saw any, and a carpenter hangs them on what there is. `scene` is the same graph with its handles
-    attached: where they sit says which face is the front.
+    missing it never saw any, and a carpenter hangs them on what there is. Where it is of two minds, the door opens
+    outwards. `scene` is the same graph with its handles attached: where they sit says which face is the front.
     """
     if not len(view.supports):
         return RefusedMotion(door.id, _NO_SUPPORT)
@@ -63,20 +68,20 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     if hinged.max() < view.config.least_edge:
         return RefusedMotion(door.id, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}")
     mounts = softmax(view.beliefs.mount[slot, slots]) * hinged
-    motions = view.beliefs.hinge[slot, slots] * _outward(door, view, scene)
+    motions = view.beliefs.hinge[slot, slots]
     motion = np.einsum("k,kbs->bs", mounts, motions)
-    border = verdict_of(BORDERS, motion.sum(axis=1))
+    leaned = leaned_motion(door, motion, view.config.outward, scene)
+    border = chosen_of(BORDERS, motion.sum(axis=1), leaned.sum(axis=1))
     flap = _plain_flap(door, border.choice, scene)
     border = flap or border
-    sign = verdict_of(SIGNS, motion[border.choice])
-    mount = verdict_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
-    if flap is not None:
-        mount = _flap_mount(door, flap.choice, view, scene) or mount
+    sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])
+    on = None if flap is None else _flap_mount(door, flap.choice, view, scene)
+    mount = on or verdict_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
     edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
     decisions = (
-        decision_of(door.id, "border", border),
-        decision_of(door.id, "sign", sign),
-        decision_of(door.id, "mount", mount),
+        decision_of(door.id, "border", border, _by(border) if flap is None else BY_RULE),
+        decision_of(door.id, "sign", sign, _by(sign)),
+        decision_of(door.id, "mount", mount, "" if on is None else BY_RULE),
     )
     return (edge,), decisions
 
@@ -91,15 +96,20 @@ def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
         answer = _on_given(run_drawer(drawer, scene), view)
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
         return RefusedMotion(drawer.id, why) if answer is None else answer
-    shares = (railed @ view.beliefs.slide[slot, slots] / railed.sum()) * _clear_way(drawer, view, scene)
-    slide = verdict_of(SIGNED_AXES, shares)
+    shares = railed @ view.beliefs.slide[slot, slots]
+    slide = chosen_of(SIGNED_AXES, shares, leaned_way(drawer, shares, view.config.outward, scene))
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (
         decision_of(drawer.id, "mount", verdict_of(view.ids(group), view.beliefs.edge[slot, group, RAIL]))
         for group in groups
     )
-    return rails, (decision_of(drawer.id, "slide", slide), *mounts)
+    return rails, (decision_of(drawer.id, "slide", slide, _by(slide)), *mounts)
+
+
+def _by(verdict: Verdict[Any]) -> str:
+    """Returns who chose: a rule as well where the network itself prefers the runner-up."""
+    return BY_BOTH if verdict.runner_up_score > verdict.score else ""
 
 
 def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
@@ -108,7 +118,7 @@ def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
         return None
     edges, decisions = answer
     kept = tuple(edge for edge in edges if isinstance(edge, Hinge | Rail) and edge.parent in view.given)
-    said = tuple(d for d in decisions if d.question != "mount" or d.choice in view.given)
+    said = tuple(replace(d, by=BY_RULE) for d in decisions if d.question != "mount" or d.choice in view.given)
     return (kept, said) if kept else None
 
 
@@ -125,31 +135,6 @@ def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: Scene) -> 
     """Returns what a carpenter hangs a plain flap on; None where that is nothing that the input has."""
     mount = vote_mount(door, flap, scene)
     return mount if mount is not None and mount.choice in view.given else None
-
-
-def _outward(door: PartNode, view: View, scene: Scene) -> np.ndarray:
-    """Returns for each border and sign how plausible a carpenter finds them (4, 2): what opens to the front first.
-
-    It is an opinion, not a rule: the network may overrule it.
-    """
-    config, thin = view.config, door.box.thin_axis
-    front = _opinion(vote_front(door, scene), len(SIGNED_AXES), config.outward)
-    side = _opinion(vote_border(door, scene), len(BORDERS), config.carpenter)
-    return np.array([[front[opening_face(thin, border, sign)] * side[border] for sign in SIGNS] for border in BORDERS])
-
-
-def _clear_way(drawer: PartNode, view: View, scene: Scene) -> Scalars:
-    """Returns for each signed axis how plausible it is that the drawer opens that way: nothing may stand there."""
-    return _opinion(vote_way(drawer, scene), len(SIGNED_AXES), view.config.outward)
-
-
-def _opinion(verdict: Verdict[SignedAxis] | Verdict[HingeBorder], count: int, power: float) -> Scalars:
-    """Returns what a carpenter's vote weighs for each of `count` codes; what was not voted for stays possible."""
-    shares = np.full(count, 1e-3)
-    for code, score in ((verdict.choice, verdict.score), (verdict.runner_up, verdict.runner_up_score)):
-        if code is not None:
-            shares[code] = max(score, 1e-3)
-    return shares**power
 
 
 def _by_flank(drawer: PartNode, axis: SignedAxis, slots: Indices, railed: Scalars, view: View) -> list[np.ndarray]:

@@ -12,6 +12,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.completion.features import FeatureConfig, GraphFeatures
+from grafu.completion.runtime import onnx_runtime
 from grafu.completion.scores import SCORE_NAMES, Scores
 from grafu.errors import WeightsError
 from grafu.graph.arrays import LABELS
@@ -34,10 +35,9 @@ class NetworkSession:
     """
 
     def __init__(self, path: Path, threads: int = 1) -> None:
-        import onnxruntime as ort  # local: it takes 0.2 s to import, and rules need none
-
         if not path.is_file():
             raise WeightsError(f"there are no trained weights at `{path}`: use another motion source, such as rule")
+        ort = onnx_runtime()
         options = ort.SessionOptions()
         options.intra_op_num_threads = threads
         options.inter_op_num_threads = 1
@@ -75,11 +75,16 @@ def has_shipped_weights() -> bool:
     return SHIPPED_WEIGHTS.is_file()
 
 
-@lru_cache(maxsize=2)
 def open_network(path: Path = SHIPPED_WEIGHTS, threads: int = 1) -> NetworkSession:
-    """Returns the network in a file, opened once for each process.
+    """Returns the network in a file, opened once for each process, and again where the file has changed.
 
     Raises:
         WeightsError: if it cannot be used.
     """
+    stamp = (path.stat().st_mtime_ns, path.stat().st_size) if path.is_file() else None
+    return _opened(path, threads, stamp)
+
+
+@lru_cache(maxsize=2)
+def _opened(path: Path, threads: int, _: tuple[int, int] | None) -> NetworkSession:
     return NetworkSession(path, threads)

@@ -12,6 +12,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.data.shards_arrays import DEFECT_KINDS, ModelArrays, arrays_to_record, record_to_arrays
+from grafu.data.shards_columns import require_columns
 from grafu.data.shards_file import read_array_file, write_array_file
 from grafu.data.shards_record import Record
 from grafu.errors import UnreadableAsset
@@ -68,6 +69,7 @@ class ShardReader:
         if schema != SCHEMA or any(about.get(key) != words for key, words in _WORDS.items()):
             raise UnreadableAsset(f"`{path}` must be a shard of the form `{SCHEMA}`: got {schema or 'another file'!r}")
         self.about: dict[str, Any] = about
+        require_columns(columns, texts.get("names"), path)
         self._names: list[str] = texts["names"]
         self._columns = columns
 
@@ -82,6 +84,7 @@ class ShardReader:
 
         Raises:
             IndexError: if there is none.
+            GraphError: if the graphs in the file break an invariant.
         """
         return arrays_to_record(self.arrays(place))
 

@@ -4,22 +4,33 @@ The same arrays always give the same bytes. A file appears whole, by one rename.
 """
 
 import json
+import math
 import os
 import struct
+import tokenize
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 import numpy as np
 
-from grafu.errors import UnreadableAsset
+from grafu.asset.array_files import array_from
+from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.export.whole_file import whole_file
 
 _DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip file can state: the time of writing must not change the bytes
 _LOCAL_HEADER = 30  # bytes of a zip member's header before its name; name and extra length stand at 26 and 28
 _CHUNK = 1 << 22
+_MOST = 512 * 2**20  # bytes of arrays that are not left on disk: a thousand models take a few megabytes
+
+# RuntimeError is zipfile's word for a member that is encrypted, or packed in a way that it does not know; the last four
+# come from headers that are no Python.
+_DAMAGED: Final[tuple[type[Exception], ...]] = (
+    *(BadZipFile, EOFError, ValueError, struct.error, RuntimeError, zlib.error),
+    *(TypeError, KeyError, SyntaxError, tokenize.TokenError),
+)
 
 
 def write_array_file(arrays: Mapping[str, np.ndarray], texts: Mapping[str, Any], path: Path) -> None:
@@ -45,10 +56,14 @@ def read_array_file(path: Path, mapped: str, verify: bool = True) -> tuple[dict[
     With `verify` its bytes are checked too (those of the rest always are).
 
     Raises:
-        UnreadableAsset: if the file is missing, no such file, cut short or changed.
+        UnreadableAsset: if the file is missing, no such file, cut short or changed, or a link that leads out of its
+            folder.
+        AssetTooLarge: if it unpacks to more than a file of arrays ever holds.
     """
+    _require_own(path)
     try:
         with ZipFile(path) as archive:
+            _require_small(archive, mapped, path)
             arrays: dict[str, np.ndarray] = {}
             texts: dict[str, Any] = {}
             for info in archive.infolist():
@@ -60,9 +75,9 @@ def read_array_file(path: Path, mapped: str, verify: bool = True) -> tuple[dict[
                 elif kind == "npy":
                     arrays[stem] = _read_member(archive, info)
             return arrays, texts
-    # RuntimeError is zipfile's word for a member that is encrypted, or packed in a way that it does not know
-    except (BadZipFile, EOFError, ValueError, struct.error, RuntimeError, zlib.error) as error:
-        raise UnreadableAsset(f"`{path}` is no whole file of arrays, or was changed: {error}") from error
+    except _DAMAGED as error:
+        said = (str(error) or type(error).__name__).splitlines()[0][:200]
+        raise UnreadableAsset(f"`{path}` is no whole file of arrays, or was changed: {said}") from error
     except OSError as error:
         raise UnreadableAsset(f"cannot read `{path}`: {error.strerror or error}") from error
 
@@ -75,13 +90,35 @@ def _member(name: str, compression: int) -> ZipInfo:
     return info
 
 
+def _require_own(path: Path) -> None:
+    """Refuses what is no regular file, and a link that leads out of the folder: a data set may be anybody's."""
+    if os.path.lexists(path) and not path.is_file():
+        raise UnreadableAsset(f"cannot read `{path}`: it is no regular file")
+    if os.path.dirname(os.path.realpath(path)) != os.path.realpath(path.parent):
+        raise UnreadableAsset(f"`{path}` leads out of its folder: copy the file there")
+
+
+def _require_small(archive: ZipFile, mapped: str, path: Path) -> None:
+    """Refuses what would fill the memory; the array that stays on disk does not count."""
+    size = sum(info.file_size for info in archive.infolist() if info.filename != f"{mapped}.npy")
+    if size > _MOST:
+        raise AssetTooLarge(f"`{path}` unpacks to {size / 2**20:,.0f} MiB: at most {_MOST >> 20} are read")
+
+
 def _read_member(archive: ZipFile, info: ZipInfo) -> np.ndarray:
-    with archive.open(info) as member:
-        array: np.ndarray = np.lib.format.read_array(member, allow_pickle=False)
-        if member.read(1):  # read to the end: only there is the checksum compared
-            raise ValueError(f"`{info.filename}` goes on after its array")
-    array.setflags(write=False)
-    return array
+    try:
+        return array_from(archive.read(info))
+    except ValueError as error:
+        raise ValueError(f"`{info.filename}`: {error}") from None
+
+
+def _header(file: Any, info: ZipInfo) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    """Returns the shape, order and type that the header of an array file states, and leaves the file after it."""
+    version = np.lib.format.read_magic(file)
+    if version != (1, 0):
+        raise ValueError(f"`{info.filename}` is of another kind of array file: {version}")
+    shape, fortran, dtype = np.lib.format.read_array_header_1_0(file)
+    return shape, fortran, dtype
 
 
 def _map_member(path: Path, info: ZipInfo, verify: bool) -> np.ndarray:
@@ -96,11 +133,10 @@ def _map_member(path: Path, info: ZipInfo, verify: bool) -> np.ndarray:
             file.seek(start)
             _require_sum(file, info)
         file.seek(start)
-        version = np.lib.format.read_magic(file)
-        if version != (1, 0):
-            raise ValueError(f"`{info.filename}` is of another kind of array file: {version}")
-        shape, fortran, dtype = np.lib.format.read_array_header_1_0(file)
-        if fortran or dtype.hasobject or not np.prod(shape):
+        shape, fortran, dtype = _header(file, info)
+        if fortran or dtype.hasobject or file.tell() - start + math.prod(shape) * dtype.itemsize != info.file_size:
+            raise ValueError(f"`{info.filename}` holds another array than it says")
+        if not math.prod(shape):
             return np.zeros(shape, dtype)
         return np.memmap(path, dtype, "r", file.tell(), shape)
 

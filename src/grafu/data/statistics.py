@@ -153,7 +153,7 @@ def measure_folder(folder: Path) -> tuple[tuple[ModelMeasures, ...], tuple[str, 
     measured, unread = [], []
     for path in sorted(p for p in Path(folder).iterdir() if not p.name.startswith(".")):
         try:
-            asset = load_asset(path)
+            asset = load_asset(path).as_annotated()
             graph = parse_graph(asset)
             measured.append(measure_model(asset, with_edges(graph, annotated_edges(asset, graph).edges)))
         except FunctionalizationError as error:

@@ -4,13 +4,9 @@ What is made for an index does not depend on the number of processes, and comes 
 """
 
 import multiprocessing
-import os
-import signal
-import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
 from functools import partial
 from itertools import count, islice
 from pathlib import Path
@@ -21,6 +17,8 @@ import numpy as np
 from grafu.data.shards import ShardReader
 from grafu.data.shards_record import Record, record_of
 from grafu.errors import UnreadableAsset
+from grafu.processes.lifetime import end_with_parent, started_by_main_thread
+from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
@@ -100,7 +98,7 @@ def ordered_map(
         yield from map(make, count(start) if stop is None else range(start, stop))
         return
     context = multiprocessing.get_context("spawn")  # fork would copy locks that native libraries hold
-    pool = ProcessPoolExecutor(jobs, context, initializer=_begin_worker)
+    pool = ProcessPoolExecutor(jobs, context, initializer=_begin_worker, initargs=(started_by_main_thread(),))
     waiting: deque[Future[list[T]]] = deque()
     try:
         for first in count(start, chunk):
@@ -128,30 +126,10 @@ def _make_record(seed: int, points: int, index: int) -> Record:
     return record_of(make_specimen(seed, index, points))
 
 
-@contextmanager
-def interrupts_later() -> Iterator[None]:
-    """Puts Ctrl-C off; a process that is started meanwhile never hears of it, not even while it imports modules."""
-    if not hasattr(signal, "pthread_sigmask"):  # Windows
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _begin_worker() -> None:
+def _begin_worker(started_by_main_thread: bool) -> None:
     """Leaves Ctrl-C to the parent, which ends the workers, and ends this one when the parent is killed."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
+    leave_interrupts_to_parent()
+    end_with_parent(started_by_main_thread)
 
 
 def _places(paths: list[Path], points: bool, verify: bool) -> Iterator[tuple[ShardReader, int]]:

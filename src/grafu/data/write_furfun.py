@@ -9,18 +9,20 @@ A model's folders are moved into place in this order, so a model whose input gra
 
 import shutil
 from collections.abc import Iterator, Mapping
-from contextlib import closing
+from contextlib import closing, suppress
 from functools import partial
 from pathlib import Path
 from uuid import uuid4
 
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
+from grafu.data.furfun.split_files import SPLIT_NAMES
 from grafu.data.furfun.write import furfun_files, split_files
 from grafu.data.shards_arrays import record_to_arrays
 from grafu.data.shards_record import record_of
 from grafu.data.stream import ordered_map
 from grafu.data.write_plan import DatasetPlan, ModelSummary, faults_said, summary_of
 from grafu.errors import ExportError
+from grafu.export.whole_file import write_whole
 from grafu.synth.generate import make_specimen
 
 _STAGING = ".model.{mark}.new"
@@ -40,13 +42,17 @@ def write_furfun_models(plan: DatasetPlan, folder: Path, jobs: int = 1, check: b
     made = partial(_make_files, plan.seed, plan.points, check)
     try:
         if start < plan.count:
-            shutil.rmtree(folder / SPLITS, ignore_errors=True)
+            for name in SPLIT_NAMES:
+                (folder / SPLITS / f"{name}.json").unlink(missing_ok=True)
+            with suppress(OSError):  # somebody put something in
+                (folder / SPLITS).rmdir()
         with closing(ordered_map(made, start, plan.count, jobs)) as models:
             for summary, files in models:
                 _put_model(files, folder, summary.model_id)
                 yield summary
-        if not (folder / SPLITS).exists():
-            _put(split_files(furfun_models(folder)).contents, folder, [SPLITS])
+        if not all((folder / SPLITS / f"{name}.json").exists() for name in SPLIT_NAMES):
+            for name, data in split_files(furfun_models(folder)).contents.items():
+                write_whole(data.decode(), folder / name)
     except OSError as error:
         raise ExportError(f"cannot write into `{folder}`: {error.strerror}; whole models are kept") from error
 

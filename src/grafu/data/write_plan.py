@@ -6,7 +6,7 @@ The digest tells another generator, whatever its version says. This module write
 """
 
 import json
-import shutil
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from hashlib import blake2b
 from pathlib import Path
@@ -15,6 +15,7 @@ from typing import Any, Literal, final
 import numpy as np
 
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
+from grafu.data.furfun.split_files import SPLIT_NAMES
 from grafu.data.shards import MODELS_PER_SHARD
 from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
 from grafu.data.shards_record import record_of
@@ -93,7 +94,7 @@ class ModelSummary:
 def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> None:
     """Makes the folder and its manifest, or makes sure that the data set that is there can be gone on with.
 
-    With `overwrite` the models of an earlier run are removed.
+    With `overwrite` the models of an earlier run are removed, and nothing that others put among them.
 
     Raises:
         ExportError: if the folder holds another data set or other things, or cannot be written.
@@ -105,9 +106,10 @@ def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> N
         raise ExportError(f"cannot write the output `{folder}`: {error.strerror}; nothing was written") from error
     if held and MANIFEST not in held:
         raise ExportError(f"`{folder}` holds `{held[0]}` and no data set, so it is kept: choose another --out")
+    stated = _stated(folder) if held else {}
     manifest = _manifest(plan)
     if held and not overwrite:
-        _require_same(manifest, folder)
+        _require_same(manifest, stated, folder)
     else:
         _write_manifest(folder, manifest)
 
@@ -164,13 +166,24 @@ def _digest(arrays: ModelArrays) -> str:
 def _write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
     """Removes the models of an earlier run, and states what comes now."""
     try:
-        for path in shard_paths(folder):
+        for path in _written(folder):
             path.unlink()
+        for name in (UNFUNCTIONAL, FUNCTIONAL, GEOMETRY, SPLITS):
+            for empty in (*(folder / name).glob("*/"), folder / name):
+                with suppress(OSError):  # somebody put something in, or it is not there
+                    empty.rmdir()
     except OSError as error:
         raise ExportError(f"cannot write the output `{folder}`: {error.strerror}") from error
-    for name in (UNFUNCTIONAL, FUNCTIONAL, GEOMETRY, SPLITS):
-        shutil.rmtree(folder / name, ignore_errors=True)
     write_whole(json.dumps(manifest, indent=1) + "\n", folder / MANIFEST)
+
+
+def _written(folder: Path) -> list[Path]:
+    """Returns the files of a data set of ours, by the names that they are given."""
+    graphs = [path for kind in (FUNCTIONAL, UNFUNCTIONAL) for path in (folder / kind).glob("*/*.json")]
+    parts = [path for ending in ("npy", "ply") for path in (folder / GEOMETRY).glob(f"*/*.{ending}")]
+    splits = [path for name in SPLIT_NAMES if (path := folder / SPLITS / f"{name}.json").is_file()]
+    shards = [path for path in shard_paths(folder) if path.stem.removeprefix("shard_").isdigit()]
+    return [*shards, *(path for path in graphs if path.stem == path.parent.name), *parts, *splits]
 
 
 def _read_manifest(folder: Path) -> dict[str, Any]:
@@ -183,12 +196,16 @@ def _read_manifest(folder: Path) -> dict[str, Any]:
     return stated
 
 
-def _require_same(asked: dict[str, Any], folder: Path) -> None:
-    """Refuses to go on with what was made in another way."""
+def _stated(folder: Path) -> dict[str, Any]:
+    """Returns the manifest of the data set that is there; what has none of ours is none of ours, and is kept."""
     try:
-        stated = _read_manifest(folder)
+        return _read_manifest(folder)
     except UnreadableAsset as error:
         raise ExportError(f"{error}: choose another --out") from error
+
+
+def _require_same(asked: dict[str, Any], stated: dict[str, Any], folder: Path) -> None:
+    """Refuses to go on with what was made in another way."""
     ways = "choose another --out, or give --overwrite to start again"
     for key, word in _SAID.items():
         if stated.get(key) != asked[key]:

@@ -113,7 +113,7 @@ def load_model(ref: ModelRef) -> Asset:
         return _made_asset(_specimen(ref))
     if ref.kind in _RELEASES:
         return read_release_model(_path(ref))
-    return load_asset(_path(ref))
+    return load_asset(_path(ref)).as_annotated()
 
 
 def category_of(ref: ModelRef) -> str:

@@ -12,11 +12,11 @@ from typing import Literal
 import numpy as np
 
 from grafu.asset.load import settled
-from grafu.asset.mesh_files import read_bytes, read_mesh_file
+from grafu.asset.mesh_files import read_mesh_file
 from grafu.asset.names import unique_ids
-from grafu.asset.options import Limits
-from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
+from grafu.asset.part import AnnotatedJoint, Annotation, Asset, Part, PartSource
 from grafu.asset.reading import Convention, Reading
+from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.data.furfun.graph_files import load_graph_json, read_graph_file
 from grafu.data.furfun.layout import FUNCTIONAL, UNFUNCTIONAL, UNFUNCTIONAL_HSSD, LayoutKind, find_layout
@@ -35,7 +35,6 @@ from grafu.vocabulary import JointType, PartLabel
 CONVENTION = Convention("the release (Z up)", up="+Z", front="-Y", usual_up="+Z")
 DOOR_RANGE = pi / 2  # radians; a graph states no ranges: the authors' records say so for every hinge (official.md 7)
 DRAWER_RANGE = 0.75  # of a drawer's box along its slide
-_LIMITS = Limits()
 _FITS = 0.02  # of the object's diagonal: a mesh whose box is farther than this from its graph's is of another frame
 _ASSUMED = "its graph states no ranges: doors are taken to open by 90 degrees, drawers by three quarters of their depth"
 
@@ -86,14 +85,14 @@ def read_release_model(input_file: Path) -> Asset:
     lost = len(model.input.nodes) - len(parts)
     notes += [f"{lost} of {len(model.input.nodes)} parts have no mesh: left out"] if lost else []
     said = (*(n for n in model.notes if not n.startswith("drew points")), *notes, silent)
-    reading = Reading("release", parts, CONVENTION, joints, None, said, grouped=True)
-    return settled(reading, model_id, input_file)
+    annotation = Annotation(parts, joints) if joints else None
+    reading = Reading("release", parts, CONVENTION, annotation, None, said, grouped=True)
+    return settled(reading, model_id, input_file).as_annotated()
 
 
 def _geometry_folder(folder: FurFunFolder, model_id: str) -> Path:
     stated = read_graph_file(folder.layout.inputs[model_id], model_id).geometry_id
-    named = [folder.layout.geometry / name for name in (stated, model_id) if Path(name).name == name]
-    return next((f for f in named if f.is_dir()), folder.layout.geometry / model_id)
+    return folder.layout.geometry_of(stated, model_id)
 
 
 def _meshless(folder: Path, has_truth: bool) -> str:
@@ -106,14 +105,14 @@ def _meshless(folder: Path, has_truth: bool) -> str:
 
 def _meshes(folder: Path, graph: FunctionalGraph) -> dict[str, tuple[Surface, ...]]:
     """Returns the surfaces of each node that has a mesh, in the coordinates of its file."""
-    listed = _listed(folder)
+    listed, files = _listed(folder), ModelFiles(folder)
     found = {}
     for node in graph.nodes:
         if Path(node.id).name != node.id:
             continue  # a node's name is no path: it leads to no file
         named = [listed.get(node.id), folder / f"{node.id}.ply", folder / f"{node.id}.obj"]
         file = next((f for f in named if f is not None and f.is_file()), None)
-        surfaces = () if file is None else _surfaces(file)
+        surfaces = () if file is None else _surfaces(file, files)
         if surfaces:
             found[node.id] = surfaces
     return found
@@ -131,10 +130,10 @@ def _listed(folder: Path) -> dict[str, Path]:
     return {k: next((f for f in files if f.is_file()), files[0]) for k, files in places.items()}
 
 
-def _surfaces(file: Path) -> tuple[Surface, ...]:
+def _surfaces(file: Path, files: ModelFiles) -> tuple[Surface, ...]:
     if file.suffix.lower() == ".obj":
-        return read_mesh_file(file, _LIMITS, split=False).surfaces
-    mesh = read_ply(read_bytes(file, _LIMITS), str(file))
+        return read_mesh_file(file, files, split=False).surfaces
+    mesh = read_ply(files.read(file), str(file), files.tally)
     return (Surface(mesh),) if isinstance(mesh, TriangleMesh) else ()
 
 

@@ -9,6 +9,7 @@ from grafu.errors import ExportError
 from grafu.evaluation.records import Row
 
 NAME = "rows.jsonl"
+_BEGINNING = b'{"key":'  # of every line, whatever the version
 
 
 def read_rows(path: Path) -> dict[str, Row]:
@@ -35,10 +36,13 @@ def begin_rows(path: Path, anew: bool = False) -> dict[str, Row]:
     """Returns the rows of a run that goes on, none of one that begins `anew`; its folder is there then.
 
     Raises:
-        ExportError: if the folder cannot be made, or the file cannot be read, or taken away.
+        ExportError: if the folder cannot be made, or the file is none of ours, or cannot be read or taken away.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        held = path.read_bytes().split(b"\n") if path.exists() else []
+        if any(held) and not any(line.startswith(_BEGINNING[: len(line)]) for line in held if line):
+            raise ExportError(f"`{path}` holds no rows of grafu's, so it is kept: choose another --out")
         if anew:
             path.unlink(missing_ok=True)
     except OSError as error:

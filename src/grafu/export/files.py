@@ -1,31 +1,39 @@
 """An export is a table from relative names to bytes; this module alone writes it, whole or not at all.
 
 It knows no format. A folder appears by one rename from a temporary folder beside it, so nobody ever sees half of it.
+In it stands a marker (`grafu.export.marker`): a folder without one is never replaced, and of one that is replaced
+whatever the marker does not list stays in it.
 """
 
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import final
 
+from grafu.asset.own_results import MARKER
 from grafu.errors import ExportError
+from grafu.export.marker import Marker, read_marker
+from grafu.export.output_names import same_place
 from grafu.export.remains import hidden_name
+from grafu.export.whole_file import whole_file
 
 
 @final
 @dataclass(frozen=True)
 class ExportFiles:
-    """Relative names (with `/`) and the bytes of each file.
+    """Relative names (with `/`) and the bytes of each file; `formats` says which files a format consists of.
 
     Raises:
-        ExportError: if a name is not a plain relative path, or two names differ only in case or nest in one another.
+        ExportError: if a name is not a plain relative path or the marker's, or two names differ only in case or nest
+            in one another.
     """
 
     contents: Mapping[str, bytes]
+    formats: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         seen: set[str] = set()
@@ -38,6 +46,7 @@ class ExportFiles:
         if nested:
             raise ExportError(f"a file cannot also be a folder: got {nested}")
         object.__setattr__(self, "contents", MappingProxyType(dict(self.contents)))
+        object.__setattr__(self, "formats", MappingProxyType(dict(self.formats)))
 
     def __getitem__(self, name: str) -> bytes:
         return self.contents[name]
@@ -56,39 +65,39 @@ class ExportFiles:
         clash = [n for n in other.names if n in self.contents and self.contents[n] != other.contents[n]]
         if clash:
             raise ExportError(f"two exports must not write different files of one name: got {clash}")
-        return ExportFiles({**self.contents, **other.contents})
+        return ExportFiles({**self.contents, **other.contents}, {**self.formats, **other.formats})
 
 
 def write_files(files: ExportFiles, folder: Path, overwrite: bool = False) -> None:
-    """Writes the files so that `folder` appears whole or not at all; missing parent folders are made.
+    """Writes the files and a marker so that `folder` appears whole or not at all; missing parent folders are made.
 
-    With `overwrite` an earlier output is replaced as a whole. A folder that holds none of the files' names at its top
-    is no earlier output and is never replaced.
+    With `overwrite` an earlier output is replaced as a whole, and what its marker does not list stays in it.
 
     Raises:
         ExportError: if the folder exists (and may not be replaced), cannot be written, or the disk is full; then
             nothing has changed.
     """
     folder = Path(os.path.abspath(folder)).resolve()
-    _require_free(files, folder, overwrite)
+    require_free(folder, overwrite)
+    kept = _kept(folder)
+    _require_room(kept, files, folder)
     fresh, old = hidden_name(folder, "new"), hidden_name(folder, "old")
     with _said_plainly(folder), _parents_made(folder.parent):
         try:
             _write_all(files, fresh)
+            _carry(kept, folder, fresh)
             _swap(fresh, folder, old)
         finally:
             shutil.rmtree(fresh, ignore_errors=True)
             shutil.rmtree(old, ignore_errors=True)
 
 
-def _require_relative(name: str) -> None:
-    path = PurePosixPath(name)
-    plain = name and "\\" not in name and "\0" not in name and str(path) == name
-    if not plain or path.is_absolute() or ".." in path.parts or name == ".":
-        raise ExportError(f"a file name must be a plain relative path: got `{name}`")
+def require_free(folder: Path, overwrite: bool = False) -> None:
+    """Makes sure that `write_files` may write a folder, before there is anything to write.
 
-
-def _require_free(files: ExportFiles, folder: Path, overwrite: bool) -> None:
+    Raises:
+        ExportError: if the folder is a file, or holds files that grafu did not write, or may not be replaced.
+    """
     if not os.path.lexists(folder):
         return
     if not folder.is_dir():
@@ -97,17 +106,97 @@ def _require_free(files: ExportFiles, folder: Path, overwrite: bool) -> None:
         held = sorted(os.listdir(folder))
     except OSError as error:
         raise ExportError(f"cannot look into the output folder `{folder}`: {error.strerror}") from error
-    if not held:
-        return
-    if not overwrite:
+    if held and read_marker(folder) is None:
+        raise ExportError(
+            f"`{folder}` holds `{held[0]}` and no `{MARKER}`, by which grafu knows what it wrote, so it is kept: "
+            "choose another --out, or move it away"
+        )
+    if held and not overwrite:
         raise ExportError(f"the output `{folder}` exists already: choose another --out, or give --overwrite")
-    if not {PurePosixPath(name).parts[0] for name in files.names} & set(held):
-        raise ExportError(f"`{folder}` holds `{held[0]}` and no earlier output, so it is kept: choose another --out")
+
+
+def add_files(folder: Path, added: Mapping[str, Path], formats: Mapping[str, tuple[str, ...]] | None = None) -> None:
+    """Copies files into a folder that `write_files` wrote, each whole, and lists them in its marker as grafu's.
+
+    `added`: from where, by relative name. Files of these names that grafu wrote are replaced.
+
+    Raises:
+        ExportError: if grafu did not write the folder, or a file of a name is not grafu's, or one cannot be written.
+    """
+    marker = read_marker(folder)
+    if marker is None:
+        raise ExportError(f"`{folder}` holds no `{MARKER}`: files go only to a folder that grafu wrote")
+    _require_room(_kept(folder), ExportFiles(dict.fromkeys(added, b"")), folder)
+    with whole_file(folder / MARKER) as fresh:
+        fresh.write_bytes(marker.with_files(formats or {}, *added).to_bytes())
+    for name, source in added.items():
+        with whole_file(folder / name) as fresh:
+            shutil.copyfile(source, fresh)
+
+
+def _require_relative(name: str) -> None:
+    path = PurePosixPath(name)
+    plain = name and "\\" not in name and "\0" not in name and str(path) == name
+    if not plain or path.is_absolute() or ".." in path.parts or same_place(name) in (".", MARKER):
+        raise ExportError(f"a file name must be a plain relative path: got `{name}`")
+
+
+def _kept(folder: Path) -> list[str]:
+    """Returns what in a folder of ours is not ours: relative names of files, links, and folders that hold none of ours.
+
+    Raises:
+        ExportError: if the folder cannot be read.
+    """
+    marker = read_marker(folder)
+    if marker is None:
+        return []
+    ours = {*marker.files, *(str(parent) for name in marker.files for parent in PurePosixPath(name).parents)}
+    found: list[str] = []
+    with _said_plainly(folder):
+        for place, folders, names in os.walk(folder, onerror=_raised):
+            inside = Path(place).relative_to(folder)
+            links = {name for name in folders if (Path(place) / name).is_symlink()}
+            held = ((inside / name).as_posix() for name in (*folders, *names))
+            linked = {(inside / name).as_posix() for name in links}
+            found += [name for name in held if name in linked or name not in ours]
+    return found
+
+
+def _raised(error: OSError) -> None:
+    raise error
+
+
+def _require_room(kept: Iterable[str], files: ExportFiles, folder: Path) -> None:
+    """Refuses to replace what is not ours: where it stands, or stands in the way, nothing is written."""
+    places = {same_place(name) for name in (*files.names, MARKER)}
+    above = {str(parent) for place in places for parent in PurePosixPath(place).parents}
+    for name in kept:
+        is_folder = (folder / name).is_dir() and not (folder / name).is_symlink()
+        around = {str(parent) for parent in PurePosixPath(same_place(name)).parents}
+        if same_place(name) in places or around & places or (not is_folder and same_place(name) in above):
+            raise ExportError(
+                f"`{folder / name}` is none of grafu's files, so it is kept: move it away, or choose another --out"
+            )
+
+
+def _carry(kept: Iterable[str], folder: Path, fresh: Path) -> None:
+    """Puts what is kept into the fresh folder, too; where it was it stays as it is."""
+    for name in kept:
+        source, target = folder / name, fresh / name
+        if source.is_dir() and not source.is_symlink():
+            target.mkdir(parents=True, exist_ok=True)
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            os.link(source, target, follow_symlinks=False)
+        except (OSError, NotImplementedError):  # a disk, or a system, without such links
+            shutil.copy2(source, target, follow_symlinks=False)
 
 
 def _write_all(files: ExportFiles, fresh: Path) -> None:
     fresh.mkdir()
-    for name, data in files.contents.items():
+    marker = Marker(files.names, files.formats).to_bytes()
+    for name, data in {**files.contents, MARKER: marker}.items():
         path = fresh / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)

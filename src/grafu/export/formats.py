@@ -48,15 +48,16 @@ def exporter_for(name: str) -> Exporter:
 
 
 def export(articulated: ArticulatedObject, formats: Sequence[str]) -> ExportFiles:
-    """Returns the files of all the formats named, together.
+    """Returns the files of all the formats named, together; their `formats` say which are whose.
 
     Raises:
         ExportError: if a format is unknown or cannot say what the object holds.
     """
     exporters = [exporter_for(name) for name in formats]
     files = ExportFiles({})
-    for exporter in exporters:
-        files = files.joined(exporter(articulated))
+    for name, exporter in zip(formats, exporters, strict=True):
+        made = exporter(articulated)
+        files = files.joined(ExportFiles(made.contents, {name.lower(): made.names}))
     return files
 
 

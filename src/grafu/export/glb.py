@@ -24,6 +24,7 @@ from grafu.export.names import NameBook
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Vec3
 from grafu.version import __version__
+from grafu.visible import writable
 from grafu.vocabulary import JointType
 
 ANIMATION_NAME = "open_close"
@@ -188,7 +189,7 @@ def _plain(vector: Vec3) -> list[float]:
 
 
 def _packed(tables: dict[str, Any], binary: bytes) -> bytes:
-    text = json.dumps(tables, separators=(",", ":"), ensure_ascii=False, allow_nan=False).encode()
+    text = writable(json.dumps(tables, separators=(",", ":"), ensure_ascii=False, allow_nan=False)).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<II", len(text), _JSON_CHUNK) + text
     if binary:

@@ -12,6 +12,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint, Join
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.axis import Axis
@@ -31,38 +32,38 @@ def read_glb_object(path: Path, limits: Limits = _LIMITS) -> ArticulatedObject:
         AssetTooLarge: if it has more bytes or faces than the limits allow.
         ArticulationError: if what it states is no tree.
     """
-    file = read_gltf_file(path, limits)
+    file = read_gltf_file(path, ModelFiles(path, limits))
     with file.guarded():
-        return _Reader(file, limits).read()
+        return _Reader(file).read()
 
 
 @final
 class _Reader:
     """Walks the nodes of one file: links with their joints, and the visuals below them."""
 
-    def __init__(self, file: GltfFile, limits: Limits) -> None:
+    def __init__(self, file: GltfFile) -> None:
         self._file = file
-        self._meshes = GltfMeshes(file, limits)
+        self._meshes = GltfMeshes(file)
         self._links: list[Link] = []
         self._joints: list[Joint] = []
         self._seen: set[int] = set()
 
     def read(self) -> ArticulatedObject:
-        scene = self._file.item("scenes", self._file.document.get("scene", 0))
-        roots = scene["nodes"]
+        scene = self._file.item("scenes", self._file.document.whole("scene", 0))
+        roots = scene.indices("nodes")
         if len(roots) != 1 or "link" not in self._said(roots[0]):
             raise UnreadableAsset(f"{self._file.path} is no model.glb of grafu: its nodes do not say what they are")
         self._add_link(roots[0], None, vec3(0.0, 0.0, 0.0))
         root = self._said(roots[0])["link"]
-        return ArticulatedObject(str(scene.get("name", "")), root, tuple(self._links), tuple(self._joints))
+        return ArticulatedObject(scene.text("name"), root, tuple(self._links), tuple(self._joints))
 
     def _add_link(self, index: int, parent: str | None, above: Vec3) -> None:
         if index in self._seen:
             raise self._file.damaged(f"nodes[{index}] has two parents or lies in a cycle")
         self._seen.add(index)
         node, said = self._file.item("nodes", index), self._said(index)
-        origin = above + _Z_UP @ np.array(node.get("translation", (0.0, 0.0, 0.0)), dtype=np.float64)
-        children = node.get("children", ())
+        origin = above + _Z_UP @ np.array(node.numbers("translation", 3, (0.0, 0.0, 0.0)))
+        children = node.indices("children")
         below = [child for child in children if "link" in self._said(child)]
         visuals = tuple(self._visual(child, origin) for child in children if "link" not in self._said(child))
         self._links.append(Link(said["link"], visuals))
@@ -74,14 +75,15 @@ class _Reader:
     def _visual(self, index: int, origin: Vec3) -> Visual:
         node, said = self._file.item("nodes", index), self._said(index)
         T = from_rotation(_Z_UP, origin)
-        surfaces = self._meshes.get(node["mesh"]) if "mesh" in node else ()
+        if "mesh" in node:
+            self._meshes.count(node.get("mesh"))
+        surfaces = self._meshes.get(node.get("mesh")) if "mesh" in node else ()
         moved = tuple(surface.transformed(T) for surface in surfaces)
-        return Visual(str(node["name"]), moved, VisualRole(said["role"]), PartLabel(said["label"]))
+        return Visual(node.text("name"), moved, VisualRole(said["role"]), PartLabel(said["label"]))
 
     def _said(self, index: Any) -> dict[str, Any]:
         """Returns what a node says of itself, empty where it is none of ours."""
-        said = self._file.item("nodes", index).get("extras", {}).get("grafu", {})
-        return said if isinstance(said, dict) else {}
+        return dict(self._file.item("nodes", index).member("extras").member("grafu").data)
 
 
 def _joint(said: dict[str, Any], parent: str, child: str, origin: Vec3) -> Joint:

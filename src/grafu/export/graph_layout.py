@@ -12,18 +12,22 @@ Places = Float[np.ndarray, "n 2"]
 
 _OBLIQUE = np.array([0.22, -0.30])  # how far depth shifts a node right and up, so that front and back stay apart
 _STEPS = 250
+_MOST_PUSHED = 500  # nodes: more find no room beside each other anyway, and all pairs of them would take minutes
 _PULL = 0.04  # share of the way home that a node is drawn back in each step
 
 
 def node_places(graph: FunctionalGraph, size: tuple[int, int], margin: float, apart: float) -> Places:
     """Returns the middle of each node in a picture of `size`, y downwards, in the graph's order.
 
-    Nodes keep `margin` from the picture's border, and `apart` from each other where there is room for that.
+    Nodes keep `margin` from the picture's border, and `apart` from each other where there is room for that; very many
+    stand where they are seen.
     """
     if not graph.nodes:
         return np.zeros((0, 2))
     low, room = np.full(2, margin), np.array(size, dtype=np.float64) - 2 * margin
     home = low + _projected(graph) * room
+    if len(home) > _MOST_PUSHED:
+        return home
     rng = np.random.default_rng(0)  # parts in one place have no side to go to: the same one every time
     places = home + rng.uniform(-0.5, 0.5, home.shape)
     apart = min(apart, 0.95 * float(np.sqrt(room.prod() / len(home))))

@@ -3,7 +3,7 @@
 It knows neither camera nor light. Everything is 32-bit: pictures need no more and twice as much would be slow.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from typing import Any, final
@@ -19,6 +19,7 @@ from grafu.geometry.appearance import Material, Surface, Texture
 
 Rays = Float32[np.ndarray, "n 3"]
 Values = Float32[np.ndarray, " n"]
+_GREY = 0.5  # what stands for an image that cannot be decoded
 _TEXTURE_LIMIT = 512  # pixels a side: a picture of a whole piece of furniture shows no more
 
 
@@ -54,14 +55,12 @@ class RayScene:
         self._visual = np.repeat([k for k, _ in rows], counts).astype(np.int64)
         self._material = np.repeat([index[s.material] for _, s in rows], counts).astype(np.int64)
         surfaces = [s for _, s in rows]
-        self.triangles: np.ndarray = _stacked([s.mesh.triangles for s in surfaces], (3, 3))
-        self._flat: np.ndarray = np.concatenate([np.zeros((0, 3)), *(s.mesh.face_normals for s in surfaces)]).astype(
-            "f4"
-        )
-        self._normals: np.ndarray = _stacked([_corner_normals(s) for s in surfaces], (3, 3))
-        self._colors: np.ndarray = _stacked([_corner_colors(s) for s in surfaces], (3, 4))
+        self.triangles: np.ndarray = _stacked((s.mesh.triangles for s in surfaces), 3, 3)
+        self._flat: np.ndarray = _stacked((s.mesh.face_normals for s in surfaces), 3)
+        self._normals: np.ndarray = _stacked((_corner_normals(s) for s in surfaces), 3, 3)
+        self._colors: np.ndarray = _stacked((_corner_colors(s) for s in surfaces), 3, 4)
         self._colored = any(s.colors is not None for s in surfaces)
-        self._uvs: np.ndarray = _stacked([_corner_uvs(s) for s in surfaces], (3, 2))
+        self._uvs: np.ndarray = _stacked((_corner_uvs(s) for s in surfaces), 3, 2)
         self._table = _material_table(self._materials)
         self._images = {k: _decode(m.base_color_texture) for k, m in enumerate(self._materials) if m.base_color_texture}
         self._embree = _embree_scene(self.triangles)
@@ -108,8 +107,9 @@ def _embree_scene(triangles: np.ndarray) -> Any:
     return scene
 
 
-def _stacked(blocks: list[np.ndarray], tail: tuple[int, int]) -> np.ndarray:
-    return np.concatenate([np.zeros((0, *tail)), *blocks]).astype(np.float32)
+def _stacked(blocks: Iterable[np.ndarray], *tail: int) -> np.ndarray:
+    """Returns blocks of rows as one array of 32 bits, each block turned into such by itself: large ones are large."""
+    return np.concatenate([np.zeros((0, *tail), np.float32), *(block.astype(np.float32) for block in blocks)])
 
 
 def _corner_normals(surface: Surface) -> np.ndarray:
@@ -140,9 +140,15 @@ def _material_table(materials: list[Material]) -> np.ndarray:
 
 
 def _decode(texture: Texture) -> np.ndarray:
-    """Returns an image as linear RGBA in 0..1, at most `_TEXTURE_LIMIT` pixels a side."""
-    with Image.open(BytesIO(texture.data)) as image:
-        rgba = image.convert("RGBA")
+    """Returns an image as linear RGBA in 0..1, at most `_TEXTURE_LIMIT` pixels a side; one that is broken is grey.
+
+    Readers let no broken image in (`asset/textures.py`); who makes an object by hand may.
+    """
+    try:
+        with Image.open(BytesIO(texture.data)) as image:
+            rgba = image.convert("RGBA")
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError):
+        return np.array([[[_GREY, _GREY, _GREY, 1.0]]], dtype=np.float32)
     rgba.thumbnail((_TEXTURE_LIMIT, _TEXTURE_LIMIT))
     values = np.asarray(rgba, dtype=np.float32) / 255.0
     return np.concatenate([values[..., :3] ** 2.2, values[..., 3:]], axis=-1).astype(np.float32)

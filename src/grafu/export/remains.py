@@ -13,12 +13,17 @@ from typing import Literal
 from uuid import uuid4
 from zlib import crc32
 
-_NAME = re.compile(r"\.(?P<name>.+)\.(?P<machine>[0-9a-f]{8})-(?P<process>\d+)-[0-9a-f]{8}\.(?P<ending>new|old)")
+_NAME = re.compile(r"\.(?P<name>.+)\.(?P<machine>[0-9a-f]{8})-(?P<process>\d+)-[0-9a-f]{8}\.(?P<ending>new|old)", re.S)
 
 
 def hidden_name(path: Path, ending: Literal["new", "old"]) -> Path:
     """Returns a name beside `path`, free for this process, for what takes its place (`new`) or gives it up (`old`)."""
     return path.with_name(f".{path.name}.{_machine()}-{os.getpid()}-{uuid4().hex[:8]}.{ending}")
+
+
+def is_hidden_name(name: str) -> bool:
+    """Whether a name has the form of those that `hidden_name` gives."""
+    return _NAME.fullmatch(name) is not None
 
 
 def clear_remains(folder: Path) -> None:

@@ -56,10 +56,19 @@ def extremes(rows: Float[np.ndarray, "n k"]) -> tuple[Float[np.ndarray, " k"], F
 
 
 class ArrayValue:
-    """Abstract base of frozen dataclasses with array fields: equality, hash and pickling by content."""
+    """Abstract base of frozen dataclasses with array fields: equality, hash and pickling by content, a short repr."""
 
     __slots__ = ()
     __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        if "__repr__" not in cls.__dict__:
+            cls.__repr__ = ArrayValue.__repr__  # type: ignore[method-assign]  # `dataclass` would write its own
+
+    def __repr__(self) -> str:
+        fields = zip(self.__dataclass_fields__, self._content(), strict=True)
+        return f"{type(self).__name__}({', '.join(f'{name}={_short(value)}' for name, value in fields)})"
 
     def _content(self) -> tuple[Any, ...]:
         return tuple(getattr(self, name) for name in self.__dataclass_fields__)
@@ -78,3 +87,13 @@ class ArrayValue:
 
     def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
         return (self.__class__, self._content())
+
+
+def _short(value: object) -> str:
+    """Returns a value as `repr` does; of a large array its shape and type alone."""
+    if isinstance(value, np.ndarray):
+        large = value.size > 16
+        return f"<{'x'.join(map(str, value.shape))} {value.dtype}>" if large else str(np.round(value, 6).tolist())
+    if isinstance(value, tuple | dict) and len(value) > 4:
+        return f"<{len(value)} items>"
+    return repr(value)

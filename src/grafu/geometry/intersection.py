@@ -14,8 +14,9 @@ import fcl
 import numpy as np
 from jaxtyping import Int
 
-from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3, extremes
+from grafu.geometry.arrays import Indices, Mat3, Mat4, Points, Vec3, extremes
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
 from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import transform_points
@@ -26,6 +27,7 @@ _MOST_CONTACTS = 5000
 _ANY_CONTACT = fcl.CollisionRequest()
 
 _numbers = count()
+_LARGE = 5_000  # faces
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
 
 
@@ -64,6 +66,15 @@ def _model(mesh: TriangleMesh) -> _Model:
     return _models[key]
 
 
+def forget_large_shapes() -> None:
+    """Forgets the BVHs of large meshes, which take several times the room of the mesh; they are built again when asked.
+
+    What was prepared of them before stays as it is.
+    """
+    for key in [key for key, model in _models.items() if len(model.kept) > _LARGE]:
+        _models.pop(key, None)
+
+
 def share_shape(copy: TriangleMesh, original: TriangleMesh, T: Mat4) -> None:
     """Lets `copy`, which is `original` mapped by the rotation and shift T, be tested with the original's BVH.
 
@@ -100,7 +111,7 @@ class MeshCollider:
     def __init__(self, mesh: TriangleMesh) -> None:
         self.box: Box = mesh.box
         self._mesh = mesh
-        self._corners = mesh.box.corners()
+        self._corners: Points | None = None
         self._low, self._high = mesh.box.low.tolist(), mesh.box.high.tolist()
         self._pose: tuple[Mat3, Vec3] | None = None
         self._made: fcl.CollisionObject | None = None
@@ -132,6 +143,8 @@ class MeshCollider:
         """Poses the mesh at T, then moved by `shift` metres."""
         offset = T[:3, 3] if shift is None else T[:3, 3] + shift
         self._pose, self._is_at_rest = (T[:3, :3], offset), False
+        if self._corners is None:  # most colliders never leave their place
+            self._corners = self.box.corners()
         corners = self._corners @ T[:3, :3].T + offset
         low, high = extremes(corners)
         self._low, self._high = low.tolist(), high.tolist()
@@ -146,6 +159,7 @@ class MeshCollider:
         """Whether the two, as posed, share a point."""
         if self.is_apart(other):
             return False
+        require_time()
         return bool(fcl.collide(self._object, other._object, _ANY_CONTACT, fcl.CollisionResult()) > 0)
 
     def is_apart(self, other: "MeshCollider") -> bool:
@@ -161,6 +175,7 @@ class MeshCollider:
         """Returns the numbers of this mesh's faces that intersect the other as posed."""
         if self.is_apart(other):
             return set()
+        require_time()
         request = fcl.CollisionRequest(num_max_contacts=_MOST_CONTACTS, enable_contact=True)
         result = fcl.CollisionResult()
         fcl.collide(self._object, other._object, request, result)

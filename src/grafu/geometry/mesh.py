@@ -12,6 +12,8 @@ from grafu.geometry.arrays import ArrayValue, Faces, Mat4, Points, Scalars, Vec3
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import is_mirror, transform_points
 
+_KEPT = 20_000  # faces: of meshes up to this size, what is worked out of the faces is kept
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -51,9 +53,13 @@ class TriangleMesh(ArrayValue):
         """The rotation about Z, radians, in which the vertices fill the smallest rectangle (see `yaw_of`)."""
         return yaw_of(self.vertices)
 
-    @cached_property
+    @property
     def triangles(self) -> np.ndarray:
-        """The corners of each face, (faces, 3, 3)."""
+        """The corners of each face, (faces, 3, 3); those of large meshes are not kept, they take more than the mesh."""
+        return self._triangles if len(self.faces) <= _KEPT else frozen_array(self.vertices[self.faces])
+
+    @cached_property
+    def _triangles(self) -> np.ndarray:
         return frozen_array(self.vertices[self.faces])
 
     @cached_property
@@ -61,21 +67,27 @@ class TriangleMesh(ArrayValue):
         """The surface area, square metres."""
         return float(self.face_areas.sum())
 
-    @cached_property
+    @property
     def _face_cross(self) -> np.ndarray:
-        t = self.triangles
-        return np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+        return self._kept_cross if len(self.faces) <= _KEPT else _cross(self.triangles)
+
+    @cached_property
+    def _kept_cross(self) -> np.ndarray:
+        return _cross(self.triangles)
 
     @property
     def face_areas(self) -> Scalars:
         """The area of each face."""
         return np.linalg.norm(self._face_cross, axis=1) / 2
 
-    @cached_property
+    @property
     def face_normals(self) -> Points:
         """The unit normal of each face; zero where the face has no area."""
-        lengths = np.linalg.norm(self._face_cross, axis=1, keepdims=True)
-        return self._face_cross / np.maximum(lengths, 1e-300)
+        return self._kept_normals if len(self.faces) <= _KEPT else _unit(self._face_cross)
+
+    @cached_property
+    def _kept_normals(self) -> Points:
+        return _unit(self._face_cross)
 
     @cached_property
     def is_closed(self) -> bool:
@@ -140,3 +152,11 @@ _BOX_FACES = [
     [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
     [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5],
 ]  # fmt: skip
+
+
+def _cross(t: np.ndarray) -> np.ndarray:
+    return np.asarray(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]))
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300))

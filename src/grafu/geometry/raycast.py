@@ -10,6 +10,7 @@ from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 
 from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.budget import require_time
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -27,6 +28,7 @@ class RayCaster:
         """Returns the distance in metres along each unit direction to the first face hit; infinity where none is."""
         if self._scene is None or not len(origins):
             return np.full(len(origins), np.inf)
+        require_time()
         found = self._scene.run(
             np.ascontiguousarray(origins, dtype=np.float32),
             np.ascontiguousarray(directions, dtype=np.float32),

@@ -5,7 +5,6 @@ by triangle: what lies inside goes, the rest stays as it was, and the cut is lef
 several solids take of one triangle goes at once: one after another they would shred it.
 """
 
-from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,15 +12,16 @@ from typing import final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError
 
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, frozen_array
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
+from grafu.geometry.face_cuts import left_over
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
-from grafu.geometry.plane_split import NOTHING, split_by_planes
-from grafu.geometry.remainder import remainder
+from grafu.geometry.plane_split import NOTHING
 
 
 @final
@@ -156,7 +156,8 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     # Faces without area go too: they would stay behind as needles in the cut.
     owner = np.flatnonzero(near)
     owner = owner[~_is_sliver(mesh.triangles[owner])]
-    pieces, gone = _left_over(rows, mesh.faces[owner], solids)
+    near_each = [_touched(mesh.triangles[owner], solid) for solid in solids]
+    pieces, gone = left_over(rows[mesh.faces[owner]], near_each, [solid.planes for solid in solids])
     cut = np.zeros(len(mesh.faces), dtype=bool)
     cut[owner[gone]] = True
     if not cut.any():
@@ -168,79 +169,11 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     return _from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
 
 
-def _left_over(rows: np.ndarray, faces: Faces, solids: Sequence[ConvexSolid]) -> tuple[np.ndarray, Mask]:
-    """Returns what is left of the faces that lose something (rows of corner attributes), and which those are."""
-    triangles = rows[faces]
-    cut = _cut_by(triangles, solids)
-    times = np.bincount(cut.face, minlength=len(faces))
-    is_whole = np.ones(len(cut.face), dtype=bool)
-    is_whole[cut.outside_owner] = False
-    gone = np.zeros(len(faces), dtype=bool)  # faces of which one solid leaves nothing
-    gone[cut.face[is_whole]] = True
-    by_one = cut.outside[times[cut.face[cut.outside_owner]] == 1]
-    holes = _holes(cut)
-    several = np.flatnonzero((times > 1) & ~gone).tolist()
-    by_several = [remainder(triangles[k, :, :3], holes[k]) @ triangles[k] for k in several]
-    return np.concatenate([by_one, *by_several]), times > 0
-
-
-def _holes(cut: "_Cut") -> dict[int, list[Points]]:
-    """Returns for each face the corners of what each solid takes of it."""
-    order = np.argsort(cut.inside_owner, kind="stable")
-    pairs, start = np.unique(cut.inside_owner[order], return_index=True)
-    found: dict[int, list[Points]] = defaultdict(list)
-    for face, points in zip(cut.face[pairs].tolist(), np.split(cut.inside[order, :, :3], start)[1:], strict=True):
-        found[face].append(points.reshape(-1, 3))
-    return found
-
-
-@final
-@dataclass(frozen=True, eq=False, slots=True)
-class _Cut:
-    """What solids take of faces and what each leaves of them, by pairs of a face and a solid that takes some of it.
-
-    `face` is each pair's face; `inside` and `outside` are triangles, each with the number of its pair.
-    """
-
-    face: Int[np.ndarray, " pairs"]
-    inside: Float[np.ndarray, "m 3 k"]
-    inside_owner: Int[np.ndarray, " m"]
-    outside: Float[np.ndarray, "n 3 k"]
-    outside_owner: Int[np.ndarray, " n"]
-
-
-def _cut_by(triangles: np.ndarray, solids: Sequence[ConvexSolid]) -> _Cut:
-    """Returns what each of some solids takes of triangles (rows of corner attributes), and what it leaves."""
-    near = [_touched(triangles[:, :, :3], solid) for solid in solids]
-    face, solid = np.concatenate(near), np.repeat(np.arange(len(solids)), [len(n) for n in near])
-    planes = _padded_planes(solids)
-    inside, owner = triangles[face], np.arange(len(face))
-    kept, kept_owner = [inside[:0]], [owner[:0]]
-    for k in range(planes.shape[1]):
-        inside, owner, outside, outside_owner = split_by_planes(inside, owner, planes[solid[owner], k])
-        kept.append(outside)
-        kept_owner.append(outside_owner)
-    hit = np.unique(owner[_areas(inside) > NOTHING**2])
-    number = np.full(len(face), -1)
-    number[hit] = np.arange(len(hit))
-    owner, outside_owner = number[owner], number[np.concatenate(kept_owner)]
-    outside = np.concatenate(kept)[outside_owner >= 0]
-    return _Cut(face[hit], inside[owner >= 0], owner[owner >= 0], outside, outside_owner[outside_owner >= 0])
-
-
 def _touched(triangles: np.ndarray, solid: ConvexSolid) -> Indices:
     """Returns the numbers of the triangles that a solid may take something of."""
+    require_time()
     number = np.flatnonzero(_meet(triangles, solid.box))
     return number[~_beyond_a_plane(triangles[number], solid.planes)]
-
-
-def _padded_planes(solids: Sequence[ConvexSolid]) -> Float[np.ndarray, "s k 4"]:
-    """Returns the solids' planes, as many of each: what some lack are planes that everything lies within."""
-    planes = np.zeros((len(solids), max(len(solid.planes) for solid in solids), 4))
-    planes[:, :, 3] = np.inf
-    for solid, rows in zip(solids, planes, strict=True):
-        rows[: len(solid.planes)] = solid.planes
-    return planes
 
 
 def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:

@@ -6,6 +6,8 @@ from typing import Literal, final
 from grafu.errors import GraphError
 from grafu.graph.functional_graph import FunctionalGraph
 
+BY_RULE, BY_BOTH = "rule", "network and rule"
+"""`Decision.by`: a rule answers in the network's place, or leans its choice."""
 Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slide"]
 
 
@@ -14,7 +16,9 @@ Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slid
 class Decision:
     """One answer about one part: the choice, its score in 0..1, and the next best choice where there is one.
 
-    `choice` and `runner_up` are words: a label, a node id, a border, sign or signed axis as its code.
+    `choice` and `runner_up` are words: a label, a node id, a border, sign or signed axis as its code. `by` names who
+    answered where that is not the completion's source alone: `rule`, whose scores they are then, or `network and rule`
+    where the network itself prefers the runner-up; the scores are the network's.
 
     Raises:
         GraphError: if a score is not in 0..1.
@@ -26,6 +30,7 @@ class Decision:
     score: float
     runner_up: str = ""
     runner_up_score: float = 0.0
+    by: str = ""
 
     def __post_init__(self) -> None:
         for score in (self.score, self.runner_up_score):
@@ -43,7 +48,7 @@ class RefusedMotion:
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class GraphCompletion:
     """A completed graph and how it came about.
 
@@ -61,6 +66,9 @@ class GraphCompletion:
     added: tuple[str, ...] = ()
     decisions: tuple[Decision, ...] = ()
     refused: tuple[RefusedMotion, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<GraphCompletion by {self.source}: {self.completed!r}, {len(self.added)} nodes added>"
 
     def __post_init__(self) -> None:
         before, after = {n.id for n in self.input.nodes}, {n.id for n in self.completed.nodes}

@@ -31,7 +31,7 @@ class PartNode:
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FunctionalGraph:
     """Nodes in a fixed order (the network's slots) and edges without doubles.
 
@@ -46,6 +46,9 @@ class FunctionalGraph:
     model_id: str
     nodes: tuple[PartNode, ...]
     edges: tuple[Edge, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"<FunctionalGraph {self.model_id}: {len(self.nodes)} nodes, {len(self.edges)} edges>"
 
     def __post_init__(self) -> None:
         _require_unique_ids(self.nodes)

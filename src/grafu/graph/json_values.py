@@ -76,7 +76,7 @@ def read_vector(data: Json, key: str, where: str, shape: tuple[int, ...], defaul
     """
     try:
         values = np.array(data.get(key, default), dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         values = np.array(np.nan)
     fits = values.ndim == len(shape) and all(want in (-1, got) for want, got in zip(shape, values.shape, strict=True))
     if not fits or not np.all(np.isfinite(values)):

@@ -4,14 +4,14 @@ Boxes are regressed, so a motion stays the code that was predicted, to be decode
 was predicted from lies beside the file, its boxes are taken. It matches nothing with an asset.
 """
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
-from grafu.asset.mesh_files import read_bytes
+from grafu.asset.json_files import read_json
 from grafu.asset.options import Limits, LoadOptions
+from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, GraphError, UnreadableAsset
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -82,10 +82,7 @@ def read_prediction(path: Path, options: LoadOptions = LoadOptions()) -> Foreign
 
 
 def _json(path: Path, limits: Limits) -> Any:
-    try:
-        return json.loads(read_bytes(path, limits))
-    except (ValueError, RecursionError):
-        raise UnreadableAsset(f"{path} is not JSON: expected {_EXPECTED}") from None
+    return read_json(path, ModelFiles(path.parent, limits), _EXPECTED)
 
 
 def _given_boxes(path: Path, data: Json, limits: Limits) -> list[Any] | None:

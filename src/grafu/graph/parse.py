@@ -13,6 +13,7 @@ import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_room
 from grafu.geometry.sampling import PointCloud, sample_surfaces
 from grafu.graph.edges import Contact
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -24,14 +25,14 @@ from grafu.graph.touching import counters, touching_pairs
 class ParsingConfig:
     """How contacts are found. Tolerances are shares of the object's largest side (the paper's unit cube).
 
-    `contact` is `mesh` (boxes, then the distance of the meshes) or `box` (the paper's rule alone). `points` is the
-    number of surface points kept on each node (the network's; 0: none), drawn with `seed`.
+    `contact` is `mesh` (boxes, then the distance of the meshes), `box` (the paper's rule alone) or `none`. `points` is
+    the number of surface points kept on each node (the network's; 0: none), drawn with `seed`.
 
     Raises:
         ValueError: if a number is negative.
     """
 
-    contact: Literal["mesh", "box"] = "mesh"
+    contact: Literal["mesh", "box", "none"] = "mesh"
     box_tolerance: float = 0.005  # the authors' number
     mesh_tolerance: float = 0.005  # the same, so that the meshes only take contacts away
     points: int = 0
@@ -42,9 +43,15 @@ class ParsingConfig:
             raise ValueError("the tolerances and `points` of a ParsingConfig must not be negative")
 
 
+_LOOKED_AT = 200  # bytes of a pair that is looked at: its numbers and the corners of two boxes
+_JOINED = 800  # bytes of a pair that is found, until it is an edge of a graph
+
+
 def parse_graph(asset: Asset, config: ParsingConfig = ParsingConfig()) -> FunctionalGraph:
     """Returns the asset's parts as nodes, in order, and a contact between each two that touch."""
     nodes = _nodes(asset.parts, config)
+    if config.contact == "none":
+        return FunctionalGraph(asset.name, nodes, ())
     pairs = near_pairs([n.box for n in nodes], config.box_tolerance * asset.unit)
     if config.contact == "mesh":
         pairs = touching_pairs([part.mesh for part in asset.parts], pairs, config.mesh_tolerance * asset.unit)
@@ -56,6 +63,9 @@ def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
     """Returns the index pairs (i < j, in order) of boxes whose gap is at most `margin` metres along every axis.
 
     Boxes are swept along X, so that time grows with the number of pairs that are near along it, not with all.
+
+    Raises:
+        TooComplex: if so many boxes overlap that their pairs do not fit into the budget.
     """
     if len(boxes) < 2:
         return []
@@ -63,10 +73,12 @@ def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
     order = np.argsort(low[:, 0], kind="stable")
     ends = np.searchsorted(low[order, 0], high[order, 0] + margin, side="right")
     counts = np.maximum(ends - np.arange(len(order)) - 1, 0)
+    require_room(int(counts.sum()), _LOOKED_AT, f"looking at the neighbours of {len(boxes):,} parts")
     first = np.repeat(np.arange(len(order)), counts)
     second = first + 1 + counters(counts)
     a, b = order[first], order[second]
     near = np.all(np.maximum(low[a] - high[b], low[b] - high[a]) <= margin, axis=1)
+    require_room(int(near.sum()), _JOINED, f"the contacts of {len(boxes):,} parts")
     found = np.sort(np.stack([a[near], b[near]], axis=1), axis=1)
     return sorted((int(i), int(j)) for i, j in found)
 

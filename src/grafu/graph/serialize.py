@@ -14,7 +14,7 @@ The form is a superset of the authors' (official.md 2), so that their tools read
       src, dst, kind, connector as the authors'; src is the parent, dst the child of a directed edge
       hinge: hinge_border_4, hinge_axis_sign, hinge_border, hinge_axis_signed; rail: rail_axis_signed
     completion   only in a completed graph
-      source, added [id], decisions [{part, question, choice, score, runner_up, runner_up_score}],
+      source, added [id], decisions [{part, question, choice, score, runner_up, runner_up_score, by}],
       refused [{part, why}], input {a graph of the same form}
 
 Readers ignore keys that they do not know, and refuse another schema.
@@ -35,6 +35,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.json_values import Json, read_code, read_list, read_object, read_score, read_text, read_vector
 from grafu.graph.official_labels import node_to_material
 from grafu.graph.official_motion import motion_fields
+from grafu.visible import writable
 from grafu.vocabulary import EdgeKind, PartLabel
 
 SCHEMA = "grafu.graph/1"
@@ -64,8 +65,8 @@ def completion_to_json(completion: GraphCompletion) -> dict[str, Any]:
 
 
 def dump_json(data: Json) -> str:
-    """Returns the text of a graph's or completion's dict; numbers keep every digit."""
-    return json.dumps(data, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+    """Returns the text of a graph's or completion's dict; numbers keep every digit, surrogates are escapes."""
+    return writable(json.dumps(data, indent=1, allow_nan=False, ensure_ascii=False)) + "\n"
 
 
 def load_json(text: str) -> Json:
@@ -78,6 +79,8 @@ def load_json(text: str) -> Json:
         return read_object(json.loads(text), "a graph file")
     except json.JSONDecodeError as error:
         raise GraphError(f"a graph file must be JSON: {error.msg} in line {error.lineno}") from error
+    except (ValueError, RecursionError):  # a number of very many digits, or brackets without end
+        raise GraphError("a graph file must be JSON of usual depth and numbers: export it again") from None
 
 
 def graph_from_json(data: Json) -> FunctionalGraph:
@@ -190,6 +193,7 @@ def _decision_from_json(data: Json) -> Decision:
         read_score(data, "score", "a decision"),
         read_text(data, "runner_up", "a decision", ""),
         read_score(data, "runner_up_score", "a decision"),
+        read_text(data, "by", "a decision", ""),
     )
 
 

@@ -79,6 +79,8 @@ def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, s
 def _edges(old: Sequence[Part], new: Sequence[Part], unit: float, parsing: ParsingConfig) -> list[Edge]:
     """Returns what new parts touch, and where handles are attached."""
     parts = [*old, *new]
+    if parsing.contact == "none":
+        return [Attached(p.rides_on, p.id) for p in new if p.rides_on and p.label is PartLabel.HANDLE]
     pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * unit) if b >= len(old)]
     if parsing.contact == "mesh":
         pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * unit)

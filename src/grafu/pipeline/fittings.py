@@ -7,6 +7,7 @@ from typing import final
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Vec3
+from grafu.geometry.intersection import forget_large_shapes
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.front_choices import fit_fronts, without_replaced
@@ -43,6 +44,11 @@ class Fittings:
     removed: frozenset[str] = frozenset()
     unfurnished: Scene | None = None
 
+    def afresh(self) -> "Fittings":
+        """Returns the same with scenes that hold nothing but what they are made of."""
+        before = None if self.unfurnished is None else self.unfurnished.afresh()
+        return replace(self, scene=self.scene.afresh(), unfurnished=before)
+
 
 def add_fittings(
     scene: Scene, completion: GraphCompletion, config: AdditionConfig, own: Mapping[str, HandleTemplate]
@@ -68,7 +74,8 @@ def add_fittings(
     panels = tuple(addition for addition in inside.additions if addition.part.id not in config.rejected)
     scene = replace(fronts.scene, parts={**fronts.scene.parts, **{panel.part.id: panel.part for panel in panels}})
     additions = (*kept, *fronts.additions, *panels)
-    return Fittings(scene, additions, (*carved, *fronts.carved), grasps, tuple(skipped), removed, fronts.scene)
+    forget_large_shapes()
+    return Fittings(scene, additions, (*carved, *fronts.carved), grasps, tuple(skipped), removed, fronts.scene).afresh()
 
 
 def _accepted(handles: Handles, config: AdditionConfig) -> tuple[Scene, tuple[Addition, ...]]:

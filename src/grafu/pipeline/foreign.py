@@ -3,19 +3,20 @@
 What a file is, is told by its content; `grafu.asset.foreign.attach.attach_motions` lays it over an asset.
 """
 
-import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+from grafu.asset.folders import files_below, is_within
 from grafu.asset.foreign.motions import ForeignMotions, ForeignSource
 from grafu.asset.foreign.particulate import read_particulate
 from grafu.asset.foreign.robot import read_robot
 from grafu.asset.foreign.singapo import TREES, read_singapo
-from grafu.asset.mesh_files import read_bytes
+from grafu.asset.json_files import parse_json
 from grafu.asset.options import Limits
 from grafu.asset.partnet_mobility import is_partnet_mobility
+from grafu.asset.resources import read_bytes
 from grafu.errors import UnreadableAsset
 from grafu.graph.official_prediction import SUFFIX, is_prediction, read_prediction
 from grafu.pipeline.motion_source import MotionChoice
@@ -58,6 +59,8 @@ def read_foreign(path: Path, source: ForeignSource | None = None) -> ForeignMoti
         state = "is no prediction that is read" if path.exists() else "does not exist"
         raise UnreadableAsset(f"{path} {state}: expected {_expected(source)}")
     kind, place = found
+    if path.is_dir() and not is_within(place, path):
+        raise UnreadableAsset(f"{place} leads out of {path}: expected {_expected(source)} in the folder itself")
     # Whose a robot description is, its content does not always say.
     if source is not None and kind != source and kind != "urdf":
         raise UnreadableAsset(f"{path} is of the kind {kind}, not {source}: expected {_expected(source)}")
@@ -106,7 +109,7 @@ def _in_folder(folder: Path) -> tuple[str, Path] | None:
         return "grafu-pred", predicted[0]
     if is_partnet_mobility(folder):
         return "urdf", folder
-    robots = sorted(folder.glob("*.urdf")) or sorted(folder.glob("*/*.urdf"))
+    robots = files_below(folder, (".urdf",))
     return ("urdf", robots[0]) if len(robots) == 1 else None
 
 
@@ -122,12 +125,7 @@ def _of_file(path: Path) -> tuple[str, Path] | None:
 
 
 def _of_json(data: bytes, path: Path) -> tuple[str, Path] | None:
-    try:
-        decoded = json.loads(data)
-    except (ValueError, RecursionError):
-        raise UnreadableAsset(
-            f"{path} is not JSON: expected {_EXPECTED['singapo']}; {_EXPECTED['grafu-pred']}"
-        ) from None
+    decoded = parse_json(data, path, f"{_EXPECTED['singapo']}; {_EXPECTED['grafu-pred']}")
     if isinstance(decoded, dict) and any(key in decoded for key in TREES):
         return "singapo", path
     return ("grafu-pred", path) if is_prediction(decoded) else None

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from time import perf_counter
+from pathlib import Path
 from typing import TypeVar, final
 
 from grafu.articulation.articulated_object import ArticulatedObject
@@ -13,6 +13,7 @@ from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
+from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
@@ -24,6 +25,8 @@ from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
 from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_movers
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
+from grafu.pipeline.simpler import bare_body, bare_fittings, by_contacts, without_joints, without_network
+from grafu.pipeline.stages import Stages
 from grafu.realization.addition import Addition
 from grafu.realization.config import RealizationConfig
 from grafu.realization.joint_choice import with_choices
@@ -56,16 +59,20 @@ class PipelineConfig:
     """By the id of a part, how it moves, or that it does not, whatever the motion source says."""
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     """By the id of a moving part, what is decided about its joint."""
+    weights: Path | None = None
+    """A file of trained weights (ONNX) for the network; None: those that came with the package."""
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Functionalized:
     """Everything that came of one asset.
 
-    `asset` is the input, `source` the motion source that was used (never `auto`). `completion` is the graph as it was
-    built, additions included. `body` and `fittings` say what was missing and what was added. `timings` are seconds per
-    stage, in order.
+    `asset` is the input as the motion source saw it, `source` that source (never `auto`). `completion` is the graph as
+    it was built, additions included. `body` and `fittings` say what was missing and what was added. `timings` are
+    seconds per stage, in order. `notes` say what was done in a simpler way, or left out, because the budget did not
+    hold it. `stated_joints` counts the joints that the input states, whether they were read or not.
+    `decided` are the parts of which somebody said how they move, or that they do not.
     """
 
     asset: Asset
@@ -77,6 +84,17 @@ class Functionalized:
     body: Body
     fittings: Fittings
     timings: tuple[tuple[str, float], ...] = ()
+    notes: tuple[str, ...] = ()
+    stated_joints: int = 0
+    decided: frozenset[str] = frozenset()
+
+    @property
+    def unused_joints(self) -> int:
+        """How many of the joints that the input states were not read, because another source stated the motions."""
+        return 0 if self.source is MotionSource.ANNOTATION else self.stated_joints
+
+    def __repr__(self) -> str:
+        return f"<Functionalized {self.asset.name}: {len(self.object.joints)} joints, {len(self.additions)} added>"
 
     @property
     def additions(self) -> tuple[Addition, ...]:
@@ -95,7 +113,7 @@ class Motion:
     """How one source of motions completes a graph and plans what to build.
 
     `answers` says whether it can do so for an asset. Where `reads_annotation` is false the source is given the parts
-    alone, so that the joints and riders which the input states cannot show.
+    alone, as they are read without joints, so that what the input states of its motions cannot show.
     """
 
     complete: Callable[[Asset, FunctionalGraph], GraphCompletion]
@@ -110,7 +128,7 @@ def _plan_completion(asset: Asset, completion: GraphCompletion) -> RealizationPl
 
 MOTIONS: dict[MotionSource, Motion] = {
     MotionSource.ANNOTATION: Motion(
-        complete_by_annotation, lambda asset, _: plan_from_annotation(asset), lambda asset: bool(asset.joints)
+        complete_by_annotation, lambda asset, _: plan_from_annotation(asset), lambda asset: bool(asset.stated_joints)
     ),
     MotionSource.NETWORK: Motion(
         complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
@@ -137,52 +155,58 @@ def functionalize(
     config: PipelineConfig = PipelineConfig(),
     on_stage: Callable[[str], None] = _say_nothing,
     kept: Kept = NOTHING_KEPT,
+    budget: Budget = UNLIMITED,
 ) -> Functionalized:
     """Returns the asset as an object that works, and how it came about.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
     that cannot be made to move is no error: the report says which, and why. `on_stage` is told each stage as it begins.
-    What is `kept` of earlier runs is not made again; the result is the same.
+    What is `kept` of earlier runs is not made again; the result is the same. What `budget` does not hold is left out:
+    joints are skipped as too complex, `notes` say what was done in a simpler way. Where it holds all, nothing changes.
 
     Raises:
         OptionError: if what is chosen for a part or joint does not exist.
         WeightsError: if the network is asked for and its weights are not there.
         AssetError: if a prediction is of another object.
         OptionError: if a foreign source is named, but no motions of its are attached to the asset.
+        TooComplex: if the budget does not even hold what cannot be left out.
     """
-    clock = _Clock(on_stage)
+    stages = Stages(on_stage, budget)
+    stated = len(asset.stated_joints)
+    asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
     asset = with_movers(corrected(asset, config.labels), config.motions, config.labels)
     if isinstance(source, ForeignMotions):
         foreign = source
-        asset = clock.timed("match", lambda: attach_motions(asset, foreign))
+        asset = stages.timed("match", lambda: attach_motions(asset, foreign))
         chosen = MotionSource(source.source)
     else:
-        chosen = choose_source(asset, source)
+        chosen = choose_source(asset, source, config.weights)
         _require_attached(asset, chosen)
-    motion = MOTIONS[chosen]
+    motion = _motion(chosen, config.weights)
     if not motion.reads_annotation:
         asset = asset.without_annotation()
-    graph = clock.timed("parse", lambda: kept.value("parse", parse_graph, asset, config.parsing))  # contacts only
-    completion = clock.timed(  # who moves, and how
-        "complete", lambda: kept.value(f"complete by {chosen}", motion.complete, asset, graph)
-    )
+    parse = partial(kept.value, "parse", parse_graph, asset)  # contacts only
+    graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
+    source_name = f"complete by {chosen} of {config.weights}"
+    complete = partial(kept.value, source_name, motion.complete, asset, graph)  # who moves, and how
+    completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, config.motions, asset), config.joints)
-    plan = clock.timed("plan", lambda: kept.value(f"plan by {chosen}", motion.plan, asset, completion))  # initial axes
+    plan = stages.timed("plan", lambda: kept.value(f"plan by {chosen}", motion.plan, asset, completion))  # initial axes
     plan = with_choices(plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery)
-    body = clock.timed(  # top, drawer boxes
-        "body", lambda: kept.value("body", complete_body, asset, completion, plan, config.additions.of_body)
-    )
-    realized = clock.timed(  # joints
-        "realize", lambda: realize(body.plan, body.asset, gallery, config.realization, kept)
-    )
-    fittings = clock.timed(
-        "fittings", lambda: add_fittings(realized.scene, completion, config.additions, config.own_handles)
-    )
+    add = partial(kept.value, "body", complete_body, asset, completion, plan, config.additions.of_body)
+    body = stages.timed("body", add, partial(bare_body, asset, plan))  # top, drawer boxes
+    build = partial(realize, body.plan, body.asset, gallery, config.realization, kept)
+    realized = stages.timed("realize", build, partial(without_joints, body.plan, body.asset))  # joints
+    fit = partial(add_fittings, realized.scene, completion, config.additions, config.own_handles)
+    fittings = stages.timed("fittings", fit, partial(bare_fittings, realized.scene))
+    with budget.in_force():
+        build_graph = partial(as_built, completion, asset, (*body.additions, *fittings.additions))
+        graph_built = by_contacts(config.parsing, build_graph)
     return Functionalized(
         asset,
-        chosen,
+        MotionSource(completion.source) if stages.gave_up("complete") else chosen,
         without_removed(
-            as_built(completion, asset, (*body.additions, *fittings.additions), config.parsing),
+            graph_built,
             body.removed | fittings.removed,
             [addition.part.id for addition in body.additions if addition.part.label is PartLabel.TOP_PANEL],
         ),
@@ -191,7 +215,10 @@ def functionalize(
         realized.report,
         body,
         fittings,
-        tuple(clock.laps),
+        tuple(stages.laps),
+        tuple(stages.notes),
+        stated,
+        frozenset(config.motions),
     )
 
 
@@ -208,11 +235,26 @@ def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
     return replace(asset, parts=tuple(parts)) if labels else asset
 
 
-def choose_source(asset: Asset, source: MotionSource) -> MotionSource:
-    """Returns the source to use; `auto` is the first of `AUTO_ORDER` that can answer for the asset."""
+def choose_source(asset: Asset, source: MotionSource, weights: Path | None = None) -> MotionSource:
+    """Returns the source to use; `auto` is the first of `AUTO_ORDER` that can answer, or the network of `weights`.
+
+    Raises:
+        OptionError: if there are weights for a source that is not the network.
+    """
+    if weights is not None and source not in (MotionSource.AUTO, MotionSource.NETWORK):
+        raise OptionError(f"weights are for the motion source network: got {source}")
     if source is not MotionSource.AUTO:
         return source
+    if weights is not None:
+        return MotionSource.NETWORK
     return next(candidate for candidate in AUTO_ORDER if MOTIONS[candidate].answers(asset))
+
+
+def _motion(source: MotionSource, weights: Path | None) -> Motion:
+    """Returns the row of `MOTIONS`; with `weights` the network is that of the file."""
+    if weights is None:
+        return MOTIONS[source]
+    return replace(MOTIONS[source], complete=partial(complete_by_weights, weights=weights))
 
 
 def _require_attached(asset: Asset, source: MotionSource) -> None:
@@ -220,18 +262,3 @@ def _require_attached(asset: Asset, source: MotionSource) -> None:
         raise OptionError(
             f"motions of {source} must be attached first: {asset.name} has none; give what `read_foreign` returns"
         )
-
-
-class _Clock:
-    """Seconds per stage, in order."""
-
-    def __init__(self, on_stage: Callable[[str], None]) -> None:
-        self.laps: list[tuple[str, float]] = []
-        self._on_stage = on_stage
-
-    def timed(self, name: str, stage: Callable[[], T]) -> T:
-        self._on_stage(name)
-        started = perf_counter()
-        result = stage()
-        self.laps.append((name, perf_counter() - started))
-        return result

@@ -36,9 +36,9 @@ class InspectedPart(ReportRecord):
 
 
 class StatedJoint(ReportRecord):
-    """A joint that the input itself states."""
+    """A joint that the input itself states; it is read by `--motion annotation` alone."""
 
-    part: str = Field(description="the moving part")
+    part: str = Field(description="the moving part: its id with `--motion annotation`, where its pieces are one part")
     type: JointType = Field(description="revolute or prismatic")
     axis: AxisRecord = Field(description="the axis as stated, in the output's frame")
     lower: FiniteFloat | None = Field(description="the lower limit as stated, radians or metres; null: none stated")
@@ -66,7 +66,7 @@ def inspect(asset: Asset, graph: FunctionalGraph) -> Inspection:
         size=vector(asset.box.size),
         parts=tuple(_part(part) for part in asset.parts),
         contacts=tuple((contact.a, contact.b) for contact in graph.contacts),
-        joints=tuple(_joint(joint) for joint in asset.joints),
+        joints=tuple(_joint(joint) for joint in asset.stated_joints),
         deficiencies=tuple(deficiency_record(lack) for lack in find_deficiencies(asset, graph)),
     )
 

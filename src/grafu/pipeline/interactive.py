@@ -24,6 +24,7 @@ from grafu.pipeline.settings import settings_from_json
 from grafu.realization.interior.turned import compartments_of
 from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.templates.gallery import builtin_gallery
+from grafu.visible import visible
 
 
 def run(source: Path, settings_file: Path, folder: Path, kept: Kept = NOTHING_KEPT) -> Functionalized:
@@ -71,5 +72,5 @@ if __name__ == "__main__":
     try:
         run(Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]))
     except FunctionalizationError as error:
-        print("error", " ".join(str(error).split()), flush=True)
+        print("error", visible(" ".join(str(error).split())), flush=True)
         sys.exit(2)

@@ -51,3 +51,18 @@ class MotionChoice:
             raise OptionError(f"motions of {self.source} are read from a file, which must be named: {self.source}:FILE")
         if self.path is not None and not self.source.is_foreign:
             raise OptionError(f"the motion source {self.source} reads no file: got {self.path}")
+
+
+def parse_motion(text: str) -> MotionChoice:
+    """Returns the choice that `SOURCE` or, for another system's file, `SOURCE:FILE` states.
+
+    Raises:
+        OptionError: if there is no such source, or a file is missing or one too many.
+    """
+    word, _, file = text.partition(":")
+    sources = {source.value: source for source in MotionSource}
+    source = sources.get(word.strip().lower())
+    if source is None:
+        words = [f"{word}:FILE" if each.is_foreign else word for word, each in sources.items()]
+        raise OptionError(f"must be one of {', '.join(words)}: got {text!r}")
+    return MotionChoice(source, Path(file) if file else None)

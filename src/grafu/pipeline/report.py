@@ -1,13 +1,15 @@
 """From what a run made to its report: what was read, assumed, missing, built, added and skipped. It writes no file."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 from grafu.articulation.articulated_object import Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.pipeline.certainty import guesses_of
 from grafu.pipeline.deficiencies import Findings, find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
+from grafu.pipeline.move_options import move_options
 from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
 from grafu.pipeline.report_schema import (
     AddedRecord,
@@ -19,6 +21,7 @@ from grafu.pipeline.report_schema import (
     Report,
     SkippedRecord,
 )
+from grafu.pipeline.verdict import verdict_of
 from grafu.realization.report import Installed
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
@@ -35,11 +38,14 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     )
     lacks = find_deficiencies(result.asset, _with_removed(result), findings)
     timings = {**dict(result.timings), **(other_timings or {})}
-    return Report(
+    report = Report(
         version=__version__,
         input=input_record(result.asset, name),
         frame=frame_record(result.asset.frame),
-        motion=MotionRecord(source=result.source),
+        motion=MotionRecord(
+            source=result.source, stated_joints=result.stated_joints, unused_joints=result.unused_joints
+        ),
+        size=vector(result.asset.box.size),
         parts=_part_records(result),
         deficiencies=tuple(deficiency_record(lack) for lack in lacks),
         joints=_joint_records(result),
@@ -48,8 +54,12 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
             SkippedRecord(request=s.request, reason=s.reason, detail=s.detail)
             for s in (*result.report.skipped, *result.body.skipped, *result.fittings.skipped)
         ),
+        notes=result.notes,
+        guesses=guesses_of(result.completion, result.decided),
+        moves=move_options(result),
         timings={stage: round(seconds, 4) for stage, seconds in timings.items()},
     )
+    return report.model_copy(update={"verdict": verdict_of(report)})
 
 
 def _with_removed(result: Functionalized) -> FunctionalGraph:
@@ -79,7 +89,9 @@ def _part_record(part: Part, category: PartLabel, link: str) -> PartRecord:
 def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
     joints = {joint.id: joint for joint in result.object.joints}
     grasps = _grasps(result)
-    return tuple(_joint_record(made, joints[made.joint], grasps[made.moving]) for made in result.report.installed)
+    return tuple(
+        _joint_record(made, joints[made.joint], grasps.get(made.moving, "none")) for made in result.report.installed
+    )
 
 
 def _grasps(result: Functionalized) -> dict[str, Grasp]:
@@ -107,15 +119,13 @@ def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
         rectified_axis=axis_record(made.axis),
         opening=made.opening,
         reference=made.reference,
+        wanted=made.wanted,
         restricted=made.restricted,
         collision_share=made.collision_share,
         largest_gap=made.largest_gap,
         after=joint.after,
         grasp=grasp,
-        clearances=tuple(
-            ClearanceRecord(part=c.part, kind=c.kind, amount=c.amount, share=c.share, why=c.why)
-            for c in made.clearances
-        ),
+        clearances=tuple(ClearanceRecord(**asdict(clearance)) for clearance in made.clearances),
         notes=made.notes,
     )
 

@@ -7,7 +7,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
+from grafu.graph.completion import Question
 from grafu.pipeline.deficiencies import DeficiencyKind
+from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.motion_source import MotionSource
 from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
@@ -93,7 +95,11 @@ class ClearanceRecord(ReportRecord):
     part: str = Field(description="what was cut")
     kind: str = Field(description="joined, closed, trimmed (the moving part), eased, carved (a static part)")
     amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the surface")
-    share: Share = Field(description="the share of the part's surface or volume that went")
+    share: Share = Field(
+        description="what went: carved: the larger of the next two shares; eased: of the volume; trimmed: of a side"
+    )
+    surface_share: Share = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
+    volume_share: Share = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
     why: str = Field(description="what it was in the way of")
 
 
@@ -116,6 +122,10 @@ class JointRecord(ReportRecord):
     rectified_axis: AxisRecord = Field(description="the axis as it was built")
     opening: float = Field(description="the range of the joint")
     reference: float | None = Field(description="the opening that was asked for; null: as far as it goes")
+    wanted: float | None = Field(
+        default=None,
+        description="the opening it should have: as asked for, else as usual, at most what its kind allows",
+    )
     restricted: bool = Field(description="whether the opening is under 70 % of the reference")
     collision_share: Share = Field(description="share of poses in which it still cuts into something")
     largest_gap: float = Field(description="the widest gap between the link and what carries it, over the motion")
@@ -147,6 +157,44 @@ class MotionRecord(ReportRecord):
     """Where the motions came from."""
 
     source: MotionSource = Field(description="annotation, network, rule, particulate, singapo, grafu-pred or urdf")
+    stated_joints: int = Field(default=0, ge=0, description="how many joints the input itself states")
+    unused_joints: int = Field(
+        default=0, ge=0, description="how many of these no one read: another source stated the motions"
+    )
+
+
+class GuessRecord(ReportRecord):
+    """A decision that a motion rests on, by whoever completed the graph; what somebody stated is none."""
+
+    part: str = Field(description="the part")
+    question: Question = Field(
+        description="label: its category; border: the side it turns about; sign, slide: that it opens to"
+    )
+    choice: str = Field(description="the answer: a category, or a side of the piece")
+    score: Share = Field(description="how sure it is")
+    runner_up: str = Field(description="what would have come next, or empty")
+    runner_up_score: Share = Field(description="how sure that would be")
+
+
+class FaultRecord(ReportRecord):
+    """One thing that is amiss."""
+
+    part: str = Field(description="the part, or what was asked for; empty: the object as a whole")
+    kind: FaultKind = Field(description=", ".join(FaultKind))
+    colour: Colour = Field(description="red: it does not work; yellow: it works, with something to look at")
+    why: str = Field(description="why, in words, with its figure")
+    option: str = Field(description="what may set it right, for the same command with --overwrite; or empty")
+
+
+class VerdictRecord(ReportRecord):
+    """What came of the piece: green where all doors and drawers work and nothing was guessed."""
+
+    colour: Colour = Field(description="red, yellow or green: that of the worst line; green: there is none")
+    sentence: str = Field(description="the same in one sentence")
+    lines: tuple[FaultRecord, ...] = Field(description="all that is amiss, red lines first")
+    least_confidence: Share = Field(description="a decision with a lower score is a guess")
+    least_opening: Share = Field(description="a joint that opens by a smaller share of what it should is restricted")
+    most_carved: Share = Field(description="a part of which a larger share was cut away is carved too much")
 
 
 class Report(ReportRecord):
@@ -157,11 +205,24 @@ class Report(ReportRecord):
     input: InputRecord = Field(description="what was read")
     frame: FrameRecord = Field(description="how coordinates were mapped")
     motion: MotionRecord = Field(description="where the motions came from")
+    verdict: VerdictRecord | None = Field(
+        default=None, description="what came of it; null: written by an earlier version"
+    )
+    size: Vector | None = Field(
+        default=None, description="the size of the input, metres; null: written by an earlier version"
+    )
     parts: tuple[PartRecord, ...] = Field(description="every part of the input")
     deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what the input lacked")
     joints: tuple[JointRecord, ...] = Field(description="what moves now")
     added: tuple[AddedRecord, ...] = Field(description="parts that were added")
     skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
+    notes: tuple[str, ...] = Field(
+        default=(), description="what was done in a simpler way, or left out, because the budget did not hold it"
+    )
+    guesses: tuple[GuessRecord, ...] = Field(default=(), description="decisions that motions rest on")
+    moves: dict[str, tuple[str, ...]] = Field(
+        default_factory=dict, description="by part, the options that say how else it moves, the likeliest first"
+    )
     timings: dict[str, float] = Field(description="seconds per stage")
 
     def to_json(self) -> dict[str, object]:

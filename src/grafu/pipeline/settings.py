@@ -6,6 +6,7 @@ The command reads it (`--settings`), the Blender extension keeps it in its scene
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
+from pathlib import Path
 from typing import Any, final
 
 from pydantic import TypeAdapter, ValidationError
@@ -52,8 +53,9 @@ class Reading:
 class Settings:
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
-    `labels` and `motions` go by the ids of parts, `joints` by those of moving parts. A motion source that reads another
-    system's file is no setting: it needs the file.
+    `labels` and `motions` go by the ids of parts, `joints` by those of moving parts. `weights` is a file of trained
+    weights (ONNX) for the network; None: those that came with the package. A motion source that reads another system's
+    file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
@@ -63,6 +65,7 @@ class Settings:
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     additions: AdditionConfig = field(default_factory=AdditionConfig)
+    weights: Path | None = None
 
     def __post_init__(self) -> None:
         if self.motion.is_foreign:
@@ -77,6 +80,7 @@ class Settings:
             labels=self.labels,
             motions=self.motions,
             joints=self.joints,
+            weights=self.weights,
         )
 
     def with_label(self, part: str, label: PartLabel) -> "Settings":

@@ -1,15 +1,14 @@
-"""Which joints of a report need somebody's eye: ok, warning or error, and why. It measures nothing anew."""
+"""Which joints of a report need somebody's eye: ok, warning or error, as its verdict says. It judges nothing."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
-from grafu.pipeline.report_schema import JointRecord, Report, SkippedRecord
+from grafu.pipeline.faults import Colour, FaultKind
+from grafu.pipeline.report_schema import FaultRecord, Report
+from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
 from grafu.realization.report import SkipReason
-from grafu.vocabulary import PartLabel
-
-_GAP = 0.005  # of the unit cube: the paper's threshold beyond which a part has come loose
 
 
 class Level(StrEnum):
@@ -18,6 +17,9 @@ class Level(StrEnum):
     OK = "ok"
     WARNING = "warning"
     ERROR = "error"
+
+
+_LEVELS = {Colour.GREEN: Level.OK, Colour.YELLOW: Level.WARNING, Colour.RED: Level.ERROR}
 
 
 @final
@@ -31,45 +33,26 @@ class JointState:
     why: str = ""
 
 
-def joint_states(report: Report, unit: float = 1.0) -> tuple[JointState, ...]:
-    """Returns the state of every joint that was built, then of those that could not be.
+def joint_states(report: Report) -> tuple[JointState, ...]:
+    """Returns the state of every joint that was built, then of the parts that should move and stand still.
 
-    `unit` is the object's largest side in metres: gaps count against it.
+    What somebody stopped is no fault. Levels are the colours of the report's verdict.
     """
-    built = tuple(_state(joint, unit) for joint in report.joints)
-    known = {part.id: part.category for part in report.parts}
-    failed = (skip for skip in report.skipped if skip.request in known and skip.reason is not SkipReason.NOT_ADDED)
-    missing = {skip.request: _not_built(skip) for skip in failed}
-    silent = (name for name, label in known.items() if PartLabel(label).is_movable)
-    moving = {joint.part for joint in report.joints}
-    still = [
-        JointState(name, "", Level.ERROR, "it has no joint") for name in silent if name not in moving | missing.keys()
-    ]
-    riding = {part.id for part in report.parts if part.link in moving}
-    return (*built, *missing.values(), *(state for state in still if state.part not in riding))
+    lines = [line for line in verdict_of(report).lines if line.kind is not FaultKind.CARVED]
+    joints = {joint.part: joint.id for joint in report.joints}
+    joints |= {part: joints.get(part, "") for part in (*still_fronts(report), *stopped(report))}
+    asked = set(stopped(report))
+    as_asked = {skip.request: skip.detail for skip in report.skipped if skip.request in asked}
+    return tuple(
+        _state(part, joint, [line for line in lines if line.part == part], as_asked.get(part, ""))
+        for part, joint in joints.items()
+    )
 
 
-def _not_built(skip: SkippedRecord) -> JointState:
-    level = Level.OK if skip.reason is SkipReason.REJECTED else Level.ERROR
-    return JointState(skip.request, "", level, f"{skip.reason}: {skip.detail}")
-
-
-def _state(joint: JointRecord, unit: float) -> JointState:
-    wrong = []
-    if joint.collision_share > 0:
-        wrong.append(f"collides in {100 * joint.collision_share:.0f} % of poses")
-    if joint.largest_gap > _GAP * unit:
-        wrong.append(f"comes loose by {1000 * joint.largest_gap:.1f} mm")
-    level = Level.ERROR if wrong else Level.OK
-    minor = []
-    if joint.restricted:
-        minor.append("opens less than 70 % of what was asked for")
-    if joint.grasp == "none":
-        minor.append("nothing to grasp it by")
-    minor += joint.notes
-    if minor and level is Level.OK:
-        level = Level.WARNING
-    return JointState(joint.part, joint.id, level, "; ".join((*wrong, *minor)))
+def _state(part: str, joint: str, lines: list[FaultRecord], otherwise: str) -> JointState:
+    level = max((_LEVELS[line.colour] for line in lines), key=list(Level).index, default=Level.OK)
+    said = "; ".join(f"{line.kind}: {line.why}" for line in lines)
+    return JointState(part, joint, level, said or otherwise)
 
 
 def lost(before: Report, after: Report, besides: Collection[str] = ()) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from threading import Thread
 from grafu.errors import FunctionalizationError
 from grafu.pipeline.interactive import run
 from grafu.realization.kept import Kept
+from grafu.visible import visible
 
 MOST_KEPT = 400
 """Values: some ten changes of a model with twenty joints. Most are scenes that share their meshes."""
@@ -50,7 +51,7 @@ def _lines(folder: Path) -> Iterator[str]:
 
 
 def _say(what: str) -> None:
-    print(what, flush=True)
+    print(visible(what), flush=True)
 
 
 if __name__ == "__main__":

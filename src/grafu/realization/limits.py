@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import Mat4, Scalars
+from grafu.geometry.arrays import Mat4, Scalars, frozen_array
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MovingBody
@@ -37,7 +38,12 @@ class SweepVerdict:
 
 def opening_values(reach: float, poses: int) -> Scalars:
     """Returns joint values from 0 to `reach`, closer together near rest, where parts lie nearest to one another."""
-    return reach * np.linspace(0.0, 1.0, poses) ** _NEAR_REST
+    return reach * _shares(poses)
+
+
+@cache
+def _shares(poses: int) -> Scalars:
+    return frozen_array(np.linspace(0.0, 1.0, poses) ** _NEAR_REST)
 
 
 def swept_box(box: Box, motion: Motion, reach: float, poses: int = 9) -> Box:

@@ -84,6 +84,22 @@ class MotionChoice:
 
 STANDS_STILL = MotionChoice(Moves.NOT)
 
+TURNING_SIDES = ("left", "right", "top", "bottom")
+"""The borders that a part can turn about, as words."""
+
+
+def choice_in_words(word: str) -> MotionChoice:
+    """Returns the choice that one word states: a border of `TURNING_SIDES`, `slides`, or `not`.
+
+    Raises:
+        OptionError: if it is another word.
+    """
+    if word in TURNING_SIDES:
+        return MotionChoice(Moves.TURNS, Side(word))
+    if word not in (Moves.SLIDES.value, Moves.NOT.value):
+        raise OptionError(f"must be one of {', '.join((*TURNING_SIDES, Moves.SLIDES, Moves.NOT))}: got {word!r}")
+    return MotionChoice(Moves(word))
+
 
 def label_of_motion(part: Part, choice: MotionChoice) -> PartLabel:
     """Returns the category of a part that moves so: a board that slides along itself is a door, too."""

@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.articulation.waiting import all_before
+from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.config import RealizationConfig
@@ -38,10 +40,11 @@ class Moving:
 @final
 @dataclass(frozen=True, slots=True)
 class Order:
-    """What one joint waits for, and how far it may open."""
+    """What one joint waits for, how far it may open, and what else is to be said of that."""
 
     after: tuple[str, ...]
     upper: float
+    note: str = ""
 
 
 def order_joints(movings: Sequence[Moving], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
@@ -74,15 +77,33 @@ def stand_aside(
 
     A door that stands in somebody's way however little it opens, down to its `least`, opens as wide as before.
     """
+    ways = _Ways(scene)
     settled = {m.mover: orders[m.mover].upper for m in movings}
     reaches = settled | {m.mover: min(settled[m.mover], m.least) for m in movings}  # of doors to come: what they keep
     for door in movings:
         widest, least = settled[door.mover], reaches[door.mover]
         shares = _SHARES if least < widest else ()
         uppers = (least + share * (widest - least) for share in shares)
-        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, movings, scene, config))
+        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, movings, ways, config))
         reaches[door.mover] = next(found, widest)
     return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
+
+
+@final
+class _Ways:
+    """The boxes around the ways of joints, each worked out once; not a value."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._boxes: dict[tuple[str, float], Box] = {}
+
+    def box(self, moving: Moving, reach: float) -> Box:
+        """Returns the box around a joint's way up to `reach`."""
+        key = moving.mover, reach
+        if key not in self._boxes:
+            require_time()
+            self._boxes[key] = swept_box(self.scene.moving_mesh(moving.mover).box, moving.motion, reach)
+        return self._boxes[key]
 
 
 def _leaves_free(
@@ -90,17 +111,14 @@ def _leaves_free(
     upper: float,
     reaches: Mapping[str, float],
     movings: Sequence[Moving],
-    scene: Scene,
+    ways: _Ways,
     config: RealizationConfig,
 ) -> bool:
     """Whether nobody runs into a door that stands open by `upper`."""
+    scene = ways.scene
     obstacle = _open(door, upper, scene)
     others = [(other, reaches[other.mover]) for other in movings if other is not door]
-    near = [
-        (other, reach)
-        for other, reach in others
-        if in_the_way([obstacle], swept_box(scene.moving_mesh(other.mover).box, other.motion, reach))
-    ]
+    near = [(other, reach) for other, reach in others if in_the_way([obstacle], ways.box(other, reach))]
     return all(_is_free_of(other, reach, obstacle, scene, config) for other, reach in near)
 
 

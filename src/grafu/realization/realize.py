@@ -4,9 +4,9 @@ Doors come first, then drawers, whose rails must respect what the doors already 
 not cost the others theirs.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from functools import partial
 from math import radians
 from time import perf_counter
 from typing import final
@@ -15,31 +15,26 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.asset.part import Asset, Part
-from grafu.geometry.arrays import Mat4
-from grafu.geometry.intersection import MeshCollider
-from grafu.realization.build import Built, build_joint
+from grafu.geometry.budget import within
+from grafu.geometry.intersection import forget_large_shapes
+from grafu.realization.build import Built
+from grafu.realization.build_all import build_fairly, in_order
 from grafu.realization.clearance.make import adopt
 from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
-from grafu.realization.expectation import expected_ways
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.joint_choice import short_of_chosen
 from grafu.realization.kept import NOTHING_KEPT, Kept
-from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
+from grafu.realization.limits import motion_about
+from grafu.realization.measuring import Measured, measure_all
 from grafu.realization.order import Moving, Order, order_joints, stand_aside
-from grafu.realization.placement import Placement
 from grafu.realization.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
 from grafu.realization.scene import Mover, Scene, Way
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
-_GAP_POSES = 5  # hardware slides or turns along itself: a gap, where there is one, opens steadily
-_TOUCHING = 1e-4
-_MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
-
-
-_Outcomes = tuple[list[Built], list[Skipped], Scene]
+_ORDERING = 0.5  # of the time that is left when all joints stand; the rest is for measuring them
 
 
 @final
@@ -65,16 +60,21 @@ def realize(
 ) -> Realized:
     """Returns the asset with every joint of the plan built that can be built; what is `kept` is not built again."""
     started = perf_counter()
-    requests = _in_order(plan.joints)
+    requests = in_order(plan.joints)
     free = tuple(replace(request, choice=AUTOMATIC) for request in requests)
     scene, closed = kept.value("closed", _closed_scene, asset, free, config)
-    built, failed, scene = _build_fairly(requests, scene, gallery, config, kept)
+    built, failed, scene = build_fairly(requests, scene, gallery, config, kept)
     skipped = [*(_refused(refusal) for refusal in plan.refused), *failed]
-    orders = kept.value("order", _orders, tuple(built), scene, config)
-    installed = [_installed(b, orders[b.request.moving], scene, closed, config, kept) for b in built]
-    articulated = _assembled(asset, scene, built, orders)
+    order = partial(kept.value, "order", _orders, tuple(built), scene, config)
+    orders = within(_ORDERING, order, partial(_without_order, built))
+    measured = measure_all(built, orders, scene, config, kept)
+    built, scene = list(measured.built), measured.scene
+    installed = [_installed(b, measured, closed, config) for b in built]
+    skipped += measured.skipped
+    articulated = _assembled(asset, scene, built, measured.orders)
     timings = (("realize", perf_counter() - started),)
-    final = _final_scene(scene, built, orders)
+    final = _final_scene(scene, built, measured.orders).afresh()
+    forget_large_shapes()
     return Realized(articulated, RealizationReport((*installed, *skipped), timings), final)
 
 
@@ -83,7 +83,7 @@ def _refused(refusal: Refusal) -> Skipped:
     return Skipped(refusal.part, reason, refusal.why)
 
 
-def _final_scene(scene: Scene, built: list[Built], orders: dict[str, Order]) -> Scene:
+def _final_scene(scene: Scene, built: Sequence[Built], orders: Mapping[str, Order]) -> Scene:
     """Returns the scene in which only those move that have a joint, each as far as it opens."""
     ids = [b.request.moving for b in built]
     ways = {b.request.moving: _final_way(b, orders[b.request.moving]) for b in built}
@@ -92,52 +92,6 @@ def _final_scene(scene: Scene, built: list[Built], orders: dict[str, Order]) -> 
 
 def _final_way(built: Built, order: Order) -> Way:
     return Way(built.placement.axis, built.request.type, order.upper, after=order.after)
-
-
-def _build_fairly(
-    requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
-) -> _Outcomes:
-    """Returns what came of all requests, each joint keeping out of the expected ways of those built after it.
-
-    Doors for which that left no place are given the way that was asked for, and all is built again; the first try
-    stands unless the second builds more.
-    """
-    ways = kept.value("ways", expected_ways, tuple(requests), scene, config)
-    first = _build_all(requests, replace(scene, ways=ways), gallery, config, kept)
-    left = {skip.request for skip in first[1]}
-    asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
-    if not asked or not first[0]:
-        return first
-    wider = {r.moving: replace(ways[r.moving], axis=r.axis) for r in asked}
-    second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config, kept)
-    return second if len(second[1]) < len(first[1]) else first
-
-
-def _build_all(
-    requests: list[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
-) -> _Outcomes:
-    """Returns the joints built, those that were not, and the scene with all hardware."""
-    built: list[Built] = []
-    skipped: list[Skipped] = []
-    for request in requests:
-        outcome = kept.value("joint", build_joint, request, scene, gallery, config)
-        if isinstance(outcome, Skipped):
-            skipped.append(outcome)
-            scene = replace(scene, ways={name: way for name, way in scene.ways.items() if name != request.moving})
-            continue
-        scene = outcome.scene
-        built.append(outcome)
-    return built, skipped, scene
-
-
-def _in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
-    """Returns one request per part (the first), doors before drawers, riders never on their own."""
-    first: dict[str, JointRequest] = {}
-    for request in joints:
-        first.setdefault(request.moving, request)
-    ridden = {rider for request in first.values() for rider in request.riders}
-    kept = [request for request in first.values() if request.moving not in ridden]
-    return sorted(kept, key=lambda r: r.type is not JointType.REVOLUTE)
 
 
 def _closed_scene(
@@ -179,16 +133,17 @@ def _moving(built: Built) -> Moving:
     return Moving(built.request.moving, motion, placement.upper, least, placement.in_way)
 
 
+def _without_order(built: Sequence[Built], why: str) -> dict[str, Order]:
+    """Returns for each mover that it waits for nobody; a note says that neighbours may meet, and why."""
+    note = f"whether it must wait for its neighbours was not found out: {why}"
+    return {b.request.moving: Order((), b.placement.upper, note) for b in built}
+
+
 def _installed(
-    built: Built,
-    order: Order,
-    scene: Scene,
-    closed: dict[str, tuple[Clearance, ...]],
-    config: RealizationConfig,
-    kept: Kept,
+    built: Built, measured: Measured, closed: dict[str, tuple[Clearance, ...]], config: RealizationConfig
 ) -> Installed:
     request, placement = built.request, built.placement
-    share, gap = _measured(built, order.upper, scene, config, kept)
+    order, (share, gap) = measured.orders[request.moving], measured.figures[request.moving]
     waits = tuple(joint_id(name) for name in order.after)
     return Installed(
         moving=request.moving,
@@ -208,53 +163,13 @@ def _installed(
         largest_gap=gap,
         after=waits,
         clearances=(*closed.get(request.moving, ()), *built.clearances),
-        notes=(*placement.notes, *short_of_chosen(request, placement.template, order.upper)),
+        notes=(*placement.notes, *short_of_chosen(request, placement.template, order.upper), *_note(order)),
+        wanted=built.wanted,
     )
 
 
-def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, kept: Kept) -> tuple[float, float]:
-    """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
-    mover = built.request.moving
-    motion = motion_about(built.placement.axis, built.request.type)
-    near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(mover).box, motion, upper))
-    names = {*scene.movers[mover].members, *(obstacle.id for obstacle in near)}
-    around = replace(
-        scene,
-        parts={name: part for name, part in scene.parts.items() if name in names},
-        movers={mover: scene.movers[mover]},
-        hardware=tuple((mover, visual) for visual in scene.hardware_of(mover)),
-        ways={},
-    )
-    return kept.value("measure", _measure, built.request, built.placement, upper, around, config)
-
-
-def _measure(
-    request: JointRequest, placement: Placement, upper: float, scene: Scene, config: RealizationConfig
-) -> tuple[float, float]:
-    """Returns the same in a scene that holds only what is on the mover's way."""
-    mover = request.moving
-    motion = motion_about(placement.axis, request.type)
-    near = list(scene.static_obstacles)
-    body = scene.moving_body(mover, config.depth * scene.unit, part_axes(scene.parts[mover].mesh))
-    share = sweep(body, motion, upper, near, _MEASURED_POSES).share
-    ends = [MeshCollider(v.mesh) for v in scene.hardware_of(mover)]
-    held = [MeshCollider(v.mesh) for v in placement.static]
-    return share, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
-
-
-def _gap(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:
-    """Returns the distance in metres of the nearest two pieces of hardware, the moving ones posed at T."""
-    for end in ends:
-        end.place(T)
-    nearest = float("inf")
-    pairs = sorted(((one.box_gap(other), k, one, other) for k, (one, other) in enumerate(product(ends, held))))
-    for least, _, one, other in pairs:
-        if least >= nearest:
-            break
-        nearest = min(nearest, one.distance(other))
-        if nearest <= _TOUCHING:
-            break
-    return nearest
+def _note(order: Order) -> tuple[str, ...]:
+    return (order.note,) if order.note else ()
 
 
 def joint_id(moving: str) -> str:
@@ -262,7 +177,7 @@ def joint_id(moving: str) -> str:
     return f"{moving}_joint"
 
 
-def _assembled(asset: Asset, scene: Scene, built: list[Built], orders: dict[str, Order]) -> ArticulatedObject:
+def _assembled(asset: Asset, scene: Scene, built: Sequence[Built], orders: Mapping[str, Order]) -> ArticulatedObject:
     """Returns the tree: one static root, one link per mover; movers without a joint stand with the static body."""
     moving = {b.request.moving: b for b in built}
     at_home = {m for mover in moving for m in scene.movers[mover].members}

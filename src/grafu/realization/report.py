@@ -17,6 +17,7 @@ class SkipReason(StrEnum):
     NO_MOTION = "no motion"  # nobody could say how the part moves
     REJECTED = "rejected"  # somebody decided that the part stands still
     UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (drawers that slide up or down)
+    TOO_COMPLEX = "too complex"  # the work on it would take more time or memory than its share of the budget
     NOT_ADDED = "not added"  # a part that is missing finds no place: a top, a handle, a shelf
 
 
@@ -28,7 +29,8 @@ class Clearance:
     `kind` says how: joined (it lay enclosed in the moving part and moves with it now), closed (it was drawn ajar and
     was moved by `amount`), trimmed (pressed back by up to `amount`, `share` of a side), eased (made smaller all round
     by `amount`, `share` of the volume) or carved (cut out; `amount` is the square root of the surface that went,
-    `share` that of its surface or volume). Lengths are metres, angles radians.
+    `share` the larger of `surface_share`, of what is seen of the part, and `volume_share`, of the volume of its pieces'
+    convex hulls). Lengths are metres, angles radians.
     """
 
     part: str
@@ -36,12 +38,17 @@ class Clearance:
     amount: float
     share: float
     why: str
+    surface_share: float = 0.0
+    volume_share: float = 0.0
 
 
 @final
 @dataclass(frozen=True)
 class Installed:
-    """A joint that was built, with what was measured on it."""
+    """A joint that was built, with what was measured on it.
+
+    `wanted` is the opening that it should have: what was asked for, else what is usual, as far as its kind goes.
+    """
 
     moving: str
     joint: str
@@ -61,6 +68,7 @@ class Installed:
     after: tuple[str, ...] = ()
     clearances: tuple[Clearance, ...] = ()
     notes: tuple[str, ...] = ()
+    wanted: float | None = None
 
 
 @final

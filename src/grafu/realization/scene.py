@@ -4,7 +4,7 @@ A scene is never changed: replacing a part or adding hardware returns a new scen
 on the meshes that stayed the same.
 """
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import final
@@ -72,6 +72,7 @@ class Scene:
     _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
         default_factory=dict, repr=False
     )
+    _way_boxes: dict[str, tuple[TriangleMesh, Way, Box]] = field(default_factory=dict, repr=False)
     _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, MovingBody]] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -96,17 +97,27 @@ class Scene:
 
     def moving_mesh(self, mover_id: str) -> TriangleMesh:
         """Returns the mover with all that rides on it, without hardware, as one mesh."""
-        meshes = tuple(self.parts[member].mesh for member in self.movers[mover_id].members)
-        key = tuple(id(mesh) for mesh in meshes)
-        if key not in self._merged:
-            self._merged[key] = (meshes, merge_meshes(meshes))
-        return self._merged[key][1]
+        return self._as_one(tuple(self.parts[member].mesh for member in self.movers[mover_id].members))
 
     def equipped_mesh(self, mover_id: str) -> TriangleMesh:
         """Returns the mover with all that rides on it and the hardware that it carries so far, as one mesh."""
         hardware = [visual.mesh for visual in self.hardware_of(mover_id)]
         bare = self.moving_mesh(mover_id)
-        return merge_meshes([bare, *hardware]) if hardware else bare
+        return self._as_one((bare, *hardware)) if hardware else bare
+
+    def _as_one(self, meshes: tuple[TriangleMesh, ...]) -> TriangleMesh:
+        """Returns meshes merged into one: the same one whenever it is asked for."""
+        key = tuple(id(mesh) for mesh in meshes)
+        if key not in self._merged:
+            self._merged[key] = (meshes, merge_meshes(meshes))
+        return self._merged[key][1]
+
+    def way_box(self, mover_id: str, mesh: TriangleMesh, way: Way, find: Callable[[], Box]) -> Box:
+        """Returns the box around a mesh's whole way, which `find` works out: once, as long as mesh and way stay."""
+        known = self._way_boxes.get(mover_id)
+        if known is None or known[0] is not mesh or known[1] is not way:
+            known = self._way_boxes[mover_id] = (mesh, way, find())
+        return known[2]
 
     def moving_body(self, mover_id: str, depth: float, axes: Mat3) -> MovingBody:
         """Returns the mover as a body that tells a touch from a penetration deeper than `depth` metres."""
@@ -129,7 +140,18 @@ class Scene:
 
     def hardware_of(self, mover_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a mover."""
-        return tuple(visual for owner, visual in self.hardware if owner == mover_id)
+        return self._hardware_by_owner.get(mover_id, ())
+
+    @cached_property
+    def _hardware_by_owner(self) -> dict[str, tuple[Visual, ...]]:
+        found: dict[str, list[Visual]] = {}
+        for owner, visual in self.hardware:
+            found.setdefault(owner, []).append(visual)
+        return {owner: tuple(visuals) for owner, visuals in found.items()}
+
+    def afresh(self) -> "Scene":
+        """Returns the same scene without what was worked out on its meshes: they take up much room."""
+        return replace(self, _merged={}, _way_boxes={}, _bodies={})
 
     def replaced(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some parts in a new shape."""

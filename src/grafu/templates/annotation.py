@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from grafu.errors import TemplateError
 from grafu.geometry.arrays import Mat4, Vec3, vec3
 from grafu.geometry.transform import from_rotation, transform_points
+from grafu.templates.note_files import read_note
 from grafu.templates.template import SnapPlane
 from grafu.vocabulary import MechanismClass
 
@@ -94,14 +95,12 @@ def read_annotation(path: Path) -> Note:
         TemplateError: if the file cannot be read, is not JSON, or a field is missing, unknown or out of range.
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_note(path)
         return _File.model_validate_json(f'{{"template": {text}\n}}').template
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
         where = ".".join(str(step) for step in first["loc"][2:]) or "the file"
         raise TemplateError(f"{path}: {where}: {first['msg']}; see docs/templates.md") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise TemplateError(f"{path} cannot be read as text ({type(error).__name__}): expected a JSON file") from None
 
 
 def hinge_frame(note: HingeNote) -> Mat4:

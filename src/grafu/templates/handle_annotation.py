@@ -11,6 +11,7 @@ from grafu.errors import TemplateError
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.transform import from_rotation
 from grafu.templates.handle import HandleFamily
+from grafu.templates.note_files import read_note
 
 Triple = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0)]
@@ -41,8 +42,8 @@ class HandleNote(BaseModel):
 def is_handle(path: Path) -> bool:
     """Whether a `template.json` says that it is of a handle; what cannot be read says nothing."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        found = json.loads(read_note(path))
+    except (TemplateError, ValueError, RecursionError):
         return False
     return isinstance(found, dict) and found.get("kind") == "handle"
 
@@ -54,13 +55,11 @@ def read_handle_note(path: Path) -> HandleNote:
         TemplateError: if the file cannot be read, is not JSON, or a field is missing, unknown or out of range.
     """
     try:
-        return HandleNote.model_validate_json(path.read_text(encoding="utf-8"))
+        return HandleNote.model_validate_json(read_note(path))
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
         where = ".".join(str(step) for step in first["loc"]) or "the file"
         raise TemplateError(f"{path}: {where}: {first['msg']}; see docs/templates.md") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise TemplateError(f"{path} cannot be read as text ({type(error).__name__}): expected a JSON file") from None
 
 
 def handle_frame(note: HandleNote) -> Mat4:

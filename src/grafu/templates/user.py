@@ -16,6 +16,7 @@ import numpy as np
 from grafu.asset.gltf import read_gltf, read_surfaces
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
 from grafu.asset.options import Limits, LoadOptions
+from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, TemplateError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, vec3
@@ -97,9 +98,9 @@ def _end_surfaces(folder: Path, end: str) -> tuple[Surface, ...]:
     scenes = sorted(p for p in folder.iterdir() if p.suffix.lower() in _GLTF)
     try:
         if files:
-            surfaces = _file_surfaces(files[0])
+            surfaces = _file_surfaces(files[0], folder)
         elif len(scenes) == 1:
-            parts = read_gltf(scenes[0], LoadOptions(limits=_LIMITS)).parts
+            parts = read_gltf(scenes[0], LoadOptions(), ModelFiles(folder, _LIMITS)).parts
             surfaces = tuple(s for p in parts if p.source.name.lower() == end for s in p.surfaces)
         else:
             surfaces = ()
@@ -111,10 +112,11 @@ def _end_surfaces(folder: Path, end: str) -> tuple[Surface, ...]:
     return surfaces
 
 
-def _file_surfaces(path: Path) -> tuple[Surface, ...]:
+def _file_surfaces(path: Path, folder: Path) -> tuple[Surface, ...]:
+    files = ModelFiles(folder, _LIMITS)
     if path.suffix in _GLTF:
-        return read_surfaces(path, _LIMITS)
-    return read_mesh_file(path, _LIMITS, split=False).surfaces
+        return read_surfaces(path, files)
+    return read_mesh_file(path, files, split=False).surfaces
 
 
 def _hinge_model(

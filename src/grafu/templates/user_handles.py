@@ -12,6 +12,7 @@ import numpy as np
 from grafu.asset.gltf import read_surfaces
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
 from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, TemplateError
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -58,10 +59,11 @@ def _read(folder: Path) -> TriangleMesh:
     found = next((file for file in files if file.is_file()), None)
     if found is None:
         raise TemplateError(f"it lacks its mesh: expected {MESH}.obj, .ply, .stl or .glb")
+    model = ModelFiles(folder, _LIMITS)
     if found.suffix in _GLTF:
-        mesh = merge_meshes([surface.mesh for surface in read_surfaces(found, _LIMITS)])
+        mesh = merge_meshes([surface.mesh for surface in read_surfaces(found, model)])
     else:
-        mesh = merge_meshes([s.mesh for s in read_mesh_file(found, _LIMITS, split=False).surfaces])
+        mesh = merge_meshes([s.mesh for s in read_mesh_file(found, model, split=False).surfaces])
     if not len(mesh.faces):
         raise TemplateError(f"{found.name} has no faces")
     return mesh

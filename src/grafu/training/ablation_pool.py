@@ -11,7 +11,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import final
 
-from grafu.data.stream import interrupts_later
+from grafu.processes.lifetime import end_with_parent, started_by_main_thread
+from grafu.processes.signals import interrupts_later
 from grafu.training.ablation_run import AblationRun, RunEvent, do_run
 from grafu.training.stopping import stop_requests
 from grafu.training.workers import use_threads
@@ -84,7 +85,8 @@ class _Worker:
         context = multiprocessing.get_context("spawn")  # fork would copy locks that native libraries hold
         self.run = run
         self.connection, theirs = context.Pipe(duplex=False)
-        self.process: BaseProcess = context.Process(target=_work, args=(run, threads, theirs), daemon=True)
+        arguments = (run, threads, theirs, started_by_main_thread())
+        self.process: BaseProcess = context.Process(target=_work, args=arguments, daemon=True)
         self.is_done = self._is_stopped = self._has_ended = False
         with interrupts_later():
             self.process.start()
@@ -110,7 +112,8 @@ class _Worker:
         self._is_stopped = True
 
 
-def _work(run: AblationRun, threads: int, connection: Connection) -> None:
+def _work(run: AblationRun, threads: int, connection: Connection, started_by_main_thread: bool) -> None:
+    end_with_parent(started_by_main_thread)
     use_threads(threads)
     try:
         for event in do_run(run):

@@ -121,6 +121,8 @@ def begin_ablation(folder: Path, asked: Mapping[str, str]) -> None:
     path = folder / "ablation.json"
     wanted = {"schema": SCHEMA} | dict(asked)
     if not path.is_file():
+        if others := [name for name in ("table.md", "table.csv") if (folder / name).exists()]:
+            raise ExportError(f"`{folder}` holds `{others[0]}` and no ablation: choose another --out")
         write_whole(json.dumps(wanted, indent=1) + "\n", path)
     elif _read(path) != wanted:
         raise ExportError(f"`{folder}` holds another ablation ({path.name} says which): choose another --out")

@@ -4,6 +4,7 @@ DIR/last.pt    everything that the next step depends on
 DIR/best.pt    the weights that did best in validation, their config and figures
 """
 
+import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -14,7 +15,7 @@ import torch
 from pydantic import TypeAdapter, ValidationError
 from torch import Tensor
 
-from grafu.errors import UnreadableAsset
+from grafu.errors import ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
@@ -98,6 +99,21 @@ def load_progress(progress: Progress, config: TrainingConfig, folder: Path) -> N
 def has_progress(folder: Path) -> bool:
     """Whether a run was begun in a folder."""
     return (folder / LAST).is_file()
+
+
+def require_own(folder: Path, *names: str) -> None:
+    """Makes sure that a run may begin in a folder: files of these names, and weights, are there only of a run of ours.
+
+    Raises:
+        ExportError: if there are some, and no config of ours beside them.
+    """
+    config = folder / "config.json"
+    held = [name for name in (config.name, BEST, *names) if (folder / name).exists()]
+    try:
+        if held:
+            read_config(json.loads(config.read_text(encoding="utf-8")), config)
+    except (OSError, ValueError, UnreadableAsset):
+        raise ExportError(f"`{folder}` holds `{held[0]}` and no run of grafu's: choose another --out") from None
 
 
 def save_best(

@@ -4,11 +4,13 @@ import logging
 from dataclasses import asdict
 
 from grafu.network.export import onnx_bytes
+from grafu.processes.privacy import keep_private
 from grafu.training.checkpoint import BestWeights
 
 
 def exported(best: BestWeights) -> bytes:
     """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
+    keep_private()  # the exporter may look whether ONNX Runtime is there
     before = logging.root.manager.disable
     logging.disable(logging.WARNING)  # torch's exporter tells of packages that it does not need
     try:

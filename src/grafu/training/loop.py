@@ -21,11 +21,11 @@ from grafu.export.whole_file import write_whole
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
 from grafu.training.batching import TrainingBatch
-from grafu.training.checkpoint import Progress, has_progress, load_progress, save_best, save_progress
+from grafu.training.checkpoint import Progress, has_progress, load_progress, require_own, save_best, save_progress
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
 from grafu.training.data import stream_batches
-from grafu.training.logbook import Logbook
+from grafu.training.logbook import STEPS, VALIDATION, Logbook
 from grafu.training.meter import Meter
 from grafu.training.optimiser import Optimiser
 from grafu.training.schedule import rate_at
@@ -109,6 +109,7 @@ def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool)
             raise ExportError(f"`{folder}` holds a run already: choose another --out, or give --resume")
         load_progress(progress, config, folder)
     elif workers.is_first:
+        require_own(folder, STEPS, VALIDATION)
         write_whole(json.dumps(asdict(config), indent=1) + "\n", folder / "config.json")
     workers.share_weights(network)
     return progress

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import final
 
+from grafu.processes.signals import END_REQUESTS
+
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -22,6 +24,7 @@ class StopRequest:
         if self.is_made and number == signal.SIGINT:
             raise KeyboardInterrupt
         self.is_made = True
+        END_REQUESTS.are_made |= number == signal.SIGTERM
 
 
 @contextmanager

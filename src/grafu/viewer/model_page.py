@@ -8,13 +8,16 @@ from grafu.asset.part import Asset
 from grafu.export.graph_picture import draw_graph, drawing_svg
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import Report
-from grafu.viewer.corrections import LEAD, corrections
+from grafu.pipeline.verdict import verdict_of
+from grafu.pipeline.words import opening
+from grafu.viewer.corrections import LEAD
 from grafu.viewer.markup import Html, joined, json_block, tag
 from grafu.viewer.pictures import Stills, stills_row
-from grafu.viewer.report_tables import added_table, joints_table, lacks_table, lines, skipped_table, timing_words
+from grafu.viewer.report_tables import added_table, joints_table, lacks_table, lines, not_built_table, timing_words
 from grafu.viewer.scene_data import scene_data
 from grafu.viewer.shell import section, whole_page
-from grafu.viewer.wording import opening, size_words, verdict
+from grafu.viewer.verdict_view import verdict_view
+from grafu.viewer.wording import size_words, unused_joints
 
 _STYLES = ("page.css", "model.css")
 _SCRIPTS = (
@@ -34,9 +37,9 @@ def model_page(
     """Returns the page of a model: what was read, what came of it, and its report as words, tables and pictures."""
     scene = scene_data(articulated, report)
     body = joined([
-        tag("header", tag("h1", report.input.name), tag("p", verdict(report), class_="verdict"), _facts(asset, report)),
+        tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), _facts(asset, report)),
         tag("main", _stage(articulated), section("Before and after", stills_row(stills, report.input.name)),
-            *_report_sections(report, completion, articulated)),
+            *_report_sections(report, completion)),
         tag("footer", f"grafu {report.version}"),
         json_block("scene", scene.tables),
         tag("script", Html(scene.packed), type="text/plain", id="geometry"),
@@ -50,8 +53,9 @@ def _facts(asset: Asset, report: Report) -> Html:
         size_words(asset.box.size.tolist()),
         f"read as {report.input.kind}",
         f"motions by {report.motion.source}",
+        unused_joints(report),
     )
-    return tag("p", joined(tag("span", fact) for fact in said), class_="facts")
+    return tag("p", joined(tag("span", fact) for fact in said if fact), class_="facts")
 
 
 def _stage(articulated: ArticulatedObject) -> Html:
@@ -94,13 +98,13 @@ def _switch(key: str, word: str, on: bool) -> Html:
     return tag("label", box, " ", word)
 
 
-def _report_sections(report: Report, completion: GraphCompletion, articulated: ArticulatedObject) -> list[Html]:
-    ways = corrections(report, articulated)
+def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
+    ways = {joint.part: report.moves[joint.part] for joint in report.joints if joint.part in report.moves}
     return [
         section("Joints", joints_table(report, completion, ways), lead=LEAD if ways else "", name="joints"),
         section("What was missing", lacks_table(report)),
         section("What was added", added_table(report)),
-        section("What was skipped", skipped_table(report)),
+        section("What was not built", not_built_table(report)),
         section("Functional graph", _graph(completion), _legend(), name="graph"),
         section("How it was read", lines([*report.frame.assumed, *report.input.notes])),
         section("Time", tag("p", timing_words(report))),

@@ -1,17 +1,21 @@
-"""The tables of a model's page, drawn from its report: joints, what was added, skipped, missing. It decides nothing."""
+"""The tables of a model's page, from its report: joints, what was missing, added, not built. It decides nothing."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from grafu.graph.completion import GraphCompletion
+from grafu.pipeline.certainty import certainty_words
+from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
-from grafu.viewer.certainty import certainty_words
+from grafu.pipeline.verdict import stopped, verdict_of
+from grafu.pipeline.words import counted, listed, opening, percent
 from grafu.viewer.corrections import correction_buttons
 from grafu.viewer.markup import Html, joined, tag
-from grafu.viewer.wording import axis_words, counted, listed, moved_words, opening, still_lacking
+from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
 from grafu.vocabulary import JointType
 
+_NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT, FaultKind.NOTHING_MOVES)
 _SHOWN = 6  # ids in a cell; more of them are counted
 _LEAST = 5e-4  # a share that is not written as 0.0 %
 
@@ -43,17 +47,30 @@ def joints_table(
 
 
 def added_table(report: Report) -> Html:
-    """Returns one row per added part."""
-    rows = [(part_button(a.part), a.category, a.why, a.style, a.link) for a in report.added]
+    """Returns what was added, counted as at the top of the page, then one row per joint's hardware and added part."""
+    if not (said := added(report)):
+        return tag("p", "Nothing was added.", class_="none")
+    rows = [
+        (part_button(j.part), _hardware(j), f"carries {j.part} on {j.mount}", f"{j.count} × {j.template}", j.part)
+        for j in report.joints
+    ]
+    rows += [(part_button(a.part), a.category, a.why, a.style, a.link) for a in report.added]
     columns = ("part", "category", "why", "style", "moves with")
-    return plain_rows(columns, rows, "Added parts") if rows else tag("p", "Nothing was added.", class_="none")
+    return joined([tag("p", f"{listed(said)}.", class_="lead"), plain_rows(columns, rows, "Added parts")])
 
 
-def skipped_table(report: Report) -> Html:
-    """Returns one row per request that was not built."""
-    rows = [(s.request, s.reason, s.detail) for s in report.skipped]
-    columns = ("request", "reason", "in words")
-    return plain_rows(columns, rows, "Skipped") if rows else tag("p", "Nothing was skipped.", class_="none")
+def _hardware(joint: JointRecord) -> str:
+    """Returns what a joint runs on, by the same word as it is counted by."""
+    return "hinge" if joint.type is JointType.REVOLUTE else "rail"
+
+
+def not_built_table(report: Report) -> Html:
+    """Returns one row per door or drawer without a joint, request that was not built, and part that was stopped."""
+    rows = [(f.part, f.kind.value, f.why) for f in verdict_of(report).lines if f.kind in _NOT_BUILT]
+    rows += [(part, "as asked", "it was decided that it stands still") for part in stopped(report)]
+    columns = ("part or request", "what", "why")
+    none = "Every door and drawer has its joint, and all else that was asked for was built."
+    return plain_rows(columns, rows, "Not built") if rows else tag("p", none, class_="none")
 
 
 def lacks_table(report: Report) -> Html:
@@ -75,9 +92,8 @@ def part_button(part: str) -> Html:
 
 
 def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ...]:
-    word = "hinge" if joint.type is JointType.REVOLUTE else "rail"
     reach = f"{opening(joint.type, joint.lower)} to {opening(joint.type, joint.upper)}"
-    moves = [tag("span", word, class_=f"kind {joint.type.value}"), reach]
+    moves = [tag("span", _hardware(joint), class_=f"kind {joint.type.value}"), reach]
     return (
         part_button(joint.part),
         lines([*moves, flag("restricted")] if joint.restricted else moves),
@@ -94,7 +110,7 @@ def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ..
 
 
 def _measured(joint: JointRecord) -> list[str]:
-    collision = f"collision {joint.collision_share:.0%}"
+    collision = f"collision {percent(joint.collision_share)}"
     grasp = "no grasp" if joint.grasp == "none" else f"grasp: {joint.grasp}"
     return [
         flag(collision) if joint.collision_share > 0 else collision,
@@ -110,9 +126,15 @@ def _notes(joint: JointRecord) -> list[str]:
 
 def _clearance(cut: ClearanceRecord) -> str:
     """Returns what was taken away: as a depth where material was pressed back, else as a share."""
-    share = f", {cut.share:.1%} of it" if cut.share >= _LEAST else ", a trace"
+    share = f", {_shares(cut)}" if cut.share >= _LEAST else ", a trace"
     amount = {"trimmed": f" by {1000 * cut.amount:.1f} mm", "joined": "", "closed": ""}
     return f"{cut.part} {cut.kind}{amount.get(cut.kind, share)}: {cut.why}"
+
+
+def _shares(cut: ClearanceRecord) -> str:
+    if cut.kind != "carved":
+        return f"{cut.share:.1%} of it"
+    return f"{cut.surface_share:.1%} of its surface and {cut.volume_share:.1%} of its volume"
 
 
 def _ids(parts: Sequence[str]) -> str:

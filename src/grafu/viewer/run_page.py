@@ -6,9 +6,10 @@ It is one file without a network; its links lead to the models' own pages beside
 from urllib.parse import quote
 
 from grafu.viewer.histogram import histogram
+from grafu.viewer.lights import light_of
 from grafu.viewer.markup import Html, joined, tag
 from grafu.viewer.pictures import MIME, THUMBNAIL
-from grafu.viewer.run_table import Cell, Column, Figure, Run, RunRow, RunTable
+from grafu.viewer.run_table import LIGHTS, WORDS, Cell, Column, Figure, Run, RunRow, RunTable
 from grafu.viewer.shell import section, whole_page
 from grafu.viewer.textures import data_uri
 
@@ -60,7 +61,7 @@ def _table(table: RunTable, index: int) -> Html:
 
 def _head(column: Column, index: int, pressed: bool) -> Html:
     button = tag("button", column.name, type="button", data_sort=index, title=column.about or None)
-    side = "text" if column.kind == "text" else "number"
+    side = "text" if column.kind in WORDS else "number"
     return tag("th", button, scope="col", class_=side, aria_sort="ascending" if pressed else None)
 
 
@@ -80,5 +81,8 @@ def _name(row: RunRow) -> Html:
 
 
 def _cell(column: Column, cell: Cell) -> Html:
-    side = "text" if column.kind == "text" else "number"
+    if column.kind == "light":
+        light = str(cell)
+        return tag("td", light_of(light), class_="text", data_value=f"{LIGHTS.index(light)} {light}")
+    side = "text" if column.kind in WORDS else "number"
     return tag("td", column.words(cell), class_=side, data_value="" if cell is None else cell)

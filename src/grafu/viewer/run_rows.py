@@ -1,29 +1,37 @@
 """The reports of a run as the table of its page: one row per input, and the figures of all. It reads no files."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import Final, final
 
-from grafu.pipeline.report_schema import JointRecord, Report
+from grafu.pipeline.faults import Colour, FaultKind
+from grafu.pipeline.report_schema import Report, VerdictRecord
+from grafu.pipeline.verdict import verdict_of
+from grafu.pipeline.words import listed
 from grafu.viewer.run_table import Cell, Column, Figure, Run, RunRow, RunTable
-from grafu.viewer.wording import listed, not_built, still_lacking
+from grafu.viewer.wording import still_lacking
 from grafu.vocabulary import JointType
 
 _COLUMNS = (
     Column("model"),
+    Column("verdict", "light", about="red: something does not work; yellow: it works, with something to look at"),
     Column("to look at"),
     Column("doors", "number", about="joints that turn"),
     Column("drawers", "number", about="joints that slide"),
-    Column("skipped", "number", about="requests that could not be built"),
-    Column("restricted", "number", about="joints that open less than 70 % of what was asked for"),
+    Column("not built", "number", about="doors and drawers without a joint, and other requests that were not built"),
+    Column("restricted", "number", about="joints that open less than 70 % of what they should"),
     Column("collision", "percent", histogram=True, about="the worst joint's share of poses that cut into something"),
     Column("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
     Column("no grasp", "number", about="joints that nobody could take hold of"),
-    Column("added", "number", histogram=True, about="parts that the input did not have"),
+    Column("added", "number", histogram=True, about="parts that the input did not have, hinges and rails left out"),
     Column("seconds", "seconds", histogram=True, about="from reading to writing"),
 )
-# What is worse comes first, whatever the numbers below it are.
-_FAILED, _SKIPPED, _COLLIDES, _RESTRICTED, _NO_GRASP = 1e9, 1e6, 1e4, 1e2, 1.0
+# What is worse comes first: the colour above all, then by how much, whatever the numbers below it are.
+_FAILED, _COLOURS = 1e12, {Colour.RED: 1e9, Colour.YELLOW: 1e7, Colour.GREEN: 0.0}
+_AMISS: Final[dict[FaultKind, float]] = {FaultKind.STILL: 1e4, FaultKind.SHUT: 1e4, FaultKind.LOOSE: 1e4}
+_MINOR, _COLLIDES = 1.0, 1e3
+_ORDER = (Colour.RED, Colour.YELLOW, Colour.GREEN)
 
 
 @final
@@ -48,55 +56,59 @@ def functionalized_run(title: str, entries: Sequence[RunEntry]) -> Run:
 
 def _row(entry: RunEntry) -> RunRow:
     if entry.report is None:
-        unknown: list[Cell] = [None] * (len(_COLUMNS) - 2)
-        return RunRow((entry.name, f"failed: {entry.failure}", *unknown), _FAILED, flagged=True)
-    report, joints = entry.report, entry.report.joints
+        unknown: list[Cell] = [None] * (len(_COLUMNS) - 3)
+        return RunRow((entry.name, "failed", f"failed: {entry.failure}", *unknown), _FAILED, flagged=True)
+    report, verdict = entry.report, verdict_of(entry.report)
+    joints = report.joints
     turning = sum(joint.type is JointType.REVOLUTE for joint in joints)
-    restricted, loose = sum(joint.restricted for joint in joints), sum(joint.grasp == "none" for joint in joints)
-    collision = max((joint.collision_share for joint in joints), default=None)
-    gap = max((1000 * joint.largest_gap for joint in joints), default=None)
-    badness = _SKIPPED * len(not_built(report)) + _COLLIDES * sum(joint.collision_share for joint in joints)
-    badness += _RESTRICTED * restricted + _NO_GRASP * loose
+    amiss = Counter(line.kind for line in verdict.lines)
     cells: tuple[Cell, ...] = (
         entry.name,
-        _to_look_at(report),
+        verdict.colour.value,
+        _to_look_at(report, verdict),
         turning,
         len(joints) - turning,
-        len(not_built(report)),
-        restricted,
-        collision,
-        gap,
-        loose,
+        amiss[FaultKind.STILL] + amiss[FaultKind.NOT_BUILT],
+        amiss[FaultKind.RESTRICTED] + amiss[FaultKind.SHUT],
+        max((joint.collision_share for joint in joints), default=None),
+        max((1000 * joint.largest_gap for joint in joints), default=None),
+        amiss[FaultKind.NO_GRASP],
         len(report.added),
         entry.seconds,
     )
-    return RunRow(cells, badness, entry.link, entry.picture, flagged=badness > 0)
+    return RunRow(cells, _badness(report, verdict), entry.link, entry.picture, flagged=verdict.colour is Colour.RED)
 
 
-def _to_look_at(report: Report) -> str:
-    def named(what: str, joints: list[JointRecord]) -> list[str]:
-        return [f"{what}: {listed(joint.part for joint in joints)}"] if joints else []
+def _badness(report: Report, verdict: VerdictRecord) -> float:
+    amiss = sum(_AMISS.get(line.kind, _MINOR) for line in verdict.lines)
+    return _COLOURS[verdict.colour] + amiss + _COLLIDES * sum(joint.collision_share for joint in report.joints)
 
-    said = [f"skipped {skip.request} ({skip.reason})" for skip in not_built(report)]
-    said += named("collides", [j for j in report.joints if j.collision_share > 0])
-    said += named("restricted", [j for j in report.joints if j.restricted])
-    said += named("no grasp", [j for j in report.joints if j.grasp == "none"])
+
+def _to_look_at(report: Report, verdict: VerdictRecord) -> str:
+    """Returns what is amiss, by kind with the parts of each, and what the piece still lacks."""
+    parts: dict[FaultKind, list[str]] = {}
+    for line in verdict.lines:
+        parts.setdefault(line.kind, []).append(line.part)
+    said = [f"{kind}: {listed(dict.fromkeys(names))}" if any(names) else str(kind) for kind, names in parts.items()]
     lacking = {lack.kind.value for lack in still_lacking(report)} - {"handle", "hinge", "rail", "joint"}
-    said += [f"still without {listed(sorted(lacking))}"] if lacking else []
-    return "; ".join(said) or ("" if report.joints else "nothing moves")
+    return "; ".join([*said, *([f"still without {listed(sorted(lacking))}"] if lacking else [])])
 
 
 def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
     reports = [entry.report for entry in entries if entry.report is not None]
-    failed, joints = len(entries) - len(reports), [joint for report in reports for joint in report.joints]
-    skipped = sum(len(not_built(report)) for report in reports)
-    colliding, restricted = sum(j.collision_share > 0 for j in joints), sum(j.restricted for j in joints)
+    verdicts = [verdict_of(report) for report in reports]
+    colours = Counter(verdict.colour for verdict in verdicts)
+    amiss = Counter(line.kind for verdict in verdicts for line in verdict.lines)
+    failed, joints = len(entries) - len(reports), sum(len(report.joints) for report in reports)
     return [
         Figure(str(len(reports)), "model done" if len(reports) == 1 else "models done"),
         Figure(str(failed), "failed", failed > 0),
-        Figure(str(len(joints)), "joint built" if len(joints) == 1 else "joints built"),
-        Figure(str(skipped), "skipped", skipped > 0),
-        Figure(str(colliding), "joints that collide", colliding > 0),
-        Figure(str(restricted), "joints that are restricted", restricted > 0),
+        *(
+            Figure(str(colours[colour]), colour.value, colour is Colour.RED and colours[colour] > 0)
+            for colour in _ORDER
+        ),
+        Figure(str(joints), "joint built" if joints == 1 else "joints built"),
+        Figure(str(amiss[FaultKind.STILL]), "doors and drawers that stand still", amiss[FaultKind.STILL] > 0),
+        Figure(str(amiss[FaultKind.COLLIDES]), "joints that collide", amiss[FaultKind.COLLIDES] > 0),
         Figure(str(sum(len(report.added) for report in reports)), "parts added"),
     ]

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from typing import Literal, final
 
 Cell = str | int | float | None
-ColumnKind = Literal["text", "number", "percent", "seconds"]
+ColumnKind = Literal["text", "light", "number", "percent", "seconds"]
+WORDS: tuple[ColumnKind, ...] = ("text", "light")
+LIGHTS = ("failed", "red", "yellow", "green")
 
 
 @final
@@ -13,7 +15,7 @@ ColumnKind = Literal["text", "number", "percent", "seconds"]
 class Column:
     """A column: its heading, how its values are written, whether their spread is drawn, and what it means in words.
 
-    A share (0..1) in a column of percents is written as a percentage.
+    A share (0..1) in a column of percents is written as a percentage; a column of lights holds one of `LIGHTS`.
     """
 
     name: str
@@ -22,7 +24,7 @@ class Column:
     about: str = ""
 
     def __post_init__(self) -> None:
-        if self.histogram and self.kind == "text":
+        if self.histogram and self.kind in WORDS:
             raise ValueError(f"`Column.histogram` is for numbers: `{self.name}` is a column of text")
 
     def words(self, value: Cell) -> str:
@@ -73,8 +75,10 @@ class RunTable:
             if len(row.cells) != len(self.columns):
                 raise ValueError(f"`{self.title}` has {len(self.columns)} columns: a row has {len(row.cells)} cells")
             for column, cell in zip(self.columns, row.cells, strict=True):
-                if column.kind != "text" and isinstance(cell, str):
+                if column.kind not in WORDS and isinstance(cell, str):
                     raise ValueError(f"`{column.name}` is a column of numbers: got `{cell}`")
+                if column.kind == "light" and cell not in LIGHTS:
+                    raise ValueError(f"`{column.name}` is a column of {', '.join(LIGHTS)}: got `{cell}`")
 
     @property
     def worst_first(self) -> tuple[RunRow, ...]:

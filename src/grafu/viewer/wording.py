@@ -1,12 +1,13 @@
-"""A report in words: numbers as people read them, one line that says what came of a model. It makes no markup."""
+"""A report in words: what moves, was missing and was added, and axes as people read them. It makes no markup."""
 
 from collections import Counter
 from collections.abc import Iterable
 from math import acos, degrees
 
 from grafu.pipeline.deficiencies import DeficiencyKind
-from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, SkippedRecord, Vector
-from grafu.realization.report import SkipReason
+from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
+from grafu.pipeline.verdict import stopped
+from grafu.pipeline.words import counted, listed
 from grafu.vocabulary import JointType, PartLabel
 
 _MECHANISMS = (DeficiencyKind.HINGE, DeficiencyKind.RAIL, DeficiencyKind.JOINT)
@@ -18,51 +19,32 @@ _ADDED_FOR = {
 _STRAIGHT = 0.9999  # a direction this near to an axis is called by its name
 
 
-def opening(joint_type: JointType, value: float) -> str:
-    """Returns a joint value in the unit that people read: degrees or centimetres."""
-    return f"{degrees(value):.0f}°" if joint_type is JointType.REVOLUTE else f"{value * 100:.1f} cm"
+def facts(report: Report) -> str:
+    """Returns what moves, what was missing, and what was added, in a line; whether it is good the verdict says."""
+    return " ".join([_moves(report), _lacked(report), _added(report), *_stopped(report)])
 
 
-def counted(count: int, what: str) -> str:
-    """Returns `1 hinge`, `2 hinges`."""
-    endings = {"s": what, "lf": f"{what[:-1]}ves", "x": f"{what}es"}
-    plural = next((plural for ending, plural in endings.items() if what.endswith(ending)), f"{what}s")
-    return f"{count} {what if count == 1 else plural}"
+def unused_joints(report: Report) -> str:
+    """Returns in words that the input states joints which nobody read; nothing where there are none."""
+    count = report.motion.unused_joints
+    them = "it" if count == 1 else "them"
+    return f"states {counted(count, 'joint')}; --motion annotation builds {them}" if count else ""
 
 
-def listed(words: Iterable[str]) -> str:
-    """Returns `a`, `a and b`, `a, b and c`."""
-    known = list(words)
-    return " and ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
-
-
-def verdict(report: Report) -> str:
-    """Returns one line: what moves, what was missing, what was added, what was skipped."""
-    return " ".join([_moves(report), _lacked(report), _added(report), _skipped(report)])
-
-
-def added_parts(report: Report) -> list[str]:
-    """Returns how many parts of each category were added; the boards of a drawer's box are one box."""
-    boxes = {added.link for added in report.added if added.style == DeficiencyKind.DRAWER_BOX}
-    kinds = Counter(added.category for added in report.added if added.style != DeficiencyKind.DRAWER_BOX)
-    said = [counted(count, kind.value) for kind, count in kinds.items()]
-    return said + ([counted(len(boxes), DeficiencyKind.DRAWER_BOX.value)] if boxes else [])
+def added(report: Report) -> list[str]:
+    """Returns all that was added, by kind: hinges and rails first, then parts; the boards of a drawer's box are one."""
+    hinges = sum(joint.count for joint in report.joints if joint.type is JointType.REVOLUTE)
+    rails = sum(joint.count for joint in report.joints) - hinges
+    boxes = {part.link for part in report.added if part.style == DeficiencyKind.DRAWER_BOX}
+    kinds = Counter(part.category for part in report.added if part.style != DeficiencyKind.DRAWER_BOX)
+    counts = [(hinges, "hinge"), (rails, "rail"), *((count, kind.value) for kind, count in kinds.items())]
+    return [counted(count, what) for count, what in (*counts, (len(boxes), DeficiencyKind.DRAWER_BOX.value)) if count]
 
 
 def still_lacking(report: Report) -> tuple[DeficiencyRecord, ...]:
     """Returns those of the deficiencies that the result still has; a part that was stopped lacks nothing."""
     still = stopped(report)
     return tuple(lack for lack in report.deficiencies if lack.part not in still and not _mended(lack, report))
-
-
-def not_built(report: Report) -> tuple[SkippedRecord, ...]:
-    """Returns what was asked for and could not be built; what somebody stopped is no fault."""
-    return tuple(skip for skip in report.skipped if skip.reason is not SkipReason.REJECTED)
-
-
-def stopped(report: Report) -> tuple[str, ...]:
-    """Returns the parts that stand still because somebody said so."""
-    return tuple(skip.request for skip in report.skipped if skip.reason is SkipReason.REJECTED)
 
 
 def direction_words(direction: Vector) -> str:
@@ -106,10 +88,7 @@ def _moves(report: Report) -> str:
     said += [f"{sliding} on rails" if turning else f"{counted(sliding, 'part')} on rails"] if sliding else []
     if not said:
         return "Nothing moves."
-    restricted = sum(joint.restricted for joint in report.joints)
-    return f"{listed(said)} {'moves' if turning + sliding == 1 else 'move'}" + (
-        f", {restricted} of them less than asked." if restricted else "."
-    )
+    return f"{listed(said)} {'moves' if turning + sliding == 1 else 'move'}."
 
 
 def _lacked(report: Report) -> str:
@@ -126,17 +105,13 @@ def _lacked_words(kind: DeficiencyKind, count: int) -> str:
 
 
 def _added(report: Report) -> str:
-    hinges = sum(joint.count for joint in report.joints if joint.type is JointType.REVOLUTE)
-    rails = sum(joint.count for joint in report.joints) - hinges
-    said = [counted(count, what) for count, what in ((hinges, "hinge"), (rails, "rail")) if count]
-    said += added_parts(report)
+    said = added(report)
     return f"Added: {listed(said)}." if said else "Nothing was added."
 
 
-def _skipped(report: Report) -> str:
-    failed, still = not_built(report), stopped(report)
-    said = f"Skipped: {listed(skip.request for skip in failed)}." if failed else "Nothing was skipped."
-    return f"{said} As asked, {listed(still)} {'stands' if len(still) == 1 else 'stand'} still." if still else said
+def _stopped(report: Report) -> list[str]:
+    still = stopped(report)
+    return [f"As asked, {listed(still)} {'stands' if len(still) == 1 else 'stand'} still."] if still else []
 
 
 def _mended(lack: DeficiencyRecord, report: Report) -> bool:

@@ -207,10 +207,10 @@ def test_missing_and_foreign_files_are_refused_in_one_line(folder: Path) -> None
     with pytest.raises(UnreadableAsset, match=r"pred.obj is missing: expected Particulate's"):
         read_foreign(folder)
     (folder / "eval" / "pred.npz").write_text("no archive")
-    with pytest.raises(UnreadableAsset, match="is no NumPy archive of plain arrays"):
+    with pytest.raises(UnreadableAsset, match="expected a NumPy archive of plain arrays"):
         read_foreign(folder)
     np.savez(folder / "eval" / "pred.npz", face_part_ids=np.array([{}]))  # what only pickle can say is not loaded
-    with pytest.raises(UnreadableAsset, match="is no NumPy archive of plain arrays"):
+    with pytest.raises(UnreadableAsset, match="expected a NumPy archive of plain arrays"):
         read_foreign(folder)
 
 
@@ -225,7 +225,7 @@ def test_archives_that_cannot_be_unpacked_are_refused_in_one_line(place: int, va
             start = archive.find(header, start + 4)
     path.write_bytes(bytes(archive))
 
-    with pytest.raises(UnreadableAsset, match="is no NumPy archive of plain arrays"):
+    with pytest.raises(UnreadableAsset, match="expected a NumPy archive of plain arrays"):
         read_foreign(folder)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from grafu.asset.foreign import singapo
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.singapo import read_singapo
 from grafu.errors import ExportError, UnreadableAsset
@@ -187,3 +188,20 @@ def test_what_does_not_start_closed_cannot_be_written() -> None:
     joint = replace(OBJECT.joints[0], limits=JointLimits(0.2, 1.0))
     with pytest.raises(ExportError, match="ranges start at 0"):
         export_singapo(replace(OBJECT, joints=(joint, *OBJECT.joints[1:])))
+
+
+def test_a_mesh_that_is_listed_very_often_is_read_once(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def repeat(data: Tree) -> None:
+        for node in data["diffuse_tree"]:
+            node["objs"] = node.get("objs", []) * 1000
+            node["plys"] = node.get("plys", []) * 1000
+
+    whole = [len(part.mesh.faces) for part in read_singapo(path).parts]
+    edit(path, repeat)
+    read: list[Path] = []
+    once = singapo.read_mesh_file
+    monkeypatch.setattr(
+        singapo, "read_mesh_file", lambda file, *args, **how: read.append(file) or once(file, *args, **how)
+    )
+    assert [len(part.mesh.faces) for part in read_singapo(path).parts] == whole
+    assert len(read) == len(set(read)) > 0

@@ -64,6 +64,30 @@ def test_other_folders_are_refused(tmp_path, made):
         FurFunFolder(tmp_path / "nowhere")
 
 
+@pytest.mark.parametrize("name", ["graphs_unfunctional", "graphs_functional", "part_geometries", "splits"])
+def test_a_folder_of_a_release_that_is_a_link_out_is_refused(tmp_path, name):
+    root = put_model(tmp_path / "release")
+    (tmp_path / "outside").mkdir()
+    if (root / name).is_dir():
+        (root / name).rename(tmp_path / "outside" / name)
+    (root / name).symlink_to(tmp_path / "outside")
+    with pytest.raises(UnreadableAsset, match="leads out of the release"):
+        FurFunFolder(root)
+
+
+def test_a_model_of_a_release_that_is_a_link_out_is_passed_over(tmp_path):
+    root, other = put_model(put_model(tmp_path / "release"), "fur_002"), put_model(tmp_path / "other", "fur_003")
+    for name in ("fur_003", "x_input.json", "fur_002/fur_002.json"):
+        link = root / "graphs_unfunctional" / name
+        link.unlink(missing_ok=True)
+        link.symlink_to(other / "graphs_unfunctional" / "fur_003" / ("" if name == "fur_003" else "fur_003.json"))
+    (root / "part_geometries").mkdir()
+    (root / "part_geometries" / "fur_001").symlink_to(other)
+    folder = FurFunFolder(root, points=4)
+    assert folder.models == ("fur_001",)
+    assert "boxes" in " ".join(folder.model("fur_001").notes)
+
+
 def test_empty_and_disconnected_graphs_are_skipped_with_a_note(tmp_path):
     apart = functional("fur_072")
     apart["edges"] = apart["edges"][:2]

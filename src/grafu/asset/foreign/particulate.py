@@ -13,10 +13,12 @@ from typing import Final
 
 import numpy as np
 
+from grafu.asset.array_files import array_from
+from grafu.asset.damage import library_call
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart, JointFrame
-from grafu.asset.mesh_files import check_faces, read_bytes
 from grafu.asset.obj_parser import parse_obj
-from grafu.asset.options import Limits, LoadOptions
+from grafu.asset.options import LoadOptions
+from grafu.asset.resources import ModelFiles
 from grafu.asset.triangulate import triangulate
 from grafu.errors import AssetError, UnreadableAsset
 from grafu.geometry.arrays import Mat3, Mat4, Vec3
@@ -74,8 +76,9 @@ def read_particulate(path: Path, options: LoadOptions = LoadOptions()) -> Foreig
         UnreadableAsset: if a file is missing or damaged, or the two do not fit together.
         AssetTooLarge: if a file exceeds the limits.
     """
-    arrays = _arrays(path, options.limits)
-    mesh, polygons = _mesh(path.with_name("pred.obj"), options.limits)
+    files = ModelFiles(path, options.limits)
+    arrays = _arrays(path, files)
+    mesh, polygons = _mesh(path.with_name("pred.obj"), files)
     part_of = arrays["face_part_ids"].astype(np.int64)
     if len(part_of) == polygons != len(mesh.faces):
         raise UnreadableAsset(f"{path.with_name('pred.obj')} has faces of more than three corners: triangulate it")
@@ -100,12 +103,15 @@ def read_particulate(path: Path, options: LoadOptions = LoadOptions()) -> Foreig
         raise UnreadableAsset(str(error)) from None
 
 
-def _arrays(path: Path, limits: Limits) -> Arrays:
-    try:
-        with np.load(io.BytesIO(read_bytes(path, limits)), allow_pickle=False) as stored:
-            found = {key: np.asarray(stored[key]) for key in _SHAPES if key in stored}
-    except (ValueError, OSError, EOFError, KeyError, RuntimeError, zipfile.BadZipFile, AttributeError):
-        raise UnreadableAsset(f"{path} is no NumPy archive of plain arrays: expected {_EXPECTED}") from None
+def _arrays(path: Path, files: ModelFiles) -> Arrays:
+    data = files.read(path)
+    archive = f"a NumPy archive of plain arrays, {_EXPECTED}"
+    with library_call(path, archive):
+        stated = _stated_bytes(data)
+    files.tally.add(path, bytes=stated)
+    with library_call(path, archive), zipfile.ZipFile(io.BytesIO(data)) as stored:
+        held = set(stored.namelist())
+        found = {key: array_from(stored.read(f"{key}.npy")) for key in _SHAPES if f"{key}.npy" in held}
     missing = [key for key in _SHAPES if key not in found]
     if missing:
         raise UnreadableAsset(f"{path} lacks `{missing[0]}`: expected {_EXPECTED}")
@@ -142,15 +148,18 @@ def _check_numbers(arrays: Arrays, path: Path) -> None:
             raise UnreadableAsset(f"{path}: `{key}` names parts {ids.min()}..{ids.max()}: there are 0..{count - 1}")
 
 
-def _mesh(path: Path, limits: Limits) -> tuple[TriangleMesh, int]:
+def _stated_bytes(data: bytes) -> int:
+    """Returns how many bytes the arrays in an archive come to: each says so, and more than it says is not unpacked."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return sum(info.file_size for info in archive.infolist())
+
+
+def _mesh(path: Path, files: ModelFiles) -> tuple[TriangleMesh, int]:
     """Returns the mesh with its faces in the file's order, and how many polygons they come from."""
     if not path.is_file():
         raise UnreadableAsset(f"{path} is missing: expected {_EXPECTED}")
-    data = read_bytes(path, limits)
-    check_faces(data.count(b"\nf "), str(path), limits)
-    obj = parse_obj(data, str(path))
+    obj = parse_obj(files.read(path), str(path), files.tally)
     triangles, _ = triangulate(obj.vertices, obj.corners[:, 0], obj.starts)
-    check_faces(len(triangles), str(path), limits)
     if not len(triangles):
         raise UnreadableAsset(f"{path} holds no faces: expected the mesh that Particulate was given")
     return TriangleMesh(obj.vertices, obj.corners[:, 0][triangles]), len(obj.starts) - 1

@@ -4,10 +4,10 @@ import re
 from pathlib import Path
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
-from grafu.asset.mesh_files import read_bytes
 from grafu.asset.options import LoadOptions
-from grafu.asset.part import AnnotatedJoint
+from grafu.asset.part import AnnotatedJoint, Annotation
 from grafu.asset.partnet_mobility import read_partnet_mobility
+from grafu.asset.resources import ModelFiles, read_bytes
 from grafu.asset.urdf import read_urdf
 from grafu.errors import AssetError, UnreadableAsset
 
@@ -23,14 +23,16 @@ def read_robot(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMotio
     Raises:
         UnreadableAsset: if the file is missing or damaged.
     """
-    reading = read_partnet_mobility(path, options) if path.is_dir() else read_urdf(path, options)
-    parts = tuple(ForeignPart(p.id, p.mesh, label=p.label, parent=p.rides_on) for p in reading.parts)
-    joints = tuple(_joint(joint) for joint in reading.joints)
+    files = ModelFiles(path, options.limits)
+    reading = read_partnet_mobility(path, options, files) if path.is_dir() else read_urdf(path, options, files)
+    stated = reading.annotation or Annotation(reading.parts)
+    parts = tuple(ForeignPart(p.id, p.mesh, label=p.label, parent=p.rides_on) for p in stated.parts)
+    joints = tuple(_joint(joint) for joint in stated.joints)
     named = [] if path.is_dir() else _JOINT_NAMES.findall(read_bytes(path, options.limits))
     is_particulate = bool(named) and all(_PARTICULATE.fullmatch(name) for name in named)
     try:
         return ForeignMotions(
-            "particulate" if is_particulate else "urdf", str(path), parts, joints, notes=reading.notes
+            "particulate" if is_particulate else "urdf", str(path), parts, joints, notes=(*reading.notes, *stated.notes)
         )
     except AssetError as error:
         raise UnreadableAsset(str(error)) from None

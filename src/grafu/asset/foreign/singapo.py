@@ -4,7 +4,6 @@ Hinge ranges are degrees from 0, slides lengths from 0; the end may be negative.
 and they lie in its box, they stand for it. It matches nothing.
 """
 
-import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,9 +12,12 @@ from typing import Any, Final
 import numpy as np
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
+from grafu.asset.json_files import read_json
+from grafu.asset.json_shapes import finite, spelled
 from grafu.asset.labels import label_of
-from grafu.asset.mesh_files import read_bytes, read_mesh_file
-from grafu.asset.options import Limits, LoadOptions
+from grafu.asset.mesh_files import read_mesh_file
+from grafu.asset.options import LoadOptions
+from grafu.asset.resources import MISSING, ModelFiles, Sought
 from grafu.errors import AssetError, UnreadableAsset
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.axis import Axis
@@ -27,6 +29,7 @@ TREES: Final = ("diffuse_tree", "arti_tree")
 _TYPES: Final = {"revolute": JointType.REVOLUTE, "continuous": JointType.REVOLUTE, "prismatic": JointType.PRISMATIC}
 _WORDS: Final = {"base": PartLabel.UNKNOWN, "tray": PartLabel.DRAWER, "wheel": PartLabel.MISC}
 _EXPECTED = "SINGAPO's or CAGE's object.json, whose `diffuse_tree` or `arti_tree` lists parts with `aabb` and `joint`"
+_LARGEST = 1e9  # of a coordinate: beyond, a number is none
 _ALIKE = 0.5  # least overlap of a part's meshes with its box: meshes in other coordinates overlap far less
 
 Json = Mapping[str, Any]
@@ -38,7 +41,8 @@ def read_singapo(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMot
     Raises:
         UnreadableAsset: if the file is missing, damaged, or of another form.
     """
-    nodes = _nodes(path, options.limits)
+    files = ModelFiles(path, options.limits)
+    nodes = _nodes(path, files)
     names = _names(nodes, path)
     notes: list[str] = []
     parts, joints = [], []
@@ -48,7 +52,7 @@ def read_singapo(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMot
         if parent is None and node.get("parent", -1) not in (-1, None):
             raise UnreadableAsset(f"{where} hangs on the part {node['parent']!r}, which is not there")
         box = _box(_object(node, "aabb", where), where)
-        mesh = _mesh(node, box, path, options.limits, notes)
+        mesh = _mesh(node, box, path, files, notes)
         word = str(node.get("name", ""))
         label = _WORDS[word] if word in _WORDS else label_of(word)
         parts.append(ForeignPart(names[key], mesh or TriangleMesh.box_mesh(box), mesh is None, label, parent))
@@ -60,15 +64,13 @@ def read_singapo(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMot
         raise UnreadableAsset(str(error)) from None
 
 
-def _nodes(path: Path, limits: Limits) -> dict[str, Json]:
+def _nodes(path: Path, files: ModelFiles) -> dict[str, Json]:
     """Returns the nodes of the tree by id, in order."""
-    try:
-        data = json.loads(read_bytes(path, limits))
-    except (ValueError, RecursionError):
-        raise UnreadableAsset(f"{path} is not JSON: expected {_EXPECTED}") from None
+    data = read_json(path, files, _EXPECTED)
     tree = next((data[key] for key in TREES if key in data), None) if isinstance(data, dict) else None
     if not isinstance(tree, list) or not tree or not all(isinstance(node, dict) for node in tree):
         raise UnreadableAsset(f"{path} lists no parts: expected {_EXPECTED}")
+    files.limits.require("parts", len(tree), path)
     found = {_id(node.get("id", index), f"{path}: part {index}"): node for index, node in enumerate(tree)}
     if len(found) < len(tree):
         raise UnreadableAsset(f"{path}: `id` of parts must be unique: one repeats")
@@ -83,7 +85,7 @@ def _names(nodes: Mapping[str, Json], path: Path) -> dict[str, str]:
 
 def _id(value: Any, where: str) -> str:
     if isinstance(value, bool) or not isinstance(value, int | str):
-        raise UnreadableAsset(f"{where}: `id` and `parent` must be numbers: got {value!r}")
+        raise UnreadableAsset(f"{where}: `id` and `parent` must be numbers: got {spelled(value)}")
     return str(value)
 
 
@@ -97,10 +99,10 @@ def _object(node: Json, key: str, where: str) -> Json:
 def _vector(data: Json, key: str, count: int, where: str) -> Scalars:
     values = data.get(key)
     numbers = isinstance(values, list) and all(
-        isinstance(v, int | float) and not isinstance(v, bool) and abs(v) < 1e12 for v in values
+        (number := finite(v)) is not None and abs(number) < _LARGEST for v in values
     )
     if not isinstance(values, list) or not numbers or len(values) != count:
-        raise UnreadableAsset(f"{where}: `{key}` must be {count} finite numbers: got {str(values)[:60]}")
+        raise UnreadableAsset(f"{where}: `{key}` must be {count} finite numbers: got {spelled(values)}")
     return np.array(values, dtype=np.float64)
 
 
@@ -111,18 +113,20 @@ def _box(aabb: Json, where: str) -> Box:
     return Box.from_center(center, size / 2)
 
 
-def _mesh(node: Json, box: Box, path: Path, limits: Limits, notes: list[str]) -> TriangleMesh | None:
+def _mesh(node: Json, box: Box, path: Path, files: ModelFiles, notes: list[str]) -> TriangleMesh | None:
     """Returns the meshes that a node names, as one, where all can be read and they lie in its box."""
     lists = (node.get(key) for key in ("plys", "objs"))
     listed: list[Any] = next((names for names in lists if isinstance(names, list) and names), [])
     found: list[TriangleMesh] = []
-    for name in listed:
-        file = path.parent / str(name)
-        if not isinstance(name, str) or not file.is_file():
+    for name in {str(name): name for name in listed}.values():  # one that is named twice is there once
+        sought = files.seek(name, path.parent) if isinstance(name, str) else Sought(None, MISSING)
+        if sought.path is None:
+            if sought.why != MISSING:
+                notes.append(f"a part's box stands for its mesh: {name} {sought.why}")
             return None
         try:
-            found += [s.mesh for s in read_mesh_file(file, limits, split=False).surfaces]
-        except AssetError as error:
+            found += [s.mesh for s in read_mesh_file(sought.path, files, split=False).surfaces]
+        except UnreadableAsset as error:
             notes.append(f"a part's box stands for its mesh: {error}")
             return None
     mesh = merge_meshes(found)
@@ -133,6 +137,7 @@ def _mesh(node: Json, box: Box, path: Path, limits: Limits, notes: list[str]) ->
 
 def _joint(part: str, joint: Json, where: str, notes: list[str]) -> ForeignJoint | None:
     kind = joint.get("type")
+    kind = kind if isinstance(kind, str) else spelled(kind)
     if kind == "fixed":
         return None
     if kind not in _TYPES:

@@ -131,9 +131,7 @@ class FurFunFolder:
         return read_split(self.layout.splits, name).only(self.models)
 
     def _point_folder(self, file: GraphFile, model_id: str) -> PointFolder:
-        folders = [self.layout.geometry / name for name in (file.geometry_id, model_id) if Path(name).name == name]
-        folder = next((f for f in folders if f.is_dir()), self.layout.geometry / model_id)
-        return PointFolder(folder, self.points, self.seed)
+        return PointFolder(self.layout.geometry_of(file.geometry_id, model_id), self.points, self.seed)
 
     def _why_skipped(self, model_id: str) -> str:
         reason = why_skipped(load_graph_json(self.layout.inputs[model_id]), whole=False)

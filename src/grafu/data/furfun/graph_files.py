@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import final
 
-from grafu.asset.mesh_files import read_bytes
 from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.points import PointFolder
 from grafu.errors import GraphError, UnreadableAsset
 from grafu.graph.functional_graph import FunctionalGraph
@@ -58,11 +58,18 @@ def load_graph_json(path: Path) -> Json:
         GraphError: if it is not a JSON object.
     """
     try:
-        return load_json(read_bytes(path, _LIMITS).decode())
-    except UnicodeDecodeError:
-        raise UnreadableAsset(f"{path} is no text: expected a graph as JSON in UTF-8") from None
+        return load_json(_text(path, ModelFiles(path.parent, _LIMITS)))
     except GraphError as error:
         raise GraphError(f"{path}: {error}") from error
+
+
+def _text(path: Path, files: ModelFiles) -> str:
+    data = files.read(path)
+    files.limits.require("values", sum(data.count(sign) for sign in (b",", b"[", b"{")), path)
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        raise UnreadableAsset(f"{path} is no text: expected a graph as JSON in UTF-8") from None
 
 
 def with_points(graph: FunctionalGraph, points: PointFolder) -> FunctionalGraph:

@@ -15,6 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, final
 
+from grafu.asset.folders import is_within
 from grafu.errors import UnreadableAsset
 
 LayoutKind = Literal["furfun", "pnm_clean", "hssd_test"]
@@ -34,15 +35,28 @@ class FurFunLayout:
     geometry: Path
     splits: Path
 
+    def geometry_of(self, *names: str) -> Path:
+        """Returns the folder of the point files of a model: of the first name that has one here, else of the last.
+
+        A name that is a path, and a link that leads out of the release, are passed over.
+        """
+        named = [self.geometry / name for name in names if Path(name).name == name]
+        found = (folder for folder in named if folder.is_dir() and is_within(folder, self.geometry))
+        return next(found, self.geometry / names[-1])
+
 
 def find_layout(path: Path) -> FurFunLayout:
     """Returns what lies in the folder of a release.
 
     Raises:
-        UnreadableAsset: if the folder is not laid out in one of the three ways, or holds no graph.
+        UnreadableAsset: if the folder is not laid out in one of the three ways, holds no graph, or a folder in it is a
+            link that leads out.
     """
     if not path.is_dir():
         raise UnreadableAsset(f"{path} is no folder: expected one with `{UNFUNCTIONAL}` in it")
+    for name in (FUNCTIONAL, UNFUNCTIONAL, UNFUNCTIONAL_HSSD, GEOMETRY, SPLITS):
+        if not is_within(path / name, path):
+            raise UnreadableAsset(f"{path / name} leads out of the release: copy it into {path}")
     has_functional, has_plain, has_hssd = ((path / n).is_dir() for n in (FUNCTIONAL, UNFUNCTIONAL, UNFUNCTIONAL_HSSD))
     if not (has_plain or has_hssd):
         raise UnreadableAsset(f"{path} is no FurFun folder: expected `{UNFUNCTIONAL}` or `{UNFUNCTIONAL_HSSD}` in it")
@@ -58,7 +72,7 @@ def _graph_files(folder: Path) -> Mapping[str, Path]:
     """Returns the graph file of each model; names that begin with a dot are leftovers of an archiver."""
     found: dict[str, Path] = {}
     for entry in folder.iterdir():
-        if entry.name.startswith("."):
+        if entry.name.startswith(".") or not is_within(entry, folder):
             continue
         if entry.is_dir():
             file = _graph_file(entry)
@@ -72,7 +86,7 @@ def _graph_files(folder: Path) -> Mapping[str, Path]:
 def _graph_file(folder: Path) -> Path | None:
     """Returns the graph file in a model's folder: the one named after it, else the only one, else None."""
     named = folder / f"{folder.name}.json"
-    if named.is_file():
+    if named.is_file() and is_within(named, folder):
         return named
-    others = [file for file in folder.glob("*.json") if not file.name.startswith(".")]
+    others = [file for file in folder.glob("*.json") if not file.name.startswith(".") and is_within(file, folder)]
     return others[0] if len(others) == 1 else None

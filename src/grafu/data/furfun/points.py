@@ -1,6 +1,5 @@
 """The points on each part of a release: from .npy, else .ply, else from the part's box (official.md 2.3)."""
 
-import io
 from hashlib import blake2b
 from pathlib import Path
 from typing import final
@@ -8,8 +7,10 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.asset.mesh_files import read_bytes
+from grafu.asset.array_files import array_from
+from grafu.asset.damage import library_call
 from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.ply import read_ply
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Points
@@ -54,8 +55,8 @@ class PointFolder:
             return None
         array, ply = self._folder / f"{node_id}.npy", self._folder / f"{node_id}.ply"
         if array.is_file():
-            return read_npy(read_bytes(array, _LIMITS), str(array))
-        return read_ply(read_bytes(ply, _LIMITS), str(ply)) if ply.is_file() else None
+            return read_npy(ModelFiles(self._folder, _LIMITS).read(array), str(array))
+        return read_ply(ModelFiles(self._folder, _LIMITS).read(ply), str(ply)) if ply.is_file() else None
 
 
 def read_npy(data: bytes, where: str) -> Points:
@@ -64,15 +65,10 @@ def read_npy(data: bytes, where: str) -> Points:
     Raises:
         UnreadableAsset: if it is damaged, or not (M, 3) finite numbers.
     """
-    try:
-        values = np.load(io.BytesIO(data), allow_pickle=False)
-    except Exception:  # numpy raises ValueError, EOFError, OSError, SyntaxError and others on damaged files
-        raise UnreadableAsset(f"{where} is damaged or no .npy file: expected points, float32 (M, 3)") from None
-    is_array = isinstance(values, np.ndarray) and values.dtype.kind in "fiu"
-    if not is_array or values.ndim != 2 or values.shape[1] != 3 or not np.all(np.isfinite(values)):
-        raise UnreadableAsset(
-            f"{where} must hold finite points, float32 (M, 3): got {getattr(values, 'shape', values)}"
-        )
+    with library_call(where, "points in a .npy file, float32 (M, 3)"):
+        values = array_from(data)
+    if values.dtype.kind not in "fiu" or values.ndim != 2 or values.shape[1] != 3 or not np.all(np.isfinite(values)):
+        raise UnreadableAsset(f"{where} must hold finite points, float32 (M, 3): got {values.dtype} {values.shape}")
     return values.astype(np.float64)
 
 

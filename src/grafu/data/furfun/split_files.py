@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from grafu.asset.folders import is_within
 from grafu.data.furfun.graph_files import load_graph_json
 from grafu.data.split import Split
 from grafu.errors import AssetError, GraphError
@@ -20,7 +21,7 @@ def read_split(folder: Path, name: str) -> Split:
         GraphError: if it is no JSON object of lists.
     """
     path = folder / f"{name}.json"
-    if Path(name).name != name or not path.is_file():
+    if Path(name).name != name or not path.is_file() or not is_within(path, folder):
         there = ", ".join(sorted(file.stem for file in folder.glob("*.json"))) or "none"
         raise AssetError(f"{folder} holds no split `{name}`: it has {there}")
     data = load_graph_json(path)

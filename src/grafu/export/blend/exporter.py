@@ -4,7 +4,6 @@ import os
 import sys
 from importlib.util import find_spec
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.sweep import opening_stages
@@ -12,6 +11,7 @@ from grafu.errors import ExportError
 from grafu.export.blend.process import blender_process
 from grafu.export.blend.transport import packed
 from grafu.export.files import ExportFiles
+from grafu.processes.scratch import scratch_folder
 
 INTERPRETER_VARIABLE = "GRAFU_BLENDER_PYTHON"
 """Names a Python with `grafu[blender]`, for those whose own Python is one that `bpy` is not made for."""
@@ -27,7 +27,7 @@ def export_blend(articulated: ArticulatedObject) -> ExportFiles:
     """
     interpreter = find_interpreter()
     opening_stages(articulated)
-    with TemporaryDirectory(prefix="grafu_blend_") as folder:
+    with scratch_folder() as folder:
         source, target = Path(folder) / "object.packed", Path(folder) / "model.blend"
         source.write_bytes(packed(articulated))
         blender_process(interpreter).write(source, target, SECONDS)

@@ -4,6 +4,7 @@ It knows nothing of what it is asked to write. Whatever goes wrong ends the proc
 """
 
 import atexit
+import os
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -12,6 +13,7 @@ from threading import Event, Lock, Timer
 from typing import final
 
 from grafu.errors import ExportError
+from grafu.processes.lifetime import started_by_main_thread
 
 ANSWER = b"written\n"
 MODELS = 100  # then a fresh process: Blender keeps some memory of every model
@@ -21,7 +23,8 @@ _SAID = 300  # characters of Blender's own last words
 @cache
 def blender_process(interpreter: str) -> "BlenderProcess":
     """Returns the one process of an interpreter; it starts when it is first asked, and ends with this one."""
-    process = BlenderProcess([interpreter, "-m", "grafu.export.blend.worker"])
+    parent = [str(os.getpid())] if started_by_main_thread() else []
+    process = BlenderProcess([interpreter, "-m", "grafu.export.blend.worker", *parent])
     atexit.register(process.stop)
     return process
 

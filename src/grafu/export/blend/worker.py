@@ -1,7 +1,7 @@
-"""The process that writes `.blend` files, `python -m grafu.export.blend.worker`: one for each line that it is given.
+"""The process that writes `.blend` files, `python -m grafu.export.blend.worker [PARENT]`: one for each line given.
 
 A line is two paths, apart by a tab: an object as `transport` packs it, and where its file goes. It ends with its
-input, and without Blender's own goodbye, which has been seen to hang.
+input, or with the process PARENT, and without Blender's own goodbye, which has been seen to hang.
 """
 
 import os
@@ -14,6 +14,8 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.export.blend.objects import build_object, set_scene
 from grafu.export.blend.process import ANSWER
 from grafu.export.blend.transport import unpacked
+from grafu.processes.lifetime import is_killed_with
+from grafu.visible import visible
 
 
 def write_blend(articulated: ArticulatedObject, path: Path) -> None:
@@ -31,6 +33,8 @@ def write_blend(articulated: ArticulatedObject, path: Path) -> None:
 
 
 def _serve() -> None:
+    if sys.argv[1:]:
+        is_killed_with(int(sys.argv[1]))
     answers = os.dup(sys.stdout.fileno())
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what Blender prints is no answer
     for line in sys.stdin.buffer:
@@ -45,5 +49,5 @@ if __name__ == "__main__":
         _serve()
         code = 0
     except BaseException as error:  # whatever it is, its one line is what the asker can read
-        print(f"{type(error).__name__}: {error}", file=sys.stderr, flush=True)
+        print(visible(f"{type(error).__name__}: {error}"), file=sys.stderr, flush=True)
     os._exit(code)

@@ -3,7 +3,6 @@
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Final
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
@@ -11,6 +10,7 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
 from grafu.export.usd.config import UsdConfig
+from grafu.processes.scratch import scratch_folder
 
 DEFAULT_USD_CONFIG: Final = UsdConfig()
 _ALIGNMENT = 64  # bytes: where the data of every file in a USDZ begins
@@ -28,7 +28,7 @@ def export_usd(articulated: ArticulatedObject, config: UsdConfig = DEFAULT_USD_C
     from grafu.export.usd.stage import build_stage
 
     stage, images = build_stage(articulated, config)
-    with TemporaryDirectory(prefix="grafu_usd_") as folder:
+    with scratch_folder() as folder:
         path = Path(folder) / "model.usdc"
         if not stage.GetRootLayer().Export(str(path)):
             raise ExportError("OpenUSD could not write model.usdc")

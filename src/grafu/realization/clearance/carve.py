@@ -4,18 +4,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-import manifold3d
 import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
-from grafu.geometry.components import connected_parts, part_numbers
+from grafu.geometry.components import part_numbers
 from grafu.geometry.intersection import MeshCollider, MovingBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.geometry.transform import transform_points
+from grafu.realization.clearance.loss import Loss, lost_volume, measured_loss
 from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
 from grafu.realization.limits import opening_values
@@ -38,42 +38,25 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
         clipped = [clip(surface, near) for surface in part.surfaces]
         area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-        share = _lost_share(part, near, area, config.max_carve)
-        if not 0 < share < config.max_carve:
+        if not 0 < _lost_share(part, near, area, config.max_carve) < config.max_carve:
             continue
         surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
-        done.append(Clearance(name, "carved", float(np.sqrt(area)), share, f"stood in the way of {path.mover}"))
+        done.append(_carved(name, area, measured_loss(part, near), path))
     return scene.replaced(carved), done
 
 
-def _lost_share(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:
-    """Returns the share of the part's surface that goes, or of its volume where that is less; `area` is what goes.
+def _carved(name: str, area: float, loss: Loss, path: Path) -> Clearance:
+    why = f"stood in the way of {path.mover}"
+    return Clearance(name, "carved", float(np.sqrt(area)), loss.share, why, loss.surface, loss.volume)
 
-    Volumes are those of the convex hulls of its connected pieces: real parts are rarely closed.
-    """
+
+def _lost_share(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:
+    """Returns the share of the part's surface that goes, or of its volume where that is less; `area` is what goes."""
     if part.mesh.area == 0 or not solids:
         return 0.0
     by_area = area / part.mesh.area
-    return by_area if by_area < limit else min(by_area, _lost_volume(part, solids))
-
-
-def _lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the share of the volume of the pieces' convex hulls that lies in the solids."""
-    whole = lost = 0.0
-    cutter = manifold3d.Manifold.batch_boolean([_manifold(solid) for solid in solids], manifold3d.OpType.Add)
-    for piece in connected_parts(part.mesh):
-        hull = ConvexSolid.around(piece.vertices)
-        if hull is None:
-            continue
-        body = _manifold(hull)
-        whole += body.volume()
-        lost += (body ^ cutter).volume()
-    return lost / whole if whole > 0 else 1.0
-
-
-def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
-    return manifold3d.Manifold(manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32)))
+    return by_area if by_area < limit else min(by_area, lost_volume(part, solids))
 
 
 def _swept_solids(

@@ -83,7 +83,8 @@ def ease(
         lost = float(1.0 - np.prod(np.maximum(size - 2 * play, 0.0) / size))
         if lost < config.max_carve:
             eased.append(_shrunk(part, play))
-            done.append(Clearance(name, "eased", play, lost, f"{path.mover} ran in it without play"))
+            why = f"{path.mover} ran in it without play"
+            done.append(Clearance(name, "eased", play, lost, why, volume_share=lost))
     return scene.replaced(eased), done
 
 

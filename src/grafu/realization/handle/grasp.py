@@ -54,7 +54,7 @@ def find_grasp(
     Raises:
         KeyError: if the scene knows no such mover, or not how it moves.
     """
-    handle = _labelled(scene, mover_id)
+    handle = held_by_label(scene, mover_id)
     return handle or _without_label(scene, mover_id, (reliefs or Reliefs(scene)).of(mover_id), config)
 
 
@@ -64,7 +64,8 @@ def find_grasps(scene: Scene, config: GraspConfig = GraspConfig(), reliefs: Reli
     return {mover: find_grasp(scene, mover, config, reliefs) for mover in scene.movers}
 
 
-def _labelled(scene: Scene, mover_id: str) -> Grasp | None:
+def held_by_label(scene: Scene, mover_id: str) -> Grasp | None:
+    """Returns how a mover is grasped by a part on it that is called a handle; None where there is none."""
     members = (scene.parts[m] for m in scene.movers[mover_id].members if m != mover_id)
     handle = next((part for part in members if part.label is PartLabel.HANDLE), None)
     return None if handle is None else _held_by(handle, mover_id, _LABELLED, "a handle rides on it")

@@ -30,7 +30,7 @@ class Neighbour:
         self.way: Way | None = scene.ways.get(mover_id)
         self.mesh: TriangleMesh = scene.equipped_mesh(mover_id)
         self.at_rest = MeshCollider(self.mesh)
-        self._part, self._depth = scene.parts[mover_id].mesh, depth
+        self._part, self._depth, self._scene = scene.parts[mover_id].mesh, depth, scene
 
     def runs_into(self, *standing: TriangleMesh) -> bool:
         """Whether it cuts into standing meshes, taken together, anywhere on its way."""
@@ -47,7 +47,8 @@ class Neighbour:
     @cached_property
     def _swept(self) -> Box:
         assert self.way is not None
-        return swept_box(self.mesh.box, self._motion, self.way.upper)
+        motion, upper = self._motion, self.way.upper
+        return self._scene.way_box(self.id, self.mesh, self.way, lambda: swept_box(self.mesh.box, motion, upper))
 
     @cached_property
     def _body(self) -> MovingBody:

@@ -1,4 +1,4 @@
-"""The gallery that a call works with: the built-in one, and before it the user's own. It draws nothing."""
+"""The templates that a run can use: the built-in ones and, before them, the user's own. It draws nothing."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,12 +1,19 @@
-"""How sure a motion is, in words: what was decided about a part, and what would have come next. It decides nothing."""
+"""How sure motions are: what was decided about parts, and what would have come next, in words. It decides nothing."""
+
+from collections.abc import Set
 
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import BORDERS, SIGNS, Hinge
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import AXIS_NAMES, border_to_face, opening_face
+from grafu.pipeline.report_schema import GuessRecord
+from grafu.vocabulary import PartLabel
 
 _SIDES = dict(zip(AXIS_NAMES, ("left", "right", "front", "back", "bottom", "top"), strict=True))
 _ASKED = {"border": "pinned", "sign": "opens to the", "slide": "slides to the", "mount": "on", "parent": "carried by"}
+_OF_MOTION = ("border", "sign", "slide")  # what carries a part is measured on the meshes
+_MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
+_STATED = 1.0  # the score of what was not guessed
 _UNHEARD = 0.005  # a runner-up that would be written as 0 %
 
 
@@ -19,6 +26,37 @@ def certainty_words(completion: GraphCompletion, part: str) -> list[str]:
     asked = [d for d in completion.decisions if d.part == part and d.question in _ASKED]
     hinge = next((h for h in completion.completed.hinges if h.child == part), None)
     return [_words(d, completion.completed, hinge) for d in sorted(asked, key=lambda d: order.index(d.question))]
+
+
+def guesses_of(completion: GraphCompletion, stated: Set[str] = frozenset()) -> tuple[GuessRecord, ...]:
+    """Returns the decisions that motions rest on: how parts move, and which are taken for doors and drawers, or nearly.
+
+    What is `stated` of parts is no guess. Sides are seen from the front, as in `certainty_words`.
+    """
+    hinges = {hinge.child: hinge for hinge in completion.completed.hinges}
+    moving = hinges.keys() | {rail.child for rail in completion.completed.rails}
+    return tuple(
+        _guess(decision, completion.completed, hinges.get(decision.part))
+        for decision in completion.decisions
+        if decision.part not in stated and _is_of_motion(decision, moving)
+    )
+
+
+def _is_of_motion(decision: Decision, moving: Set[str]) -> bool:
+    if decision.question == "label":
+        return not _MOVABLE.isdisjoint((decision.choice, decision.runner_up))
+    return decision.question in _OF_MOTION and decision.part in moving and decision.score < _STATED
+
+
+def _guess(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> GuessRecord:
+    return GuessRecord(
+        part=decision.part,
+        question=decision.question,
+        choice=_named(decision, decision.choice, graph, hinge),
+        score=decision.score,
+        runner_up=decision.runner_up and _named(decision, decision.runner_up, graph, hinge),
+        runner_up_score=decision.runner_up_score,
+    )
 
 
 def _words(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> str:

@@ -1,0 +1,18 @@
+"""What a person decides is kept, the rest is found again: a hinge side, a style of handle, a part left out."""
+
+import grafu
+
+result = grafu.functionalize("samples/wardrobe.glb", top="rounded")
+door = next(joint.part for joint in result.joints if joint.type == "revolute")
+
+changed = result.with_hinge(door, side="right", count=3).with_handle(door, "bar-slim")
+for name, each in (("before", result), ("after", changed)):
+    joint = each.joint(door)
+    print(f"{name}: {door} turns about x = {joint.origin[0]:.2f} m on {joint.count} x {joint.template}")
+
+still = changed.with_motion(door, "not")
+print(f"stopped: {[joint.part for joint in still.joints]}")
+
+for added in changed.added:
+    print(f"added: {added.part} ({added.category}, {added.style}), for {added.why}")
+changed.save("results/changed", overwrite=True)

@@ -1,0 +1,171 @@
+"""Judges how doors and drawers of annotated models are said to move, before anything is built: type, side, direction.
+
+    python scripts/judge_motions.py MODELS [--rule] [--copies 4] [--jobs 2] [--json FILE]
+
+MODELS is a folder as `grafu evaluate --data` takes it. Of each model the network (with --rule the carpenters' rules) is
+asked about the parts alone (as the annotation groups them), no joints, in seven ways: as they are, without labels, and
+of copies that lack something. What is drawn is drawn --copies times. A motion is right by the definition of
+`grafu evaluate`: `aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two ways each part that
+is wrong.
+"""
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.completion.rule import complete_by_rule
+from grafu.evaluation.dataset import ModelRef, find_models, load_model
+from grafu.evaluation.masking import masked
+from grafu.evaluation.moving_parts import MovingPart, counted_parts
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.parse import parse_graph
+from grafu.metrics.motion import Motion, compare_motions
+from grafu.pipeline.learned import complete_by_weights
+from grafu.realization.motion_source import plan_from_completion
+from grafu.vocabulary import PartLabel
+
+GONE = 0.25  # of the parts that stand still
+Change = Callable[[Asset, Asset, int], Asset]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Way:
+    """One way in which a model is asked about; `drawn` says whether chance decides what it lacks."""
+
+    name: str
+    change: Change
+    drawn: bool = False
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What was said of one model in one way, all draws together."""
+
+    way: str
+    right: int
+    parts: int
+    wrong: tuple[str, ...]
+
+
+def main() -> int:
+    """Judges, and prints the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("models", type=Path, help="a folder of annotated models")
+    parser.add_argument("--rule", action="store_true", help="judge the carpenters' rules instead")
+    parser.add_argument("--copies", type=int, default=4, help="draws of what is drawn (default: 4; 0 leaves it out)")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--json", type=Path, help="also write the counts there")
+    options = parser.parse_args()
+    refs = find_models(options.models)
+    with ProcessPoolExecutor(options.jobs) as pool:
+        found = []
+        for done, one in enumerate(pool.map(partial(judge, options.rule, options.copies), refs), 1):
+            found += one
+            print(f"  {done}/{len(refs)}", file=sys.stderr, end="\r")
+    print(file=sys.stderr)
+    print(table(found))
+    if options.json:
+        options.json.write_text(json.dumps(counts(found), indent=1), "utf-8")
+    return 0
+
+
+def judge(rule: bool, copies: int, ref: ModelRef) -> list[Found]:
+    """Returns what is said of one model in each way."""
+    asset = load_model(ref)
+    truth = counted_parts(asset)
+    bare = asset.without_annotation()
+    found = []
+    for way in WAYS:
+        draws = range(copies if way.drawn else 1)
+        wrong = [part for draw in draws for part in wrong_parts(rule, way.change(asset, bare, draw), truth)]
+        found.append(Found(way.name, len(truth) * len(draws) - len(wrong), len(truth) * len(draws), tuple(wrong)))
+    return [replace(one, wrong=tuple(f"{ref.id}/{part}" for part in one.wrong)) for one in found]
+
+
+def wrong_parts(rule: bool, asset: Asset, truth: tuple[MovingPart, ...]) -> Iterator[str]:
+    """Yields the parts whose motion is not stated as annotated."""
+    stated = plan_from_completion(complete(rule, asset), asset)
+    true = {part.id: part.motion for part in truth}
+    motions = {r.moving: Motion(r.type, r.axis, true[r.moving].center) for r in stated.joints if r.moving in true}
+    yield from (one.part for one in compare_motions(motions, true) if not one.whole)
+
+
+def complete(rule: bool, asset: Asset) -> GraphCompletion:
+    """Returns the asset's graph as the rules or the shipped weights complete it."""
+    graph = parse_graph(asset)
+    return complete_by_rule(graph) if rule else complete_by_weights(asset, graph)
+
+
+def without_some_still_parts(asset: Asset, bare: Asset, draw: int) -> Asset:
+    """Returns the bare asset without a quarter of what neither moves, rides, nor is a handle."""
+    moving = {part.id for part in counted_parts(asset)} | {joint.part for joint in asset.joints}
+    still = [p.id for p in asset.parts if p.id not in moving and not p.rides_on and p.label is not PartLabel.HANDLE]
+    rng = np.random.default_rng([draw, len(still)])
+    gone = set(rng.choice(still, round(GONE * len(still)), replace=False).tolist()) if still else set()
+    return replace(bare, parts=tuple(p for p in bare.parts if p.id not in gone))
+
+
+def without_handles(_: Asset, bare: Asset, __: int) -> Asset:
+    """Returns the bare asset without its handles."""
+    return replace(bare, parts=tuple(p for p in bare.parts if p.label is not PartLabel.HANDLE))
+
+
+def unlabelled(change: Change) -> Change:
+    """Returns a change after which no part has a label."""
+    return lambda asset, bare, draw: masked(change(asset, bare, draw), 1.0, 0)
+
+
+def as_it_is(_: Asset, bare: Asset, __: int) -> Asset:
+    """Returns the bare asset."""
+    return bare
+
+
+WAYS = (
+    Way("labels given", as_it_is),
+    Way("no labels", unlabelled(as_it_is)),
+    Way("half of the labels", lambda _, bare, draw: masked(bare, 0.5, draw), drawn=True),
+    Way("a quarter of the still parts gone", without_some_still_parts, drawn=True),
+    Way("the same without labels", unlabelled(without_some_still_parts), drawn=True),
+    Way("no handles", without_handles),
+    Way("no handles, no labels", unlabelled(without_handles)),
+)
+
+
+def counts(found: list[Found]) -> dict[str, dict[str, object]]:
+    """Returns for each way how many motions are right, of how many, and which are wrong."""
+    of = {way.name: [one for one in found if one.way == way.name] for way in WAYS}
+    return {
+        name: {
+            "right": sum(one.right for one in ones),
+            "parts": sum(one.parts for one in ones),
+            "wrong": [part for one in ones for part in one.wrong],
+        }
+        for name, ones in of.items()
+    }
+
+
+def table(found: list[Found]) -> str:
+    """Returns the counts as a table, and below it what is wrong in the ways that nothing is drawn for."""
+    counted = counts(found)
+    lines = ["| asked about | motions | right | share |", "|---|---|---|---|"]
+    for name, one in counted.items():
+        if one["parts"]:
+            share = one["right"] / one["parts"]  # type: ignore[operator]
+            lines.append(f"| {name} | {one['parts']} | {one['right']} | {share:.3f} |")
+    wrong = [f"wrong, {name}: {', '.join(counted[name]['wrong'])}" for name in ("labels given", "no labels")]  # type: ignore[arg-type]
+    return "\n".join([*lines, "", *wrong])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,150 @@
+"""Numbers of the code that pages repeat in their sentences: the words of the page, `{}` for a number, and the values.
+
+`docs.py --check` refuses a page that does not say such a sentence with the values that the code has now.
+"""
+
+from collections.abc import Iterator
+from math import degrees
+
+from grafu.asset import loose
+from grafu.asset.foreign import matching
+from grafu.cli import evaluate, limit_options
+from grafu.completion.features import FeatureConfig
+from grafu.completion.selection import SOME_CHANCE
+from grafu.completion.session import SHIPPED_WEIGHTS
+from grafu.data.corruption.config import PAPER as CORRUPTION
+from grafu.data.furfun import anchoring
+from grafu.data.shards_points import STEPS
+from grafu.evaluation import bootstrap, distribution, masking, measures, moving_parts, plausible, twins
+from grafu.metrics.collision import TOLERANT
+from grafu.metrics.connectivity import ConnectivityConfig
+from grafu.network.config import GraFuConfig
+from grafu.network.grafu import GraFu
+from grafu.pipeline import verdict
+from grafu.processes import memory
+from grafu.processes.limits import PATIENCE
+from grafu.training.ablation import FOLD_MODELS
+from grafu.training.config import BASE, SMALL
+from grafu.training.source import TEST_SEED, VALIDATION_SEED
+from stated.constants_built import Sentence, additions, per_cent, realization
+
+SEEN = FeatureConfig()
+
+
+def millions(config: GraFuConfig) -> float:
+    """Returns how many weights a network has, in millions, to one digit."""
+    return round(sum(weight.numel() for weight in GraFu(config).parameters()) / 1e6, 1)
+
+
+def sentences() -> Iterator[Sentence]:
+    """Yields a page, its words and the values that stand in them."""
+    yield from additions()
+    yield from realization()
+    yield from evaluation()
+    yield from learning()
+    yield from others()
+
+
+def evaluation() -> Iterator[Sentence]:
+    """Yields what docs/evaluation.md and metrics.md repeat."""
+    page = "evaluation.md"
+    yield (
+        page,
+        "largest side at least {:g} % of the object's, second largest at least {:g} %",
+        (
+            per_cent(moving_parts.LARGEST),
+            per_cent(moving_parts.IN_PLANE),
+        ),
+    )
+    yield (
+        page,
+        "share of {} poses from rest to full in which the part with its riders cuts deeper than {}",
+        (
+            TOLERANT.poses,
+            TOLERANT.tolerance,
+        ),
+    )
+    yield page, "never more than {} from what stands still", (ConnectivityConfig().tolerance,)
+    yield (
+        page,
+        "this at most {:g}° or {:g} % of the part's depth",
+        (
+            degrees(moving_parts.WIDEST_TURN),
+            per_cent(moving_parts.DEPTH_SHARE),
+        ),
+    )
+    yield page, "opening {:g} % or more, all at once", (per_cent(measures.OPENS),)
+    low, high = bootstrap._LEVEL
+    yield (
+        page,
+        "Brackets hold {:g} % intervals: the objects are drawn anew {:,} times",
+        (high - low, bootstrap.RESAMPLES),
+    )
+    yield page, "more than its paired {:g} % interval", (high - low,)
+    yield page, "Candidates agree within {:g} % in seven numbers", (per_cent(twins.ALIKE),)
+    yield page, "lie within {} of the other's surface", (twins.ON,)
+    yield page, "what stands still are within {}", (plausible.NEAR,)
+    yield page, "opens to {:g} % of the reference", (per_cent(plausible.OPENS),)
+    yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, masking.LEVELS))
+    yield page, "less the mean of {} made models of seed {}", (distribution.TRAINING_COUNT, distribution.TRAINING_SEED)
+    yield "metrics.md", "the body cuts deeper than {} of the largest side", (TOLERANT.tolerance,)
+    yield "metrics.md", "compares it with {} of the largest side", (ConnectivityConfig().tolerance,)
+
+
+def learning() -> Iterator[Sentence]:
+    """Yields what the pages on network, training and data repeat."""
+    sees = "{} points on its surface in {} groups of {}", (SEEN.points, SEEN.anchors, SEEN.neighbours)
+    yield "network.md", *sees
+    yield "network.md", "({} million weights)", (millions(BASE.network),)
+    yield "network.md", "`src/grafu/completion/weights/grafu.onnx`, {:.1f} MB", (SHIPPED_WEIGHTS.stat().st_size / 1e6,)
+    yield "network.md", "made with seed {}", (TEST_SEED,)
+    yield (
+        "training.md",
+        "a network of {} million weights (`base` has {} million)",
+        (
+            millions(SMALL.network),
+            millions(BASE.network),
+        ),
+    )
+    yield "training.md", "for {} steps of {} graphs", (SMALL.steps, SMALL.deal.models * SMALL.deal.copies)
+    yield "training.md", "`base` is {} models with {} copies each", (BASE.deal.models, BASE.deal.copies)
+    yield "training.md", "on the first {} models of seed 1", (FOLD_MODELS,)
+    yield "training.md", "{} points on each part", (SMALL.features.points,)
+    yield "training.md", "{} models of a seed that no training may use ({})", (BASE.validation.models, VALIDATION_SEED)
+    yield "training.md", "Seed {} is kept for reporting", (TEST_SEED,)
+    yield "training.md", "on the first {} made models of the seed", (FOLD_MODELS,)
+    yield "training.md", "each of {} models as it was found", (SMALL.validation.models,)
+    yield "dataset.md", "masked with a chance of {:g} %", (per_cent(CORRUPTION.label_masking),)
+    yield "dataset.md", "a grid of {} steps", (STEPS,)
+    yield "dataset.md", "lie within {} units", (anchoring.SAME_PLACE,)
+    yield "graph.md", "of the edge ({} more)", (SOME_CHANCE,)
+
+
+def others() -> Iterator[Sentence]:
+    """Yields what the remaining pages repeat."""
+    yield "conventions.md", "Shells under {:g} % of the largest side", (per_cent(loose._TINY),)
+    poses = ConnectivityConfig().poses
+    yield (
+        "pages.md",
+        "it collides in some of {} poses; it comes loose (a gap above {:g} %",
+        (poses, per_cent(verdict.MOST_GAP)),
+    )
+    yield "pages.md", "it opens less than {:g} % of what it should |", (per_cent(verdict.LEAST_MOTION),)
+    yield "pages.md", "it opens less than {:g} % of what it should; how", (per_cent(verdict.LEAST_OPENING),)
+    yield "pages.md", "with a score below {:g} %", (per_cent(verdict.LEAST_CONFIDENCE),)
+    yield "pages.md", "a part lost more than {:g} % to carving", (per_cent(verdict.MOST_CARVED),)
+    yield "limits.md", "{:g} s for a model (`evaluate`: {:g} s for a task)", (limit_options.SECONDS, evaluate._SECONDS)
+    yield "limits.md", "goes more than {:g} GB beyond", (round(memory._SPARE / 1e9),)
+    yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)
+    yield "limits.md", "| `--memory SIZE` | {} (of", (limit_options.MEMORY,)
+    yield "predictions.md", "agree in it to {} of the size", (matching._EXACT,)
+    yield "predictions.md", "({} times the best and {} of the size)", matching._ALIKE
+
+
+def told() -> dict[str, list[str]]:
+    """Returns the sentences that each page must say."""
+    found: dict[str, list[str]] = {}
+    for page, words, values in sentences():
+        shown = (int(v) if isinstance(v, float) and v.is_integer() and abs(v) > 1 else v for v in values)
+        found.setdefault(page, []).append(words.format(*shown))
+    return found

@@ -1,0 +1,148 @@
+"""Sentences of the pages on what is built: additions, realization, templates and exports (see `constants.py`)."""
+
+from collections.abc import Iterator
+from math import degrees
+
+from judge_additions_table import COVERED
+
+from grafu.articulation.dynamics import DynamicsConfig
+from grafu.completion.features import FeatureConfig
+from grafu.export.usd.config import UsdConfig
+from grafu.metrics import tops
+from grafu.metrics.connectivity import ConnectivityConfig
+from grafu.realization.carcass.config import CarcassConfig
+from grafu.realization.config import RealizationConfig
+from grafu.realization.drawer_box.config import DrawerBoxConfig
+from grafu.realization.grip.config import GripConfig
+from grafu.realization.handle.config import GraspConfig, HandleConfig
+from grafu.realization.interior import arrangement
+from grafu.realization.interior.config import InteriorConfig
+from grafu.realization.top import complete, coverage, evidence, outline, supports
+from grafu.realization.top.config import TopConfig
+from grafu.templates import user, user_handles
+from grafu.templates.rails import TRAVEL
+
+Sentence = tuple[str, str, tuple[float | int | str, ...]]
+TOP, BOX, CARCASS = TopConfig(), DrawerBoxConfig(), CarcassConfig()
+HANDLE, GRIP, GRASP, INTERIOR = HandleConfig(), GripConfig(), GraspConfig(), InteriorConfig()
+BUILT, SEEN, MOVES = RealizationConfig(), FeatureConfig(), DynamicsConfig()
+
+
+def per_cent(share: float) -> float:
+    """Returns a share in per cent, without the last digits of floats."""
+    return round(100 * share, 6)
+
+
+def mm(metres: float) -> float:
+    """Returns metres in millimetres, without the last digits of floats."""
+    return round(1000 * metres, 6)
+
+
+def additions() -> Iterator[Sentence]:
+    """Yields what docs/additions.md repeats."""
+    page = "additions.md"
+    yield page, "do not hide it (up to {} m)", (TOP.gallery,)
+    yield page, "a top that is let in (up to {} m)", (TOP.recess,)
+    yield page, "Openings under {} % of the footprint are sinks and gaps", (per_cent(coverage._LEAST),)
+    yield page, "{} to {} m above the floor)", supports._HEIGHTS
+    yield page, "they stand around {} % of the footprint", (per_cent(supports._FOOTPRINT),)
+    yield page, "open below {} % of their height", (per_cent(supports._BELOW),)
+    yield page, "A top counts as there from {} % on. Within {} % of that", (per_cent(TOP.coverage), per_cent(TOP.doubt))
+    yield page, "(by more than {} % of the top's height)", (per_cent(complete._STEP),)
+    yield page, "A kneehole of up to {} m between two pedestals", (outline._KNEEHOLE,)
+    yield (
+        page,
+        "It is {} mm thick, ends {} mm before the fronts and {} mm beyond the sides",
+        (
+            mm(TOP.thickness),
+            mm(TOP.front),
+            mm(TOP.side),
+        ),
+    )
+    yield page, "What begins {} to {} mm above the rim", tuple(map(mm, outline._SLOT))
+    yield page, "over all that reaches to within {} % of the height below it", (per_cent(tops._NEAR),)
+    yield page, "that plan lies more than {} % of the height below it", (per_cent(tops._OPEN),)
+    yield page, "where one new top lies over {} % of it", (per_cent(COVERED),)
+    yield (
+        page,
+        "stay {} mm on each side for a rail (at most {} % of the front's width), {} mm below, "
+        "{} mm above and {} mm behind",
+        (
+            mm(BOX.side_gap),
+            per_cent(BOX.side_share),
+            mm(BOX.under),
+            mm(BOX.over),
+            mm(BOX.behind),
+        ),
+    )
+    yield page, "Walls are {} mm thick, the bottom {} mm.", (mm(BOX.wall), mm(BOX.bottom))
+    yield page, "walls must stand on both sides over {} % of the depth", (per_cent(CARCASS.walled),)
+    yield page, "a {} mm back is set", (mm(CARCASS.back),)
+    yield page, "and a {} mm bottom between them", (mm(CARCASS.bottom),)
+    yield (
+        page,
+        "Fingers need a gap of {} mm, reach in {} mm deep, pull at an edge of {} mm, and pinch what stands out {} mm.",
+        (
+            mm(GRASP.gap),
+            mm(GRASP.reach),
+            mm(GRASP.length),
+            mm(GRASP.stub),
+        ),
+    )
+    yield page, "opposite the hinge, {} mm from the free edge", (mm(HANDLE.inset),)
+    yield page, "Doors from {} m height on: {} m above the floor", (HANDLE.tall, int(HANDLE.reach_height))
+    yield page, "Up to {} m: at half height", (HANDLE.short,)
+    yield (
+        page,
+        "fronts over {} m high in their upper part; drawers wider than {} m take two",
+        (HANDLE.high, HANDLE.wide),
+    )
+    yield page, "In {} poses it must be clear", (HANDLE.poses,)
+    yield (
+        page,
+        "a wall of {} mm behind it; at most {} % of the thickness goes",
+        (mm(GRIP.wall), per_cent(GRIP.depth_share)),
+    )
+    yield page, "keep {} mm from the others", (mm(GRIP.margin),)
+    yield page, "shelves about {} m apart; dividers about {} m apart", (INTERIOR.shelf_pitch, INTERIOR.divider_pitch)
+    yield page, "(behind doors, {} m high, {} m deep and wide)", (INTERIOR.hanging_height, arrangement._HANGING_DEPTH)
+    yield page, "never more than {} of a kind", (INTERIOR.most_panels,)
+    yield (
+        page,
+        "Panels are {} mm thick and stand {} mm behind the opening",
+        (mm(INTERIOR.thickness), mm(INTERIOR.inset)),
+    )
+    yield page, "(within {} mm, over {} % of each half)", (mm(INTERIOR.touch), per_cent(INTERIOR.carried))
+    yield page, "it is set back by up to {} % of the depth", (per_cent(INTERIOR.deepest_inset),)
+    yield page, "its open bays are under {} % of the whole plan", (per_cent(coverage._LEAST),)
+    yield page, "found by shape ({} to {} m deep", evidence._BASIN_DEPTH
+
+
+def realization() -> Iterator[Sentence]:
+    """Yields what docs/realization.md, templates.md and exports.md repeat."""
+    page = "realization.md"
+    yield page, "smaller by {} units on each side", (BUILT.depth,)
+    yield page, "a face beside the door within {} units", (BUILT.contact,)
+    yield page, "a face behind the border within {} units", (BUILT.contact,)
+    yield page, "both fronts flush within {} units", (BUILT.flush,)
+    yield page, "at most the template's and {} degrees", (round(degrees(BUILT.door_opening)),)
+    yield page, "length {} of the body", (BUILT.rail_share,)
+    yield page, "Travel: {} of the rail", (TRAVEL,)
+    yield page, "| {} % of the side |", (per_cent(BUILT.max_trim),)
+    yield page, "made smaller all round | {} % of its volume |", (per_cent(BUILT.max_carve),)
+    yield page, "cut out of a static part | {} % of its surface or volume |", (per_cent(BUILT.max_carve),)
+    yield page, "in how many of {} poses", (ConnectivityConfig().poses,)
+    yield "templates.md", "by more than {} % are refused", (per_cent(user._FIT),)
+    yield "templates.md", "at most {:,} faces", (user._LIMITS.max_faces,)
+    yield "templates.md", "within {} % of the protrusion before the foot plane", (per_cent(user_handles._ON_PLANE),)
+    yield (
+        "exports.md",
+        "Damping is inertia (or mass) over {} s; dry friction brakes a door by {:g} rad/s2, is {:g} % of a",
+        (
+            MOVES.settling,
+            MOVES.hinge_braking,
+            per_cent(MOVES.rail_friction),
+        ),
+    )
+    yield "exports.md", "velocity is {:g} rad/s or {:g} m/s", (MOVES.hinge_velocity, MOVES.rail_velocity)
+    yield "exports.md", "an armature of {:g} % of what moves", (per_cent(UsdConfig().armature),)

@@ -1,0 +1,163 @@
+"""Tables and figures of the pages, drawn from what the commands printed last (docs/figures.json)."""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from docs_results import LEAD
+
+from stated.measures import BY_NAME, MEASURES
+from stated.store import Stored, Table, drawn_table
+
+FIGURE = re.compile(r"(<!-- figure: ([^:\n]+): ([^\n]+?) / ([^\n]+?) -->)(.*?)(<!-- end -->)", re.DOTALL)
+BESIDE_RULES = ("hinge", "rail", "attached", "border", "joint", "slide", "mount", "parent")
+KINDS = ("natural", "masked", "lacking")
+LEFT_OUT = ("labels given", "no labels")
+
+Store = Mapping[str, Stored]
+
+
+def with_figures(page: Path, text: str, store: Store) -> str:
+    """Returns a page with every figure between its marks as it was printed last.
+
+    Raises:
+        SystemExit: if a mark names no figure.
+    """
+
+    def drawn(found: re.Match[str]) -> str:
+        try:
+            return f"{found[1]}{store[found[2]].cell(found[3], found[4])}{found[6]}"
+        except KeyError:
+            raise SystemExit(
+                f"{page}: {found[1]} names no figure: expected MEASURE: ROW / COLUMN as in docs/figures.json, "
+                f"a measure being one of {', '.join(store)}"
+            ) from None
+
+    return FIGURE.sub(drawn, text)
+
+
+def tables(store: Store) -> dict[tuple[str, str], str]:
+    """Returns the measured tables by page and name."""
+    return {
+        ("network.md", "made"): copied(store["made"], 0),
+        ("network.md", "network and rules"): beside(store),
+        ("network.md", "doors"): doors(store),
+        ("network.md", "motions"): motions(store),
+        ("training.md", "losses"): copied(store["losses"], 0),
+        ("training.md", "folds"): copied(store["folds"], 0),
+        ("synthetic.md", "made and real"): "\n".join(store["made and real"].lines).strip(),
+    }
+
+
+def results_page(store: Store) -> str:
+    """Returns docs/results.md."""
+    kept = store["results"]
+    lead = LEAD.format(
+        command=BY_NAME["results"].command.replace("{models}", "$GRAFU_MODELS").replace("{out}", "results")
+    )
+    return "\n".join([lead.replace(" --jobs {jobs}", ""), *kept.lines]).rstrip("\n") + "\n"
+
+
+def copied(kept: Stored, number: int) -> str:
+    """Returns one of the tables that a command printed."""
+    return drawn_table(kept.tables[number])
+
+
+def beside(store: Store) -> str:
+    """Returns the network's figures on made furniture beside the rules'."""
+    rows = [
+        [name, *(f"{bare(store['made'], name, k)} / {bare(store['made by rules'], name, k)}" for k in KINDS)]
+        for name in BESIDE_RULES
+    ]
+    return drawn_table([["figure", *KINDS], *rows])
+
+
+def bare(kept: Stored, row: str, column: str) -> str:
+    """Returns a figure without its interval."""
+    return kept.cell(row, column).split(" ±")[0]
+
+
+def doors(store: Store) -> str:
+    """Returns how many doors turn as they should, by what the input shows of them."""
+    mine, theirs = (next(t for t in store[name].tables if len(t[0]) == 3) for name in ("made", "made by rules"))
+    rows = [[*a, b[2]] for a, b in zip(mine[1:], theirs[1:], strict=True)]
+    return drawn_table([[mine[0][0], "doors", "turn as they should: network", "rules"], *rows])
+
+
+def motions(store: Store) -> str:
+    """Returns the shares of real motions that are right, of the network and of the rules."""
+    head = ["asked about", "motions", "network", "rules"]
+    rows: Table = [
+        [row[0], row[1], row[3], store["motions by rules"].cell(row[0], "share")]
+        for row in store["motions"].tables[0][1:]
+    ]
+    return drawn_table([head, *rows])
+
+
+def figures_page(store: Store) -> str:
+    """Returns docs/figures.md: every command that prints a figure of these pages, and every script."""
+    rows = [
+        [
+            f"`{m.name}`",
+            m.says,
+            ", ".join(f"[{p}]({p})" for p in m.pages),
+            f"`{m.command}`",
+            f"{m.minutes} min",
+            age(m.name, store),
+        ]
+        for m in MEASURES
+    ]
+    table = drawn_table([["measure", "what", "page", "command", "takes about", "figures are"], *rows])
+    root = Path(__file__).parents[2]
+    scripts = [[f"`scripts/{path.name}`", first_sentence(path)] for path in sorted((root / "scripts").glob("*.py"))]
+    return HEAD + table + SCRIPTS + drawn_table([["script", "what it does"], *scripts]) + "\n"
+
+
+def age(name: str, store: Store) -> str:
+    """Returns whether figures were printed by the command as it is, or stood in a page before."""
+    if name not in store:
+        return "not printed yet"
+    return "carried over" if store[name].carried else "printed"
+
+
+def first_sentence(path: Path) -> str:
+    """Returns the first line of a script's docstring."""
+    return path.read_text("utf-8").split('"""')[1].strip().splitlines()[0].rstrip(".,:;").replace("|", "\\|")
+
+
+HEAD = """\
+# Figures
+
+<!-- drawn by scripts/docs.py from scripts/stated/measures.py and docs/figures.json -->
+
+Every measured figure of these pages was printed by one of the commands below, and is kept in `docs/figures.json`. Pages
+are drawn from there: a figure that is changed by hand is refused by `make check`, and so is one that names no command.
+
+    GRAFU_MODELS=models make figures                                    # all, quickest first; only compares
+    make figures FIGURES="--list"                                       # what there is, and how old it is
+    make figures FIGURES="--only motions --write"                       # one, and into the pages
+    make figures FIGURES="--page network.md --write"                    # those of a page
+    make figures FIGURES="--quick"                                      # few models: do all commands work?
+
+`{models}` is the folder of real models that `GRAFU_MODELS` names, `{out}` a folder below `build/figures`. A command
+that ended is not run again for the same code and weights; one that was stopped goes on where it can. Figures that are
+`carried over` stood in a page before this list was kept, and were not printed again since.
+
+"""
+SCRIPTS = """
+
+## To state a number in a page
+
+* A figure that a command prints: `<!-- figure: MEASURE: ROW / COLUMN -->0.95<!-- end -->`; the measure stands in
+  `scripts/stated/measures.py`, row and column in its table in `docs/figures.json`. `python scripts/docs.py` writes
+  the value.
+* A table of such figures: one row in `tables` of `scripts/stated/drawn.py`, and its marks in the page.
+* A number of the code: a line in `scripts/stated/constants.py` (or `constants_built.py`), the words of the
+  page with `{}` for
+  the number, and the value.
+* What looks like a figure and is none (a definition, an example): `<!-- no figure: why -->` in the same
+  paragraph, or in the line above a table.
+
+## Scripts
+
+"""

@@ -1,0 +1,150 @@
+"""Every command that prints figures of the pages. It runs none; `scripts/figures.py` does.
+
+In a command `{models}` is the folder of real models (GRAFU_MODELS), `{out}` an empty folder of its own, `{jobs}` the
+number of processes. `quick` is the same on few models or steps: it shows that the command works; nothing of it is kept.
+"""
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import final
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from docs_results import results_text
+
+Read = Callable[[str, Path], str]
+
+
+def printed(text: str, _: Path) -> str:
+    """Returns what a command printed."""
+    return text
+
+
+def ablation_table(_: str, out: Path) -> str:
+    """Returns the table that `grafu ablate` wrote."""
+    return (out / "table.md").read_text("utf-8")
+
+
+def evaluation_tables(_: str, out: Path) -> str:
+    """Returns the tables that `grafu evaluate` wrote, as docs/results.md has them."""
+    return results_text(out)
+
+
+@final
+@dataclass(frozen=True)
+class Measure:
+    """A command, and how the figures are read from what it prints and writes into `{out}`."""
+
+    name: str
+    command: str
+    quick: str
+    says: str
+    pages: tuple[str, ...]
+    minutes: int  # about, on two cores
+    read: Read = printed
+    weights: bool = False  # whether the shipped weights matter
+    whole: bool = False  # whether a page repeats the text, not cells of tables alone
+
+    def __post_init__(self) -> None:
+        if ":" in self.name or not self.pages:
+            raise ValueError(f"a measure has a name without a colon, and pages: got {self.name!r}, {self.pages}")
+
+
+_ABLATE = "grafu ablate {kind} --out {{out}} --steps {steps} --jobs 1"
+_LOSSES, _FOLDS = (_ABLATE.format(kind=kind, steps=800) for kind in ("losses", "folds"))
+_FEW = "--config tiny --steps 2 --jobs 2"
+
+MEASURES = (
+    Measure(
+        "made",
+        "python scripts/judge_network.py --count 600 --jobs {jobs}",
+        "python scripts/judge_network.py --count 4 --jobs {jobs}",
+        "the network on made furniture that nothing was trained on",
+        ("network.md",),
+        25,
+        weights=True,
+    ),
+    Measure(
+        "made by rules",
+        "python scripts/judge_network.py --rule --count 600 --jobs {jobs}",
+        "python scripts/judge_network.py --rule --count 4 --jobs {jobs}",
+        "the rules on the same furniture",
+        ("network.md",),
+        5,
+    ),
+    Measure(
+        "motions",
+        "python scripts/judge_motions.py {models}/pnm --jobs {jobs}",
+        "python scripts/judge_motions.py {models}/pnm --copies 0 --jobs {jobs}",
+        "the network on motions of real models, whole and lacking something",
+        ("network.md",),
+        2,
+        weights=True,
+    ),
+    Measure(
+        "motions by rules",
+        "python scripts/judge_motions.py {models}/pnm --rule --jobs {jobs}",
+        "python scripts/judge_motions.py {models}/pnm --rule --copies 0 --jobs {jobs}",
+        "the rules on the same motions",
+        ("network.md",),
+        1,
+    ),
+    Measure(
+        "motions of hard models",
+        "python scripts/judge_motions.py {models}/pnm2 --jobs {jobs}",
+        "python scripts/judge_motions.py {models}/pnm2 --copies 0 --jobs {jobs}",
+        "the network on motions of models that were chosen because they are hard",
+        ("network.md",),
+        4,
+        weights=True,
+    ),
+    Measure(
+        "results",
+        "grafu evaluate --data {models}/pnm --out {out} --jobs {jobs}",
+        "grafu evaluate --data {models}/pnm/46408 --out {out} --jobs {jobs} --seeds 1",
+        "the tables of `grafu evaluate` on real models",
+        ("results.md",),
+        90,
+        read=evaluation_tables,
+        weights=True,
+        whole=True,
+    ),
+    Measure(
+        "losses",
+        _LOSSES,
+        f"grafu ablate losses --out {{out}} {_FEW}",
+        "what the losses are good for",
+        ("training.md",),
+        150,
+        read=ablation_table,
+    ),
+    Measure(
+        "folds",
+        _FOLDS,
+        f"grafu ablate folds --out {{out}} {_FEW}",
+        "what corrupted copies are good for",
+        ("training.md",),
+        60,
+        read=ablation_table,
+    ),
+    Measure(
+        "made and real",
+        "grafu synth --stats {models}/pnm --count 4000 --jobs {jobs}",
+        "grafu synth --stats {models}/pnm --count 20 --jobs {jobs}",
+        "statistics of made furniture beside real ones",
+        ("synthetic.md",),
+        5,
+        whole=True,
+    ),
+    Measure(
+        "hinge side",
+        "python tests/tools/hinge_side.py --count 1500 --real {models}/pnm",
+        "python tests/tools/hinge_side.py --count 100 --real {models}/pnm",
+        "a learner of a few lines, taught by made doors, asked about real ones",
+        ("synthetic.md",),
+        2,
+    ),
+)
+BY_NAME = {measure.name: measure for measure in MEASURES}

@@ -1,0 +1,1 @@
+"""The Python functions of the product: load, functionalize, look at the result, change it, save it."""

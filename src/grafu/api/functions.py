@@ -1,0 +1,149 @@
+"""`grafu.load` and `grafu.functionalize`: from a path to an asset, and from either to a result."""
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import Any, Final
+
+from grafu.api.arguments import as_path, described, optional_number, require, require_bool_or_word
+from grafu.api.request import Request, motion_in_words
+from grafu.api.result import Result
+from grafu.asset.load import load_asset
+from grafu.asset.part import Asset
+from grafu.errors import OptionError
+from grafu.pipeline.addition_choice import choose_additions
+from grafu.pipeline.foreign import prediction_for
+from grafu.pipeline.motion_source import MotionSource, parse_motion
+from grafu.pipeline.settings import Reading, Settings
+from grafu.realization.motion_choice import MotionChoice
+from grafu.templates.available import open_handles
+
+PathLikeStr = str | PathLike[str]
+_READING: Final = ("up", "front", "scale", "height", "labels", "parts")
+
+
+def load(
+    path: PathLikeStr,
+    *,
+    up: str | None = None,
+    front: str | None = None,
+    scale: float | None = None,
+    height: float | None = None,
+    labels: str = "input",
+    parts: str = "input",
+) -> Asset:
+    """Returns the asset at a path: its parts in metres, Z up, front -Y, standing on z = 0.
+
+    Args:
+        path: a GLB, glTF, URDF or OBJ file, or a folder of meshes, of PartNet-Mobility or of HSSD.
+        up: the input's axis that points up, such as `+Y`; None: it is detected.
+        front: the input's axis that points out of the front; None: it is detected.
+        scale: metres per unit of the input; None: as the format says, or estimated.
+        height: the real height in metres; wins over `scale`.
+        labels: `input` takes categories from names, `none` ignores them.
+        parts: `input` takes the objects of the input as parts, `loose` each connected shell.
+
+    Raises:
+        TypeError: if an argument has a wrong type.
+        AssetError: if the input cannot be read, is one part only, or an argument contradicts it.
+        OptionError: if `labels` or `parts` is another word.
+    """
+    return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts).options)
+
+
+def functionalize(
+    source: PathLikeStr | Asset,
+    *,
+    motion: str = "auto",
+    motions: Mapping[str, str] | None = None,
+    weights: PathLikeStr | None = None,
+    top: bool | str = True,
+    handles: bool | str = True,
+    drawer_boxes: bool = True,
+    interior: str = "predicted",
+    carcass: bool = False,
+    trim: bool = True,
+    templates: PathLikeStr | None = None,
+    **reading: Any,
+) -> Result:
+    """Returns a piece of furniture that works, and how it came about.
+
+    Args:
+        source: a path, as for `grafu.load`, or the asset that it returned.
+        motion: where motions come from: `auto`, `network`, `rule`, `annotation`, or another system's file such as
+            `particulate:FILE`.
+        motions: by the id of a part, how it moves, whatever the source says; see `Result.with_motion`.
+        weights: a file of trained weights (ONNX) for the network; None: those that came with the package.
+        top: whether a missing top is added, or its shape: `rectangle`, `rounded`, `chamfered`.
+        handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`.
+        drawer_boxes: whether a drawer that is only a front gets a box.
+        interior: shelves and dividers: `predicted`, `auto`, `none`, or counts such as `shelves=2,dividers=1`.
+        carcass: whether missing backs and bottoms are added.
+        trim: whether material may be taken away to give a part clearance.
+        templates: a folder of your own hinge, rail and handle templates.
+        **reading: `up`, `front`, `scale`, `height`, `labels` and `parts` of `grafu.load`, where `source` is a path.
+
+    Raises:
+        TypeError: if an argument has a wrong type or an unknown name.
+        FunctionalizationError: if the input, an option, a template or the weights are at fault.
+    """
+    folder = None if templates is None else as_path(templates, "templates")
+    choice = parse_motion(require(motion, str, "motion", "a motion source such as `auto`"))
+    additions = choose_additions(
+        open_handles(folder),
+        top=require_bool_or_word(top, "top", "a shape"),
+        handles=require_bool_or_word(handles, "handles", "a style"),
+        drawer_boxes=require(drawer_boxes, bool, "drawer_boxes", "True or False"),
+        interior=require(interior, str, "interior", "a word such as `auto`"),
+        carcass=require(carcass, bool, "carcass", "True or False"),
+    )
+    asset, read = _asset(source, reading)
+    settings = Settings(
+        MotionSource.AUTO if choice.source.is_foreign else choice.source,
+        read,
+        require(trim, bool, "trim", "True or False"),
+        motions=_motions(motions),
+        additions=additions,
+        weights=None if weights is None else as_path(weights, "weights"),
+    )
+    foreign = prediction_for(choice, asset.name) if choice.source.is_foreign else None
+    return Result.of(Request(asset, settings, foreign, folder))
+
+
+def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, Reading]:
+    unknown = sorted(set(reading) - set(_READING))
+    if unknown:
+        raise TypeError(f"`grafu.functionalize` has no argument {', '.join(unknown)}")
+    if isinstance(source, Asset):
+        if reading:
+            raise OptionError(f"{', '.join(reading)} say how a path is read: give them to `grafu.load`")
+        frame = source.frame
+        return source, Reading(frame.up, frame.front, frame.scale)
+    if not isinstance(source, str | PathLike):
+        raise TypeError(f"`source` must be a path or the asset that `grafu.load` returned: got {described(source)}")
+    return load(source, **reading), _reading(**reading)
+
+
+def _reading(
+    up: str | None = None,
+    front: str | None = None,
+    scale: float | None = None,
+    height: float | None = None,
+    labels: str = "input",
+    parts: str = "input",
+) -> Reading:
+    for name, value in (("up", up), ("front", front)):
+        if value is not None:
+            require(value, str, name, "an axis such as `+Z`")
+    if labels not in ("input", "none"):
+        raise OptionError(f"`labels` must be input or none: got {labels!r}")
+    if parts not in ("input", "loose"):
+        raise OptionError(f"`parts` must be input or loose: got {parts!r}")
+    numbers = optional_number(scale, "scale"), optional_number(height, "height")
+    return Reading(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
+
+
+def _motions(given: Mapping[str, str] | None) -> dict[str, MotionChoice]:
+    if given is None:
+        return {}
+    require(given, Mapping, "motions", "a dict such as {'door_1': 'left'}")  # type: ignore[type-abstract]
+    return {part: motion_in_words(part, word) for part, word in given.items()}

@@ -1,0 +1,273 @@
+"""`Result`: furniture that works, its joints and its report; what is changed of it gives a new result."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import final
+
+from grafu.api.arguments import as_path, as_words, optional_number, require
+from grafu.api.request import Request, motion_in_words
+from grafu.api.saving import files_of
+from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.asset.part import Asset
+from grafu.errors import ExportError, OptionError
+from grafu.export.apart import why_not_apart
+from grafu.export.files import write_files
+from grafu.export.formats import exporter_for
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.pipeline.addition_choice import GRIPS
+from grafu.pipeline.addition_config import HandleChoice
+from grafu.pipeline.front_choices import NO_HANDLE
+from grafu.pipeline.functionalize import Functionalized
+from grafu.pipeline.report import report_of
+from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
+from grafu.pipeline.settings import Settings
+from grafu.realization.motion_choice import TURNING_SIDES
+from grafu.realization.plan import AUTOMATIC, JointChoice
+from grafu.templates.available import open_handles
+from grafu.vocabulary import JointType, MechanismClass, PartLabel
+
+
+@final
+@dataclass(frozen=True, repr=False)
+class Result:
+    """What `grafu.functionalize` made of one asset.
+
+    `request` is what was asked for, `made` what each stage of the pipeline returned. A result is never changed: each
+    `with_...` makes a new one, and makes again only what the change touches.
+    """
+
+    request: Request
+    made: Functionalized
+
+    @classmethod
+    def of(cls, request: Request) -> "Result":
+        """Returns the result of a request. Raises FunctionalizationError as `grafu.functionalize` does."""
+        return cls(request, request.run())
+
+    def __repr__(self) -> str:
+        joints, added, skipped = len(self.joints), len(self.added), len(self.skipped)
+        return f"<grafu.Result {self.asset.name}: {joints} joints, {added} added, {skipped} skipped>"
+
+    @property
+    def asset(self) -> Asset:
+        """The input, as it was read."""
+        return self.request.asset
+
+    @property
+    def settings(self) -> Settings:
+        """What was chosen for it."""
+        return self.request.settings
+
+    @property
+    def object(self) -> ArticulatedObject:
+        """Links, joints and meshes, in metres, Z up, front -Y; every joint is at 0, which is closed."""
+        return self.made.object
+
+    @property
+    def graph(self) -> FunctionalGraph:
+        """The functional graph as it was built, additions included."""
+        return self.made.completion.completed
+
+    @cached_property
+    def report(self) -> Report:
+        """The values of `report.json`."""
+        return report_of(self.made, self.asset.name)
+
+    @property
+    def joints(self) -> tuple[JointRecord, ...]:
+        """The joints that were built, with limits in radians or metres; the fields are those of `report.json`."""
+        return self.report.joints
+
+    @property
+    def added(self) -> tuple[AddedRecord, ...]:
+        """The parts that the input lacked and that were added."""
+        return self.report.added
+
+    @property
+    def skipped(self) -> tuple[SkippedRecord, ...]:
+        """What was asked for and could not be built, with the reason."""
+        return self.report.skipped
+
+    def joint(self, name: str) -> JointRecord:
+        """Returns the joint of this id, or that of the moving part of this id.
+
+        Raises:
+            OptionError: if there is none.
+        """
+        for joint in self.joints:
+            if name in (joint.id, joint.part):
+                return joint
+        known = ", ".join(joint.part for joint in self.joints) or "none"
+        raise OptionError(f"there is no joint `{name}`: parts that move are {known}")
+
+    def save(
+        self,
+        folder: str | PathLike[str],
+        formats: str | Iterable[str] = ("glb", "urdf"),
+        *,
+        page: bool = True,
+        overwrite: bool = False,
+    ) -> Path:
+        """Writes the result into a folder, which appears whole or not at all, and returns its path.
+
+        Args:
+            folder: the folder of this one result; missing parents are made.
+            formats: names of formats: glb, urdf, mjcf, usd, usdz, blend, particulate, singapo.
+            page: whether `report.html` is drawn.
+            overwrite: whether an earlier result in the folder is replaced.
+
+        Raises:
+            TypeError: if an argument has a wrong type.
+            ExportError: if a format is unknown, or the folder is there already, holds the input, or cannot be written.
+        """
+        path, names = as_path(folder, "folder"), as_words(formats, "formats")
+        if why := why_not_apart(path, [Path(self.asset.path)] if self.asset.path else []):
+            raise ExportError(why)
+        for name in names:
+            exporter_for(name)
+        settings = None if self.request.foreign else self.settings
+        saved = files_of(self.made, self.asset.name, names, settings, require(page, bool, "page", "True or False"))
+        write_files(saved.files, path, require(overwrite, bool, "overwrite", "True or False"))
+        return path
+
+    def with_motion(self, part: str, how: str) -> "Result":
+        """Returns the result in which a part moves as stated: about its `left`, `right`, `top` or `bottom` border.
+
+        Or it `slides`, or stands still: `not`. Sides are one's own when one looks at the front.
+
+        Raises:
+            OptionError: if there is no such part, or it cannot move so.
+        """
+        return self._with(self.settings.with_motion(part, motion_in_words(part, how)))
+
+    def with_hinge(
+        self,
+        part: str,
+        *,
+        side: str | None = None,
+        template: str = "",
+        mechanism: str | None = None,
+        count: int = 0,
+        scale: float = 1.0,
+        opening: float | None = None,
+        mount: str = "",
+    ) -> "Result":
+        """Returns the result in which a door or flap hangs on hinges as stated; what is left out is searched for.
+
+        Args:
+            part: the id of the door or flap.
+            side: the border that it turns about: `left`, `right`, `top` or `bottom`.
+            template: a hinge of `grafu templates`, or `pivot`.
+            mechanism: a class of hinges: C, F or P (see docs/templates.md).
+            count: how many hinges; 0: by the height of the door.
+            scale: a factor on the size of the hinges, 0.25 to 4.
+            opening: the widest opening, radians.
+            mount: the id of the part that carries it.
+
+        Raises:
+            OptionError: if there is no such part, template or class, or a number is out of range.
+        """
+        if side is not None and side not in TURNING_SIDES:
+            raise OptionError(f"`side` must be one of {', '.join(TURNING_SIDES)}: got {side!r}")
+        name = part if side else self.joint(part).part
+        settings = self.settings.with_motion(name, motion_in_words(name, side)) if side else self.settings
+        chosen = _choice(
+            template=template,
+            mechanism=_mechanism(mechanism),
+            count=count,
+            scale=scale,
+            opening=optional_number(opening, "opening"),
+            mount=mount,
+        )
+        return self._with(settings.with_joint(name, chosen)) if chosen != AUTOMATIC else self._with(settings)
+
+    def with_rail(
+        self,
+        part: str,
+        *,
+        template: str = "",
+        mechanism: str | None = None,
+        opening: float | None = None,
+        mount: str = "",
+    ) -> "Result":
+        """Returns the result in which a drawer runs on rails as stated; what is left out is searched for.
+
+        `opening` is the widest opening in metres; the others are those of `with_hinge`.
+
+        Raises:
+            OptionError: if there is no such part, template or class, or a number is out of range.
+        """
+        chosen = _choice(
+            template=template,
+            mechanism=_mechanism(mechanism),
+            opening=optional_number(opening, "opening"),
+            mount=mount,
+        )
+        return self._with(self._sliding(part).with_joint(part, chosen))
+
+    def with_handle(self, part: str, style: str) -> "Result":
+        """Returns the result in which a door or drawer has a handle or grip of this style, or `none`.
+
+        Raises:
+            OptionError: if there is no such style or no such front.
+        """
+        known = (*open_handles(self.request.templates), *GRIPS, NO_HANDLE)
+        if require(style, str, "style", "a style such as `knob-round`") not in known:
+            raise OptionError(f"`style` must be one of {', '.join(known)}: got {style!r}")
+        return self._with(self.settings.with_front(self.joint(part).part, HandleChoice(style=style)))
+
+    def with_label(self, part: str, label: str) -> "Result":
+        """Returns the result in which a part has this category.
+
+        Raises:
+            OptionError: if there is no such part or category.
+        """
+        if label not in {known.value for known in PartLabel}:
+            raise OptionError(f"`label` must be one of {', '.join(PartLabel)}: got {label!r}")
+        return self._with(self.settings.with_label(part, PartLabel(label)))
+
+    def without(self, *parts: str) -> "Result":
+        """Returns the result without these added parts.
+
+        Raises:
+            OptionError: if one of them was not added; a part of the input stands still with `with_motion(part, "not")`.
+        """
+        settings, known = self.settings, {record.part: record for record in self.added}
+        for part in parts:
+            if part not in known:
+                raise OptionError(f"`{part}` was not added: added parts are {', '.join(sorted(known)) or 'none'}")
+            settings = _without(settings, known[part])
+        return self._with(settings)
+
+    def _sliding(self, part: str) -> Settings:
+        """Returns the settings in which a part slides, where it does not already."""
+        slides = any(j.part == part and j.type is JointType.PRISMATIC for j in self.joints)
+        return self.settings if slides else self.settings.with_motion(part, motion_in_words(part, "slides"))
+
+    def _with(self, settings: Settings) -> "Result":
+        return Result.of(replace(self.request, settings=settings))
+
+
+def _without(settings: Settings, added: AddedRecord) -> Settings:
+    """Returns the settings in which an added part is left out; a handle that was chosen is not chosen any more."""
+    if added.link in settings.additions.fronts:
+        return settings.with_front(added.link, HandleChoice(style=NO_HANDLE, replaces=False))
+    return settings.with_addition(added.part, accepted=False)
+
+
+def _choice(**fields: object) -> JointChoice:
+    try:
+        return JointChoice(**fields)  # type: ignore[arg-type]  # it checks them itself
+    except ValueError as error:
+        raise OptionError(str(error).replace("`JointChoice.", "`")) from None
+
+
+def _mechanism(name: str | None) -> MechanismClass | None:
+    if name is None:
+        return None
+    if name not in {known.value for known in MechanismClass}:
+        raise OptionError(f"`mechanism` must be one of {', '.join(MechanismClass)}: got {name!r}")
+    return MechanismClass(name)

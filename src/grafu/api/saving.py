@@ -1,0 +1,80 @@
+"""Which files a result is saved as: models, graph, report, settings and page. It writes nothing."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Final, final
+
+from grafu.export.files import ExportFiles
+from grafu.export.formats import export
+from grafu.graph.serialize import completion_to_json, dump_json
+from grafu.pipeline.functionalize import Functionalized
+from grafu.pipeline.report import report_of
+from grafu.pipeline.report_schema import Report
+from grafu.pipeline.settings import Settings
+from grafu.visible import writable
+
+MODEL_PAGE: Final = "report.html"
+
+
+@final
+@dataclass(frozen=True)
+class Saved:
+    """The files of one result, its report, and a small picture of it (PNG; empty without a page)."""
+
+    files: ExportFiles
+    report: Report
+    picture: bytes = b""
+
+
+def files_of(
+    made: Functionalized,
+    name: str,
+    formats: Sequence[str],
+    settings: Settings | None,
+    page: bool = True,
+    timings: Mapping[str, float] | None = None,
+) -> Saved:
+    """Returns everything that is written for one result.
+
+    Args:
+        made: what the pipeline made.
+        name: the name of the results, for the report and the page.
+        formats: names of export formats; see `grafu.export.formats`.
+        settings: what was chosen, for `settings.json`; None: no such file, as for another system's motions.
+        page: whether `report.html` is drawn.
+        timings: seconds of stages before the pipeline, such as reading.
+
+    Raises:
+        ExportError: if a format is unknown, or cannot say what the object holds.
+    """
+    started = perf_counter()
+    files = export(made.object, formats)
+    seconds = {**(timings or {}), "export": perf_counter() - started}
+    report, picture = report_of(made, name, seconds), b""
+    if page:
+        started = perf_counter()
+        drawn, picture = _page(made, report)
+        files = files.joined(drawn)
+        report = report.model_copy(update={"timings": {**report.timings, "page": round(perf_counter() - started, 4)}})
+    return Saved(files.joined(_json_files(made, report, settings)), report, picture)
+
+
+def _page(made: Functionalized, report: Report) -> tuple[ExportFiles, bytes]:
+    """Returns the page of a model as a file, and a small picture of it."""
+    from grafu.viewer.model_page import model_page
+    from grafu.viewer.pictures import take_stills, thumbnail
+
+    stills = take_stills(made.asset, made.object)
+    page = model_page(made.asset, made.object, made.completion, report, stills)
+    return ExportFiles({MODEL_PAGE: writable(page).encode()}), thumbnail(stills)
+
+
+def _json_files(made: Functionalized, report: Report, settings: Settings | None) -> ExportFiles:
+    texts = {
+        "graph.json": dump_json(completion_to_json(made.completion)),
+        "report.json": dump_json(report.to_json()),
+    }
+    if settings is not None:
+        texts["settings.json"] = dump_json(settings.to_json())
+    return ExportFiles({name: text.encode() for name, text in texts.items()})

@@ -1,0 +1,149 @@
+"""The files of one model: what is named in it is sought and read here, by every reader, and nowhere else.
+
+A model comes from anybody, so the names in it lead only to regular files in the model's own folder, links followed. It
+counts the bytes that are read. It knows no formats.
+"""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import final
+
+from grafu.asset.options import Limits, how_to_allow
+from grafu.asset.regular_files import TooManyBytes, read_regular
+from grafu.asset.tally import Tally
+from grafu.asset.textures import TextureBook
+from grafu.errors import AssetTooLarge, UnreadableAsset
+from grafu.geometry.appearance import Texture
+
+OUTSIDE = "lies outside the model's folder (copy it into that folder)"
+MISSING = "is missing"
+_LIMITS = Limits()
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Sought:
+    """A file that a model names: its path, or in words why there is none (`is missing`)."""
+
+    path: Path | None
+    why: str = ""
+
+
+@final
+class ModelFiles:
+    """The files of one model and what has been read of it so far; one is made for each model that is read.
+
+    `given` is what the user named, a file or a folder. A folder, and a file itself, may be links. What else is
+    read lies in that folder, or in the file's, or in one of `roots`.
+    """
+
+    def __init__(self, given: Path, limits: Limits = _LIMITS, roots: tuple[Path, ...] = ()) -> None:
+        self.limits = limits
+        self.tally = Tally(limits)
+        self._textures = TextureBook(limits)
+        self._given = Path(given)
+        folder = self._given if _is_dir(self._given) else self._given.parent
+        self._roots = tuple(dict.fromkeys(_real(root) for root in (folder, *roots)))
+
+    def with_roots(self, *roots: Path) -> "ModelFiles":
+        """Returns the same, what was counted too, that may also look into these folders."""
+        wider = ModelFiles(self._given, self.limits, (*self._roots, *roots))
+        wider.tally, wider._textures = self.tally, self._textures
+        return wider
+
+    def seek(self, name: str, beside: Path) -> Sought:
+        """Returns the file that a name in the model means, counted from the folder `beside`."""
+        if not name:
+            return Sought(None, MISSING)
+        try:
+            path = beside / name
+            target = _real(path)
+            if self._root_of(target) is None:
+                return Sought(None, OUTSIDE)
+            mode_is_file = target.is_file()
+        except (OSError, ValueError):
+            return Sought(None, "has a name that no file can have")
+        return Sought(path) if mode_is_file else Sought(None, "is no regular file" if target.exists() else MISSING)
+
+    def holds(self, folder: Path) -> bool:
+        """Whether a folder is one that the model's files may lie in."""
+        try:
+            return self._root_of(_real(folder)) is not None
+        except (OSError, ValueError):
+            return False
+
+    def read(self, path: Path) -> bytes:
+        """Returns the content of a file of the model.
+
+        Raises:
+            UnreadableAsset: if it is missing, cannot be read, is no regular file, or leads out of the model's folder.
+            AssetTooLarge: if the files of the model are larger than the limit.
+        """
+        try:
+            data = self._content(path)
+        except TooManyBytes as error:
+            raise self._too_large(path, error.size) from None
+        except (OSError, ValueError) as error:
+            raise UnreadableAsset(f"{path} cannot be read ({_reason(error)}): expected a readable file") from None
+        self.tally.add(path, bytes=len(data))
+        return data
+
+    def texture(self, path: Path) -> Texture | str:
+        """Returns an image of the model, checked, or in words why there is none; each file is read once."""
+        if path not in self._textures.by_path:
+            try:
+                self._textures.by_path[path] = self._textures.checked(self.read(path), path.name)
+            except (UnreadableAsset, AssetTooLarge) as error:
+                self._textures.by_path[path] = f"cannot be read: {error}"
+        return self._textures.by_path[path]
+
+    def image(self, data: bytes | memoryview, name: str) -> Texture | str:
+        """Returns an image that the model holds within a file, checked, or in words why there is none."""
+        return self._textures.checked(bytes(data), name)
+
+    def _content(self, path: Path) -> bytes:
+        if path == self._given:
+            return read_regular(path, self.tally.left("bytes"))
+        target = _real(path)
+        root = self._root_of(target)
+        if root is None:
+            raise UnreadableAsset(f"{path} {OUTSIDE}: what a model names must lie in its own folder")
+        return read_regular(target, self.tally.left("bytes"), root)
+
+    def _root_of(self, target: Path) -> Path | None:
+        return next((root for root in self._roots if target.is_relative_to(root)), None)
+
+    def _too_large(self, path: Path, size: int) -> AssetTooLarge:
+        total = self.limits.max_bytes - self.tally.left("bytes") + size
+        most = f"{self.limits.max_bytes / 2**20:g} MiB"
+        return AssetTooLarge(
+            f"{path} makes {total / 2**20:.0f} MiB of files: at most {most} are read; {how_to_allow('bytes', total)}"
+        )
+
+
+def read_bytes(path: Path, limits: Limits) -> bytes:
+    """Returns the content of a file that the user named.
+
+    Raises:
+        UnreadableAsset: if the file is missing, cannot be read, or is no regular file.
+        AssetTooLarge: if it is larger than the limit.
+    """
+    return ModelFiles(path, limits).read(path)
+
+
+def _real(path: Path) -> Path:
+    return Path(os.path.realpath(path))
+
+
+def _is_dir(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _reason(error: OSError | ValueError) -> str:
+    if isinstance(error, OSError):
+        return error.strerror or str(error)
+    return "its name is one that no file can have"

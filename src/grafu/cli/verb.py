@@ -1,0 +1,37 @@
+"""A verb in this process: whatever goes wrong ends in one line on stderr and an exit code, never in a traceback."""
+
+import argparse
+from collections.abc import Callable
+from importlib import import_module
+
+from grafu.cli.interruption import interruption_held
+from grafu.cli.messages import INTERRUPTED, complain, internal_fault
+from grafu.errors import FunctionalizationError
+
+EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED, EXIT_TERMINATED = 0, 1, 2, 130, 143
+
+
+def prepare_verb() -> None:
+    """Imports what every verb needs, and what would take an interruption for a missing library of its own."""
+    with interruption_held():
+        import_module("trimesh")
+
+
+def run_verb(options: argparse.Namespace) -> int:
+    """Runs the verb that the arguments name; returns its exit code."""
+    return exit_code(options, options.run)
+
+
+def exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], int]) -> int:
+    """Returns what `run` returns, or says in one line what it raises."""
+    try:
+        return int(run(options))
+    except FunctionalizationError as error:
+        complain(str(error))
+        return EXIT_BAD_INPUT
+    except KeyboardInterrupt:
+        complain(INTERRUPTED)
+        return EXIT_INTERRUPTED
+    except Exception as error:  # the last door: whatever reaches it is our fault, and the user gets one line
+        complain(internal_fault(error, "grafu", options.debug))
+        return EXIT_FAILED

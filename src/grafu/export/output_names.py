@@ -1,0 +1,73 @@
+"""The one way from an input to the name of its results' folder: a name that every system can hold, or a refusal.
+
+A name that Windows cannot hold is refused on every system: results are passed on. One that is longer than most tools
+and disks bear, or no Unicode, is mended, and ends in `~` and eight digits of its digest: two such names stay apart.
+"""
+
+import os
+import re
+import unicodedata
+from hashlib import blake2b
+from pathlib import Path
+from typing import Final
+
+from grafu.asset.own_results import MARKER
+from grafu.errors import AssetError
+from grafu.export.remains import is_hidden_name
+from grafu.visible import visible
+
+MOST_BYTES: Final = 120
+"""Of a name in UTF-8; beside it a folder has room for what is written at the same time (255 on most disks)."""
+
+_RESERVED: Final = re.compile(
+    r"(con|prn|aux|nul|com[0-9¹²³]|lpt[0-9¹²³]|conin\$|conout\$|clock\$) *(\..*)?", re.I | re.S
+)
+_FORBIDDEN: Final = '<>:"/\\|?*'
+_SURROGATES: Final = re.compile("[\ud800-\udfff]")
+
+
+def output_name(path: Path) -> str:
+    """Returns the name that an input's results carry: the file's stem, or the folder's name.
+
+    Raises:
+        AssetError: if it cannot be the name of a folder on every system.
+    """
+    resolved = Path(os.path.realpath(path))
+    name = resolved.name if os.path.isdir(resolved) else resolved.stem
+    if why := _why_refused(name):
+        raise AssetError(
+            f"the results of `{visible(str(path))}` would go to `{visible(name)}`, {why}: rename the input"
+        )
+    return _mended(name)
+
+
+def same_place(name: str) -> str:
+    """Returns the same for two names that some disk takes for one: upper and lower case, composed or not."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
+
+
+def _why_refused(name: str) -> str:
+    """Returns why a folder cannot be called so, empty where it can."""
+    if name in ("", ".", ".."):
+        return "which names no folder of its own"
+    if any(unicodedata.category(one) == "Cc" for one in name):
+        return "a name with control characters"
+    held = sorted(set(name) & set(_FORBIDDEN))
+    if held:
+        return f"and `{held[0]}` cannot be in a folder's name on Windows"
+    if name[-1] in ". ":
+        return "and no folder's name can end in a dot or a space on Windows"
+    if _RESERVED.fullmatch(name):
+        return "a name that Windows keeps for a device"
+    if same_place(name) == MARKER or is_hidden_name(name):
+        return "a name that grafu keeps for itself"
+    return ""
+
+
+def _mended(name: str) -> str:
+    written = _SURROGATES.sub("_", name)
+    if written == name and len(name.encode()) <= MOST_BYTES:
+        return name
+    digest = blake2b(name.encode("utf-8", "surrogatepass"), digest_size=4).hexdigest()
+    kept = written.encode()[: MOST_BYTES - len(digest) - 1].decode("utf-8", "ignore")
+    return f"{kept}~{digest}"

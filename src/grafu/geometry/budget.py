@@ -1,0 +1,130 @@
+"""How much time work may take, and how much room one step of it; loops over geometry ask as they go.
+
+A budget is put in force for a block of code. What is called in it asks `require_time` now and then, and `require_room`
+before it makes something large; both raise `TooComplex` where the budget does not hold it, and the caller delivers what
+it has. Where nobody sets a budget, time is unlimited and room is not: one array larger than a computer's memory helps
+nobody. As long as the budget holds, results do not depend on it.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+from math import inf
+from time import monotonic
+from typing import TypeVar, final
+
+from grafu.errors import TooComplex
+
+T = TypeVar("T")
+
+DEFAULT_SECONDS = 120.0
+"""For one model: some ten times what large pieces of furniture take."""
+DEFAULT_ROOM = 400 * 2**20
+"""Bytes of one step: with what stays beside it, a process keeps below some 1.5 GB."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """A point in time at which work ends, by a clock, and how many bytes one step of it may take.
+
+    `deadline` is in seconds of the `clock`, which tests replace; infinity: there is no end.
+
+    Raises:
+        ValueError: if `room` is not above 0.
+    """
+
+    deadline: float = inf
+    room: int = DEFAULT_ROOM
+    clock: Callable[[], float] = monotonic
+
+    def __post_init__(self) -> None:
+        if not self.room > 0:
+            raise ValueError(f"`Budget.room` must be above 0 bytes: got {self.room}")
+
+    @classmethod
+    def lasting(
+        cls, seconds: float = DEFAULT_SECONDS, room: int = DEFAULT_ROOM, clock: Callable[[], float] = monotonic
+    ) -> "Budget":
+        """Returns a budget of so many seconds from now.
+
+        Raises:
+            ValueError: if `seconds` is not above 0.
+        """
+        if not seconds > 0:
+            raise ValueError(f"a budget must last more than 0 seconds: got {seconds}")
+        return cls(clock() + seconds, room, clock)
+
+    @property
+    def left(self) -> float:
+        """Seconds until the deadline; never negative, infinity where there is none."""
+        return inf if self.deadline == inf else max(self.deadline - self.clock(), 0.0)
+
+    def share(self, part: float) -> "Budget":
+        """Returns a budget that ends after this part (0..1) of the time that is left."""
+        if self.deadline == inf:
+            return self
+        now = self.clock()
+        return Budget(now + part * max(self.deadline - now, 0.0), self.room, self.clock)
+
+    @contextmanager
+    def in_force(self) -> Iterator[None]:
+        """Puts the budget in force for a block of code."""
+        before = _present.set(self)
+        try:
+            yield
+        finally:
+            _present.reset(before)
+
+
+UNLIMITED = Budget()
+_present: ContextVar[Budget] = ContextVar("budget", default=UNLIMITED)
+
+
+def present_budget() -> Budget:
+    """Returns the budget in force."""
+    return _present.get()
+
+
+def require_time() -> None:
+    """Goes on as long as there is time.
+
+    Raises:
+        TooComplex: if the deadline of the budget in force has passed.
+    """
+    budget = _present.get()
+    if budget.deadline != inf and budget.clock() >= budget.deadline:
+        raise TooComplex("it takes more time than its share: simplify the meshes, or allow more time")
+
+
+def require_room(count: int, size: int, what: str) -> None:
+    """Goes on where `count` things of `size` bytes each fit into the budget in force; ask before they are made.
+
+    Raises:
+        TooComplex: if they do not fit.
+    """
+    room = _present.get().room
+    if count * size > room:
+        raise TooComplex(f"{what} would take {count * size / 2**20:,.0f} MiB, more than {room / 2**20:,.0f} at once")
+
+
+def fits(count: int, size: int) -> bool:
+    """Whether `count` things of `size` bytes each fit into the budget in force."""
+    return count * size <= _present.get().room
+
+
+def within(part: float, work: Callable[[], T], instead: Callable[[str], T]) -> T:
+    """Returns what `work` makes within this part (0..1) of the time that is left, else what is made `instead`.
+
+    `instead` is told why, in words. It runs under the budget that was in force before, which may be spent, too.
+    """
+    try:
+        with _present.get().share(part).in_force():
+            require_time()
+            return work()
+    except TooComplex as error:
+        why = str(error)
+    except MemoryError:
+        why = "it takes more memory than there is"
+    return instead(why)

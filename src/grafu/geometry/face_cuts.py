@@ -1,0 +1,168 @@
+"""What convex solids leave of faces: what one takes is clipped plane by plane, what several take goes at once.
+
+Memory is bounded: faces are worked on in batches, and what is clipped of one stays a convex polygon of few triangles.
+Split as loose triangles alone it would not: each plane through a corner leaves a triangle without area, and each plane
+that crosses such a one leaves two, so that the many planes of a swept hull made millions of a single face.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+from scipy.spatial import ConvexHull, QhullError
+
+from grafu.geometry.arrays import Points
+from grafu.geometry.budget import require_room, require_time
+from grafu.geometry.plane_split import NOTHING, split_by_planes
+from grafu.geometry.remainder import remainder
+
+_MOST_PAIRS = 5_000  # of a face and a solid at once
+_MOST_PIECES = 64  # of what is clipped of one face by one solid, before it is made a polygon again
+_PAIR_BYTES = 16
+
+
+def left_over(
+    triangles: Float[np.ndarray, "n 3 k"], near: Sequence[np.ndarray], planes: Sequence[np.ndarray]
+) -> tuple[Float[np.ndarray, "m 3 k"], Bool[np.ndarray, " n"]]:
+    """Returns what is left of the triangles that lose something, and which those are.
+
+    Args:
+        triangles: rows of corner attributes, of which the first three are the position.
+        near: for each solid the numbers of the triangles that it may take something of.
+        planes: for each solid its half-spaces `normal . x <= offset` as rows (normal, offset).
+
+    Raises:
+        TooComplex: if the budget in force does not hold the work.
+    """
+    require_room(sum(len(n) for n in near), _PAIR_BYTES, "cutting faces by solids")
+    face = np.concatenate(near)
+    solid = np.repeat(np.arange(len(near)), [len(n) for n in near])
+    padded = _padded(planes)
+    by_one, by_several, is_cut = [triangles[:0]], [triangles[:0]], np.zeros(len(triangles), dtype=bool)
+    for first, last in _batches(np.bincount(face, minlength=len(triangles))):
+        pairs = (face >= first) & (face < last)
+        one, several, cut = _left_of_batch(triangles[first:last], face[pairs] - first, padded, solid[pairs])
+        by_one.append(one)
+        by_several += several
+        is_cut[first:last] = cut
+    return np.concatenate([*by_one, *by_several]), is_cut
+
+
+def _batches(counts: np.ndarray) -> Iterator[tuple[int, int]]:
+    """Yields the first face of each batch and the one after its last, so that each has few pairs."""
+    ends = np.cumsum(counts)
+    first = 0
+    while first < len(counts):
+        before = int(ends[first - 1]) if first else 0
+        last = max(int(np.searchsorted(ends, before + _MOST_PAIRS, side="right")), first + 1)
+        yield first, last
+        first = last
+
+
+def _left_of_batch(
+    triangles: np.ndarray, face: np.ndarray, planes: np.ndarray, solid: np.ndarray
+) -> tuple[np.ndarray, list[np.ndarray], np.ndarray]:
+    """Returns what one solid each leaves of triangles, what several do, and which triangles lose something."""
+    taken = _taken(triangles[face], planes, solid)
+    times = np.bincount(face[taken.hit], minlength=len(triangles))
+    gone = np.zeros(len(triangles), dtype=bool)  # of which one solid leaves nothing
+    gone[face[taken.hit & taken.is_whole]] = True
+    alone = taken.hit & (times[face] == 1)
+    by_one = _outside(triangles[face[alone]], planes, solid[alone])
+    holes = _holes(face, taken, times > 1)
+    several = np.flatnonzero((times > 1) & ~gone).tolist()
+    return by_one, [remainder(triangles[k, :, :3], holes[k]) @ triangles[k] for k in several], times > 0
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class _Taken:
+    """What solids take of faces, by pairs: triangles with the number of their pair, and which pairs take anything.
+
+    `is_whole` says that the solid takes all of the face.
+    """
+
+    inside: Float[np.ndarray, "m 3 k"]
+    owner: Int[np.ndarray, " m"]
+    hit: Bool[np.ndarray, " pairs"]
+    is_whole: Bool[np.ndarray, " pairs"]
+
+
+def _taken(inside: np.ndarray, planes: np.ndarray, solid: np.ndarray) -> _Taken:
+    count = len(inside)
+    owner, is_whole = np.arange(count), np.ones(count, dtype=bool)
+    for k in range(planes.shape[1]):
+        require_time()
+        inside, owner, _, outside_owner = split_by_planes(inside, owner, planes[solid[owner], k])
+        is_whole[outside_owner] = False
+        inside, owner = _merged(inside, owner, count)
+    hit = np.zeros(count, dtype=bool)
+    hit[owner[_areas(inside) > NOTHING**2]] = True
+    return _Taken(inside, owner, hit, is_whole)
+
+
+def _outside(inside: np.ndarray, planes: np.ndarray, solid: np.ndarray) -> np.ndarray:
+    """Returns what is left of triangles when each is cut by one solid."""
+    count, owner = len(inside), np.arange(len(inside))
+    kept = [inside[:0]]
+    for k in range(planes.shape[1]):
+        require_time()
+        inside, owner, outside, _ = split_by_planes(inside, owner, planes[solid[owner], k])
+        kept.append(outside)
+        inside, owner = _merged(inside, owner, count)
+    return np.concatenate(kept)
+
+
+def _merged(inside: np.ndarray, owner: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the pieces, those of pairs that have many made as few as their outline needs."""
+    many = np.bincount(owner, minlength=count) > _MOST_PIECES
+    if not many.any():
+        return inside, owner
+    rest = ~many[owner]
+    fans = [(pair, _fan(inside[owner == pair])) for pair in np.flatnonzero(many).tolist()]
+    owners = [np.full(len(fan), pair) for pair, fan in fans]
+    return np.concatenate([inside[rest], *(f for _, f in fans)]), np.concatenate([owner[rest], *owners])
+
+
+def _fan(pieces: np.ndarray) -> np.ndarray:
+    """Returns the triangles of the convex polygon that pieces make up, turned like them."""
+    corners = pieces.reshape(-1, pieces.shape[2])
+    normal = np.cross(pieces[:, 1, :3] - pieces[:, 0, :3], pieces[:, 2, :3] - pieces[:, 0, :3]).sum(axis=0)
+    axis = int(np.argmax(np.abs(normal)))
+    flat = corners[:, [(axis + 1) % 3, (axis + 2) % 3]]
+    try:
+        outline = ConvexHull(flat).vertices  # counter-clockwise
+    except (QhullError, ValueError):
+        return pieces[:1]  # a line: it is less than nothing, but still there
+    ring = outline if normal[axis] > 0 else outline[::-1]
+    hub = np.full(len(ring) - 2, ring[0])
+    return corners[np.stack([hub, ring[1:-1], ring[2:]], axis=1)]
+
+
+def _holes(face: np.ndarray, taken: _Taken, wanted: np.ndarray) -> dict[int, list[Points]]:
+    """Returns for each wanted face the corners of what each solid takes of it."""
+    used = (taken.hit & wanted[face])[taken.owner]
+    owner, inside = taken.owner[used], taken.inside[used, :, :3]
+    order = np.argsort(owner, kind="stable")
+    pairs, start = np.unique(owner[order], return_index=True)
+    found: dict[int, list[Points]] = defaultdict(list)
+    for k, points in zip(face[pairs].tolist(), np.split(inside[order], start)[1:], strict=True):
+        found[k].append(points.reshape(-1, 3))
+    return found
+
+
+def _padded(planes: Sequence[np.ndarray]) -> Float[np.ndarray, "s k 4"]:
+    """Returns the solids' planes, as many of each: what some lack are planes that everything lies within."""
+    padded = np.zeros((len(planes), max(len(rows) for rows in planes), 4))
+    padded[:, :, 3] = np.inf
+    for own, rows in zip(padded, planes, strict=True):
+        own[: len(rows)] = rows
+    return padded
+
+
+def _areas(triangles: np.ndarray) -> np.ndarray:
+    first, second = triangles[:, 1, :3] - triangles[:, 0, :3], triangles[:, 2, :3] - triangles[:, 0, :3]
+    return np.linalg.norm(np.cross(first, second), axis=1) / 2

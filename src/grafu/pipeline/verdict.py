@@ -1,0 +1,172 @@
+"""What came of a piece, as a traffic light with its reasons: the one judgement that all pages and lists show.
+
+It reads the figures of a report and measures nothing anew. What somebody wants to stand still is no fault.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from math import prod
+from typing import Final
+
+from grafu.pipeline.faults import Colour, FaultKind
+from grafu.pipeline.report_schema import FaultRecord, GuessRecord, JointRecord, Report, SkippedRecord, VerdictRecord
+from grafu.pipeline.words import counted, listed, opening, percent
+from grafu.realization.report import SkipReason
+from grafu.vocabulary import JointType, PartLabel
+
+LEAST_CONFIDENCE: Final = 0.8
+"""A decision below this score is a guess that somebody should look at."""
+LEAST_OPENING: Final = 0.7
+"""A joint that opens less than this share of what it should is restricted."""
+LEAST_MOTION: Final = 0.3
+"""... and below this share it does not open."""
+MOST_CARVED: Final = 0.05
+"""A part that lost more than this share, of what is seen of it or of its volume, is carved too much."""
+MOST_GAP: Final = 0.005
+"""A part comes loose where the gap to what carries it is wider than this share of the object's largest side."""
+_NAMED = 4  # parts that a sentence names
+
+
+def verdict_of(report: Report) -> VerdictRecord:
+    """Returns the verdict on what a report tells: the colour of its worst fault, and green without any."""
+    faults = tuple(sorted(_faults(report), key=lambda fault: fault.colour is not Colour.RED))
+    colours = {fault.colour for fault in faults}
+    worst = next((colour for colour in (Colour.RED, Colour.YELLOW) if colour in colours), Colour.GREEN)
+    return VerdictRecord(
+        colour=worst,
+        sentence=_sentence(report, faults),
+        lines=faults,
+        least_confidence=LEAST_CONFIDENCE,
+        least_opening=LEAST_OPENING,
+        most_carved=MOST_CARVED,
+    )
+
+
+def not_built(report: Report) -> tuple[SkippedRecord, ...]:
+    """Returns what was asked for and could not be built; what somebody stopped is no fault."""
+    return tuple(skip for skip in report.skipped if skip.reason is not SkipReason.REJECTED)
+
+
+def stopped(report: Report) -> tuple[str, ...]:
+    """Returns the parts that stand still because somebody said so."""
+    return tuple(skip.request for skip in report.skipped if skip.reason is SkipReason.REJECTED)
+
+
+def still_fronts(report: Report) -> dict[str, str]:
+    """Returns the parts that should move and do not, and why: doors and drawers, and others that were to move."""
+    category = {part.id: part.category for part in report.parts}
+    moving = {joint.part for joint in report.joints}
+    carried = {part.id for part in report.parts if part.link in moving}
+    fronts = [p.id for p in report.parts if p.category.is_movable and p.link]
+    wanted = {
+        skip.request: f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason.value
+        for skip in reversed(not_built(report))
+        if _is_motion(skip) and category.get(skip.request, PartLabel.HANDLE) is not PartLabel.HANDLE
+    }
+    still = dict.fromkeys(fronts, "it has no joint") | wanted
+    answered = moving | carried | set(stopped(report))
+    return {part: why for part, why in still.items() if part not in answered}
+
+
+def _faults(report: Report) -> Iterator[FaultRecord]:
+    still = still_fronts(report)
+    yield from (_fault(report, part, FaultKind.STILL, why) for part, why in still.items())
+    for joint in report.joints:
+        yield from _faults_of(joint, report)
+    yield from (_guessed(guess, report) for guess in _unsure(report) if guess.part not in still)
+    yield from _carved(report)
+    for skip in not_built(report):
+        if not (_is_motion(skip) and skip.request in still):
+            yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.reason.value)
+    yield from (_fault(report, "", FaultKind.NOTED, note, "") for note in report.notes)
+    if not (report.joints or still or stopped(report)):
+        yield _fault(report, "", FaultKind.NOTHING_MOVES, "no part is a door or a drawer")
+
+
+def _is_motion(skip: SkippedRecord) -> bool:
+    """Whether a skip is of a part's motion, not of something that was to be added to it."""
+    return skip.reason is not SkipReason.NOT_ADDED
+
+
+def _fault(report: Report, part: str, kind: FaultKind, why: str, option: str | None = None) -> FaultRecord:
+    said = next(iter(report.moves.get(part, ())), "") if option is None else option
+    return FaultRecord(part=part, kind=kind, colour=kind.colour, why=why, option=said)
+
+
+def _faults_of(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
+    if joint.collision_share > 0:
+        yield _fault(report, joint.part, FaultKind.COLLIDES, f"in {percent(joint.collision_share)} of its poses")
+    if joint.largest_gap > MOST_GAP * max(report.size or (1.0,)):
+        yield _fault(report, joint.part, FaultKind.LOOSE, f"by {1000 * joint.largest_gap:.1f} mm")
+    yield from _short(joint, report)
+    if joint.grasp == "none":
+        yield _fault(report, joint.part, FaultKind.NO_GRASP, "there is nothing to take hold of", "")
+    yield from (_fault(report, joint.part, FaultKind.NOTED, note, "") for note in joint.notes)
+
+
+def _short(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
+    share = joint.opening / joint.wanted if joint.wanted else 1.0
+    said = f"it opens by {opening(joint.type, joint.opening)}"
+    if joint.wanted:
+        said += f" of {opening(joint.type, joint.wanted)}"
+    if share < LEAST_MOTION or joint.opening <= 0:
+        yield _fault(report, joint.part, FaultKind.SHUT, said)
+    elif share < LEAST_OPENING or joint.restricted:
+        yield _fault(report, joint.part, FaultKind.RESTRICTED, said)
+
+
+def _unsure(report: Report) -> Iterator[GuessRecord]:
+    """Yields for each part the least sure of the decisions that its motion rests on, where it is not sure enough."""
+    unsure = sorted((guess for guess in report.guesses if guess.score < LEAST_CONFIDENCE), key=lambda g: g.score)
+    yield from {guess.part: guess for guess in reversed(unsure)}.values()
+
+
+def _guessed(guess: GuessRecord, report: Report) -> FaultRecord:
+    what = {"label": "that it is a", "border": "that it turns about its", "sign": "that it opens to the"}
+    sure = f"is {percent(guess.score)} sure, less than {percent(LEAST_CONFIDENCE)}"
+    other = f"; {guess.runner_up}: {percent(guess.runner_up_score)}" if guess.runner_up else ""
+    why = f"{what.get(guess.question, 'that it slides to the')} {guess.choice} {sure}{other}"
+    return _fault(report, guess.part, FaultKind.GUESSED, why)
+
+
+def _carved(report: Report) -> Iterator[FaultRecord]:
+    """Yields the parts of which more went, for all joints together, than should."""
+    cuts = [cut for joint in report.joints for cut in joint.clearances if cut.kind == "carved"]
+    for part in dict.fromkeys(cut.part for cut in cuts):
+        of_part = [cut for cut in cuts if cut.part == part]
+        lost = 1.0 - prod(1.0 - cut.share for cut in of_part)
+        if lost > MOST_CARVED:
+            by = ", ".join(dict.fromkeys(cut.why for cut in of_part))
+            yield _fault(report, part, FaultKind.CARVED, f"{percent(lost)} of it was cut away: {by}", "--no-trim")
+
+
+def _sentence(report: Report, faults: tuple[FaultRecord, ...]) -> str:
+    """Returns one sentence that says the same as the faults: what works, what to look at, or what does not work."""
+    fronts = _fronts_words(report)
+    if not fronts:
+        return f"Nothing moves{', as asked' if stopped(report) else ': no part is a door or a drawer'}."
+    if not faults:
+        return f"Everything works: {fronts}; nothing collides, nothing comes loose."
+    red = tuple(fault for fault in faults if fault.colour is Colour.RED)
+    if red:
+        return f"Does not work: {_names(red)}, of {fronts}."
+    return f"Works, but look at {_names(faults)}."
+
+
+def _names(faults: tuple[FaultRecord, ...]) -> str:
+    """Returns the parts, each with what is amiss: the first few, and how many more."""
+    kinds: dict[str, list[str]] = {}
+    for fault in faults:
+        kinds.setdefault(fault.part or "the whole", []).append(fault.kind.value)
+    said = [f"{part} ({', '.join(dict.fromkeys(words))})" for part, words in kinds.items()]
+    more = [f"{len(said) - _NAMED} more"] if len(said) > _NAMED else []
+    return listed([*said[:_NAMED], *more])
+
+
+def _fronts_words(report: Report) -> str:
+    """Returns how many doors and drawers there are that should move; empty where there is none."""
+    category = {part.id: part.category for part in report.parts}
+    slides = [joint.type is JointType.PRISMATIC for joint in report.joints]
+    slides += [category.get(part) is PartLabel.DRAWER for part in still_fronts(report)]
+    counts = Counter("drawer" if slide else "door" for slide in slides)
+    return listed(counted(counts[kind], kind) for kind in ("door", "drawer") if counts[kind])

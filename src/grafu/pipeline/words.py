@@ -1,0 +1,31 @@
+"""Numbers and lists as people read them. It knows no report."""
+
+from collections.abc import Iterable
+from math import degrees
+
+from grafu.vocabulary import JointType
+
+
+def opening(joint_type: JointType, value: float) -> str:
+    """Returns a joint value in the unit that people read: degrees or centimetres."""
+    return f"{degrees(value):.0f}°" if joint_type is JointType.REVOLUTE else f"{value * 100:.1f} cm"
+
+
+def counted(count: int, what: str) -> str:
+    """Returns `1 hinge`, `2 hinges`."""
+    endings = {"s": what, "lf": f"{what[:-1]}ves", "x": f"{what}es"}
+    plural = next((plural for ending, plural in endings.items() if what.endswith(ending)), f"{what}s")
+    return f"{count} {what if count == 1 else plural}"
+
+
+def listed(words: Iterable[str]) -> str:
+    """Returns `a`, `a and b`, `a, b and c`."""
+    known = list(words)
+    return " and ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
+
+
+def percent(share: float) -> str:
+    """Returns a share as a percentage; what is not nothing is never told as 0 %, what is not all never as 100 %."""
+    if 0 < share < 0.005:
+        return "under 1 %"
+    return "over 99 %" if 0.995 <= share < 1 else f"{100 * share:.0f} %"

@@ -1,0 +1,61 @@
+"""Processes end together: a worker with its parent, however that ends, and what it started with the worker."""
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+from contextlib import suppress
+from typing import Final
+
+from grafu.processes.memory import descendants
+
+_SIGNAL_AT_PARENTS_DEATH: Final = 1  # PR_SET_PDEATHSIG
+
+
+def end_with_parent(started_by_main_thread: bool = True) -> None:
+    """Ends this process, which multiprocessing started, as soon as its parent is gone, even amid native code.
+
+    Linux counts the end of the thread that started it as its parent's: where that was not the main thread, and
+    elsewhere, a thread of this process watches instead, which has to wait for native code that lets nobody else run.
+    """
+    parent = multiprocessing.parent_process()
+    if parent is None:
+        return
+    if not (started_by_main_thread and is_killed_with(parent.pid)):
+        threading.Thread(target=_watch, daemon=True).start()
+
+
+def is_killed_with(parent: int | None) -> bool:
+    """Has Linux kill this process when its parent, of this id (None: whatever it is), dies; whether it will do so."""
+    if sys.platform != "linux":
+        return False
+    import ctypes
+
+    try:
+        answer = ctypes.CDLL(None).prctl(_SIGNAL_AT_PARENTS_DEATH, int(signal.SIGKILL), 0, 0, 0)
+    except (OSError, AttributeError):
+        return False
+    if parent is not None and os.getppid() != parent:  # it died before the system was asked
+        os._exit(1)
+    return bool(answer == 0)
+
+
+def started_by_main_thread() -> bool:
+    """Whether a process that is started now has a parent that lives as long as this process."""
+    return threading.current_thread() is threading.main_thread()
+
+
+def kill(process: int) -> None:
+    """Kills a process and all that it started; those that are gone already are no fault."""
+    found = descendants(process)
+    for one in (process, *found):
+        with suppress(OSError):
+            os.kill(one, signal.SIGKILL if sys.platform != "win32" else signal.SIGTERM)
+
+
+def _watch() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -1,0 +1,135 @@
+"""A process that does one piece of work after another, and is stopped where one takes too much time or memory."""
+
+import multiprocessing
+import sys
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from pathlib import Path
+from time import monotonic
+from typing import Any, Generic, Literal, TypeVar, final
+
+from grafu.processes.lifetime import end_with_parent, kill, started_by_main_thread
+from grafu.processes.limits import PATIENCE, Ending, Limits, Outcome
+from grafu.processes.memory import refuse_beyond, resident_bytes
+from grafu.processes.scratch import clear_scratch
+from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+Start = Literal["fork", "spawn"]
+_LOOK = 0.05  # seconds between two looks at a worker with limits
+_WORN = 0.5  # of its memory: a worker that keeps more from one piece of work to the next is not used again
+
+
+def nothing() -> None:
+    """Prepares nothing."""
+
+
+def quick_start() -> Start:
+    """Returns how a process starts that need not import again what this one has imported.
+
+    A fork copies one thread alone, and the locks that the others hold: it is for a process without any.
+    """
+    alone = sys.platform == "linux" and len(list(Path("/proc/self/task").iterdir())) == 1
+    return "fork" if alone else "spawn"
+
+
+@final
+class Worker(Generic[Item, Result]):
+    """A process that runs `run` on items, within limits that hold for each; `run` must be a function of a module.
+
+    `prepare` is called in it first, say to import; the time of an item begins after that.
+    """
+
+    def __init__(
+        self,
+        run: Callable[[Item], Result],
+        limits: Limits = Limits(),
+        prepare: Callable[[], None] = nothing,
+        start: Start = "spawn",  # a fork would copy locks that native libraries hold
+    ) -> None:
+        context: Any = multiprocessing.get_context(start)
+        self._limits = limits
+        self.connection, theirs = context.Pipe()
+        arguments = (run, limits, prepare, theirs, started_by_main_thread())
+        self._process = context.Process(target=_serve, args=arguments, daemon=True)
+        self._deadline: float | None = None
+        with interrupts_later():
+            self._process.start()
+        theirs.close()
+
+    @property
+    def patience(self) -> float | None:
+        """Seconds for which nobody needs to look, while it says nothing; None: for ever."""
+        return None if self._limits == Limits() else _LOOK
+
+    def give(self, item: Item) -> None:
+        """Gives it work; one that died meanwhile says so when it is asked for the outcome."""
+        self._deadline = None
+        try:
+            self.connection.send(item)
+        except OSError:
+            return
+
+    def outcome(self) -> Outcome[Result] | None:
+        """Returns how the work that it was given ended; None while it is at it. A worker without a result is gone."""
+        try:
+            while self.connection.poll():
+                results = self.connection.recv()
+                if results:
+                    return Outcome(Ending.DONE, results)
+                self._begin()
+        except (EOFError, OSError):
+            self.stop()
+            return Outcome(Ending.DIED)
+        excess = self._excess()
+        if excess is None:
+            return None
+        self.stop()
+        return Outcome(excess)
+
+    @property
+    def is_worn(self) -> bool:
+        """Whether it keeps so much memory that the next piece of work would have too little."""
+        memory = self._limits.memory
+        return memory is not None and resident_bytes(self._process.pid) > _WORN * memory
+
+    def stop(self) -> None:
+        """Ends it at once, with all that it started and its folders; does nothing where it is gone."""
+        process = self._process.pid
+        if self._process.is_alive():
+            kill(process)
+        self._process.join()
+        clear_scratch(process)
+        self.connection.close()
+
+    def _begin(self) -> None:
+        if self._limits.seconds is not None:
+            self._deadline = monotonic() + PATIENCE * self._limits.seconds
+
+    def _excess(self) -> Ending | None:
+        if self._limits.memory is not None and resident_bytes(self._process.pid) > self._limits.memory:
+            return Ending.LARGE
+        return Ending.LATE if self._deadline is not None and monotonic() > self._deadline else None
+
+
+def _serve(
+    run: Callable[[Any], object],
+    limits: Limits,
+    prepare: Callable[[], None],
+    connection: Connection,
+    started_by_main_thread: bool,
+) -> None:
+    """Works until nobody asks any more: an empty tuple says that work begins, one with a result that it is done."""
+    leave_interrupts_to_parent()
+    end_with_parent(started_by_main_thread)
+    if limits.memory is not None:
+        refuse_beyond(limits.memory)
+    prepare()
+    while True:
+        try:
+            item = connection.recv()
+            connection.send(())
+            connection.send((run(item),))
+        except (EOFError, BrokenPipeError):
+            return

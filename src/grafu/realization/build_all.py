@@ -1,0 +1,89 @@
+"""All joints of a plan, one after the other, each within its share of the time: doors first, then drawers.
+
+One part that cannot be built, or takes more than its share, does not cost the others theirs.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+from grafu.geometry.budget import present_budget, within
+from grafu.realization.build import Built, build_joint
+from grafu.realization.config import RealizationConfig
+from grafu.realization.expectation import expected_ways
+from grafu.realization.kept import Kept
+from grafu.realization.plan import JointRequest
+from grafu.realization.report import Skipped, SkipReason
+from grafu.realization.scene import Scene, Way
+from grafu.templates.template import Gallery
+from grafu.vocabulary import JointType
+
+_EXPECTING = 0.15  # of the time: what joints that are not built yet may be expected to do
+_TRY = 0.8  # of the time: all joints, and all of them once more where that is needed
+_TIMES_EVEN = 8  # a hard joint may take so many times an even part of the time that is left,
+_MOST = 0.5  # and at most so much of it,
+_LEAST = 0.05  # and in any case so much: of very many joints some are built, rather than none
+
+Outcomes = tuple[list[Built], list[Skipped], Scene]
+
+
+def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
+    """Returns one request per part (the first), doors before drawers, riders never on their own."""
+    first: dict[str, JointRequest] = {}
+    for request in joints:
+        first.setdefault(request.moving, request)
+    ridden = {rider for request in first.values() for rider in request.riders}
+    kept = [request for request in first.values() if request.moving not in ridden]
+    return sorted(kept, key=lambda r: r.type is not JointType.REVOLUTE)
+
+
+def build_fairly(
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+) -> Outcomes:
+    """Returns what came of all requests, each joint keeping out of the expected ways of those built after it.
+
+    Doors for which that left no place are given the way that was asked for, and all is built again; the first try
+    stands unless the second builds more.
+    """
+    find = partial(kept.value, "ways", expected_ways, tuple(requests), scene, config)
+    ways: Mapping[str, Way] = within(_EXPECTING, find, lambda _: {})
+    budget = present_budget().share(_TRY)
+    with budget.in_force():
+        first = _build_all(requests, replace(scene, ways=ways), gallery, config, kept)
+        left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & ways.keys()
+        asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
+        if not asked or not first[0] or budget.left == 0:
+            return first
+        wider = {r.moving: replace(ways[r.moving], axis=r.axis) for r in asked}
+        second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config, kept)
+    return second if len(second[1]) < len(first[1]) else first
+
+
+def _build_all(
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+) -> Outcomes:
+    """Returns the joints built, those that were not, and the scene with all hardware."""
+    built: list[Built] = []
+    skipped: list[Skipped] = []
+    for k, request in enumerate(requests):
+        outcome = _build(request, len(requests) - k, scene, gallery, config, kept)
+        if isinstance(outcome, Skipped):
+            skipped.append(outcome)
+            scene = replace(scene, ways={name: way for name, way in scene.ways.items() if name != request.moving})
+            continue
+        scene = outcome.scene
+        built.append(outcome)
+    return built, skipped, scene
+
+
+def _build(
+    request: JointRequest, left: int, scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+) -> Built | Skipped:
+    """Returns one joint of those `left` to build, or why it could not be built."""
+    work = partial(kept.value, "joint", build_joint, request, scene, gallery, config)
+    return within(joint_share(left), work, partial(Skipped, request.moving, SkipReason.TOO_COMPLEX))
+
+
+def joint_share(left: int) -> float:
+    """Returns the part (0..1) of the time left that the first of `left` joints may take."""
+    return 1.0 if left <= 1 else min(_MOST, max(_LEAST, _TIMES_EVEN / left))

@@ -1,0 +1,30 @@
+import pytest
+
+from grafu.cli.main import main
+from small_assets import write_glb
+
+
+@pytest.mark.parametrize("verb", ["inspect", "functionalize"])
+def test_a_limit_is_lowered_and_the_message_says_how_to_raise_it(tmp_path, capsys, verb):
+    path = write_glb(tmp_path / "cabinet.glb")
+    more = ["--out", str(tmp_path / "out")] if verb == "functionalize" else []
+    assert main([verb, str(path), "--limit", "faces=131", "--limit", "parts=50", *more]) == 2
+    said = capsys.readouterr().err
+    assert "132 faces: at most 131 are read" in said
+    assert "--limit faces=132" in said
+
+
+@pytest.mark.parametrize("text", ["faces", "faces=", "faces=0", "faces=-1", "face=7", "faces=1e9", "faces=" + "0" * 99])
+def test_what_is_no_limit_is_refused(tmp_path, capsys, text):
+    try:
+        code = main(["inspect", str(write_glb(tmp_path / "a.glb")), "--limit", text])
+    except SystemExit as stopped:
+        code = stopped.code
+    assert code == 2
+    assert "must be NAME=NUMBER, NAME one of bytes, parts, faces" in capsys.readouterr().err
+
+
+def test_settings_that_are_no_file_are_refused_at_once(tmp_path, capsys):
+    path = write_glb(tmp_path / "a.glb")
+    assert main(["functionalize", str(path), "--out", str(tmp_path / "out"), "--settings", "/dev/zero"]) == 2
+    assert "it is a device" in capsys.readouterr().err

@@ -1,0 +1,97 @@
+"""Names of result folders: each can be a folder on every system, stays inside, and differs from all others."""
+
+import os
+from pathlib import Path, PureWindowsPath
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grafu.errors import AssetError
+from grafu.export.output_names import MOST_BYTES, output_name, same_place
+from grafu.export.remains import hidden_name
+from grafu.visible import visible
+
+NAMES = st.one_of(
+    st.text(st.characters(exclude_characters="/\0", exclude_categories=("Cs",)), min_size=1, max_size=300),
+    st.binary(min_size=1, max_size=300).map(lambda held: os.fsdecode(held.translate(None, b"/\0"))),
+)
+
+
+@pytest.mark.parametrize(
+    "file",
+    [
+        *("con.glb", "NUL.glb", "Aux.v2.glb", "prn .x.glb", "COM1.glb", "lpt9.glb", "com¹.glb", "CONOUT$.glb"),
+        *("a .glb", "a..glb", "a:b.glb", "a?.glb", "a*.glb", 'a".glb', "a<b>.glb", "a|b.glb", "a\\b.glb"),
+        *("a\nb.glb", "a\x7f.glb", "a\x9b.glb", ".grafu.json.glb", ".GRAFU.JSON.glb"),
+    ],
+)
+def test_names_that_some_system_cannot_hold_are_refused(file: str) -> None:
+    with pytest.raises(AssetError, match="rename the input") as refusal:
+        output_name(Path("models") / file)
+    assert visible(str(refusal.value)) == str(refusal.value)
+    assert visible(file) in str(refusal.value)
+
+
+def test_what_leads_out_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    for stem in ("", ".", ".."):
+        monkeypatch.setattr(Path, "stem", stem)  # of `...glb`, as some versions of Python read it
+        with pytest.raises(AssetError, match="no folder of its own"):
+            output_name(Path("model.glb"))
+
+
+def test_a_name_that_a_run_would_clear_away_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(AssetError, match="keeps for itself"):
+        output_name(hidden_name(tmp_path / "cabinet", "old").with_name("x.glb").with_stem(
+            hidden_name(tmp_path / "cabinet", "old").name
+        ))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "name", ["cabinet", "Schränkchen", "扉", "a.b", ".hidden", "console", "com10", "nulls", "a b", "~", "lpt"]
+)
+def test_usual_names_stay(name: str) -> None:
+    assert output_name(Path(f"{name}.glb")) == name
+
+
+def test_a_folder_is_called_as_it_is(tmp_path: Path) -> None:
+    (tmp_path / "v1.5").mkdir()
+
+    assert output_name(tmp_path / "v1.5") == "v1.5"
+    assert output_name(tmp_path / "v1.5" / ".") == "v1.5"
+
+
+@given(NAMES)
+def test_every_name_is_a_folder_of_its_own_or_refused(name: str) -> None:
+    try:
+        made = output_name(Path(f"models/{name}.glb"))
+    except AssetError:
+        return
+    assert made not in ("", ".", "..")
+    assert len(made.encode("utf-8")) <= MOST_BYTES
+    assert not set(made) & set('<>:"/\\|?*')
+    assert made[-1] not in ". "
+    assert made.isprintable() or all(ord(one) > 0x9F for one in made if not one.isprintable())
+    assert Path(os.path.normpath(Path("out") / made)).parent == Path("out")
+    assert not PureWindowsPath(made).is_reserved()
+    assert len(hidden_name(Path(made), "new").name.encode()) <= 255
+
+
+@given(st.text(min_size=121, max_size=200, alphabet="aäが🚪"), st.text(alphabet="aäが🚪", max_size=9))
+def test_long_names_are_cut_between_characters_and_stay_apart(name: str, more: str) -> None:
+    first, second = output_name(Path(f"{name}x.glb")), output_name(Path(f"{name}y{more}.glb"))
+
+    assert name.startswith(first.rpartition("~")[0])
+    assert len(first.encode()) > MOST_BYTES - 4
+    assert same_place(first) != same_place(second)
+
+
+def test_names_that_are_no_unicode_stay_apart() -> None:
+    first, second = (output_name(Path(os.fsdecode(b"caf" + end + b".glb"))) for end in (b"\xe9", b"\xe8"))
+
+    assert first != second
+    assert first.startswith("caf_~")
+
+
+def test_one_place_on_some_disk_is_one_place() -> None:
+    assert same_place("Cafe\u0301") == same_place("CAF\u00c9")

@@ -1,0 +1,252 @@
+"""The verdict on made furniture: green means that every door and drawer works, and each fault takes that away.
+
+Faults are put into reports of furniture that works, in any number and mixture, and into the furniture itself.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grafu.asset.part import Asset
+from grafu.pipeline.addition_config import NO_ADDITIONS
+from grafu.pipeline.faults import Colour, FaultKind
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
+from grafu.pipeline.triage import Level, joint_states
+from grafu.pipeline.verdict import LEAST_CONFIDENCE, LEAST_OPENING, MOST_CARVED, verdict_of
+from grafu.realization.config import RealizationConfig
+from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
+from grafu.realization.report import SkipReason
+from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.case import Case
+from grafu.synth.kinds import KINDS
+from grafu.synth.layout import Door, Drawer, Stack
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType
+
+GALLERY = builtin_gallery()
+LAYOUTS = (Door(), Stack((Drawer(), Door()), (1.0, 3.0)), Stack((Drawer(), Drawer(), Drawer()), (1.0, 1.0, 1.0)))
+BAD = Callable[[Report, JointRecord, float], Report]
+
+
+def cabinet(layout: int) -> Asset:
+    return make_cabinet(Cabinet("made", Case(0.5, 0.9), LAYOUTS[layout]))
+
+
+def reported(asset: Asset, source: MotionSource = MotionSource.ANNOTATION, **config) -> Report:
+    settings = PipelineConfig(additions=NO_ADDITIONS, **config)
+    return report_of(functionalize(asset, source, GALLERY, settings))
+
+
+@cache
+def sound(layout: int) -> Report:
+    return reported(cabinet(layout))
+
+
+def with_joint(report: Report, part: str, **changes) -> Report:
+    joints = (joint.model_copy(update=changes) if joint.part == part else joint for joint in report.joints)
+    return report.model_copy(update={"joints": tuple(joints)})
+
+
+def without_joint(report: Report, part: str) -> Report:
+    """The part stands with the body, as it does where nobody moves it."""
+    parts = tuple(p.model_copy(update={"link": "body"}) if p.link == part else p for p in report.parts)
+    joints = tuple(joint for joint in report.joints if joint.part != part)
+    return report.model_copy(update={"joints": joints, "parts": parts})
+
+
+def skipped(report: Report, joint: JointRecord, size: float) -> Report:
+    reasons = [reason for reason in SkipReason if reason not in (SkipReason.REJECTED, SkipReason.NOT_ADDED)]
+    skip = SkippedRecord(request=joint.part, reason=reasons[int(size * (len(reasons) - 1))], detail="")
+    left = without_joint(report, joint.part)
+    return left.model_copy(update={"skipped": (*left.skipped, skip)})
+
+
+def guessed(report: Report, joint: JointRecord, size: float) -> Report:
+    score = (1 - size) * LEAST_CONFIDENCE - 1e-6
+    guess = GuessRecord(
+        part=joint.part, question="slide", choice="front", score=max(score, 0.0), runner_up="", runner_up_score=0
+    )
+    return report.model_copy(update={"guesses": (*report.guesses, guess)})
+
+
+def carved(report: Report, joint: JointRecord, size: float) -> Report:
+    share = MOST_CARVED + (1 - MOST_CARVED) * size
+    half = 1 - (1 - share) ** 0.5  # two cuts that are less each, and too much together
+    cut = ClearanceRecord(part="side_panel_left", kind="carved", amount=0.1, share=half, surface_share=half, why="")
+    return with_joint(report, joint.part, clearances=(*joint.clearances, cut, cut))
+
+
+def short(report: Report, joint: JointRecord, size: float) -> Report:
+    assert joint.wanted is not None
+    opening = (1 - size) * LEAST_OPENING * joint.wanted * 0.999
+    return with_joint(report, joint.part, opening=opening, upper=opening)
+
+
+FAULTS: dict[str, tuple[BAD, set[FaultKind]]] = {
+    "collides": (lambda r, j, s: with_joint(r, j.part, collision_share=s), {FaultKind.COLLIDES}),
+    "loose": (lambda r, j, s: with_joint(r, j.part, largest_gap=0.0051 * max(r.size or ()) + s), {FaultKind.LOOSE}),
+    "short": (short, {FaultKind.RESTRICTED, FaultKind.SHUT}),
+    "silent": (lambda r, j, _: without_joint(r, j.part), {FaultKind.STILL}),
+    "skipped": (skipped, {FaultKind.STILL}),
+    "guessed": (guessed, {FaultKind.GUESSED}),
+    "no grasp": (lambda r, j, _: with_joint(r, j.part, grasp="none"), {FaultKind.NO_GRASP}),
+    "carved": (carved, {FaultKind.CARVED}),
+}
+SIZES = st.floats(0.001, 1.0)
+
+
+@pytest.mark.parametrize("layout", range(len(LAYOUTS)))
+def test_furniture_that_works_is_green(layout):
+    verdict = verdict_of(sound(layout))
+
+    assert (verdict.colour, verdict.lines) == (Colour.GREEN, ())
+    assert verdict.sentence.startswith("Everything works: ")
+
+
+@pytest.mark.parametrize("name", FAULTS)
+@given(data=st.data(), size=SIZES)
+def test_each_fault_is_a_line_of_its_part_with_its_colour(name, data, size):
+    report = sound(data.draw(st.integers(0, 2)))
+    joint = data.draw(st.sampled_from(report.joints))
+    make, kinds = FAULTS[name]
+    verdict = verdict_of(make(report, joint, size))
+    [line] = verdict.lines
+
+    assert line.kind in kinds
+    assert line.part == (joint.part if name != "carved" else "side_panel_left")
+    assert verdict.colour is line.colour is line.kind.colour is not Colour.GREEN
+    assert line.part in verdict.sentence
+    assert line.why
+
+
+@given(data=st.data())
+def test_green_means_that_every_front_opens_and_nothing_collides(data):
+    """Whatever is put into a report: where the verdict is green, each door and drawer has a joint that works."""
+    report = before = sound(data.draw(st.integers(0, 2)))
+    for name in data.draw(st.lists(st.sampled_from(sorted(FAULTS)), max_size=4)):
+        if report.joints:
+            joint = data.draw(st.sampled_from(report.joints))
+            report = FAULTS[name][0](report, joint, data.draw(SIZES))
+    verdict = verdict_of(report)
+    fronts = {part.id for part in report.parts if part.category.is_movable}
+    works = {
+        joint.part
+        for joint in report.joints
+        if joint.collision_share == 0 and joint.opening >= LEAST_OPENING * (joint.wanted or 0.0) > 0
+    }
+
+    assert (verdict.colour is Colour.GREEN) == (report == before)
+    if verdict.colour is Colour.GREEN:
+        assert fronts <= works
+    if not fronts <= works | {line.part for line in verdict.lines if line.kind is FaultKind.RESTRICTED}:
+        assert verdict.colour is Colour.RED
+
+
+@given(data=st.data())
+def test_the_list_of_joints_has_the_colours_of_the_verdict(data):
+    report = sound(1)
+    for name in data.draw(st.lists(st.sampled_from(sorted(FAULTS)), max_size=3)):
+        if report.joints:
+            report = FAULTS[name][0](report, data.draw(st.sampled_from(report.joints)), data.draw(SIZES))
+    levels = {state.part: state.level for state in joint_states(report)}
+    worst = {Level.OK: Colour.GREEN, Level.WARNING: Colour.YELLOW, Level.ERROR: Colour.RED}
+    of_joints = [line for line in verdict_of(report).lines if line.kind is not FaultKind.CARVED]
+
+    for part, level in levels.items():
+        colours = {line.colour for line in of_joints if line.part == part} or {Colour.GREEN}
+        assert worst[level] is (Colour.RED if Colour.RED in colours else min(colours))
+
+
+def test_a_part_that_somebody_stopped_is_no_fault():
+    asset = cabinet(1)
+    door = next(joint.part for joint in sound(1).joints if joint.type is JointType.REVOLUTE)
+    verdict = verdict_of(reported(asset, motions={door: STANDS_STILL}))
+
+    assert (verdict.colour, verdict.lines) == (Colour.GREEN, ())
+    assert verdict.sentence.startswith("Everything works: 1 drawer;")
+
+
+def test_where_all_was_stopped_nothing_moves_as_asked_and_where_nothing_could_is_yellow():
+    asset = cabinet(0)
+    stopped = verdict_of(reported(asset, motions={joint.part: STANDS_STILL for joint in asset.joints}))
+    board = replace(asset, joints=(), parts=tuple(p for p in asset.parts if p.id.startswith("side")))
+    nothing = verdict_of(reported(board))
+
+    assert (stopped.colour, stopped.sentence) == (Colour.GREEN, "Nothing moves, as asked.")
+    assert (nothing.colour, [line.kind for line in nothing.lines]) == (Colour.YELLOW, [FaultKind.NOTHING_MOVES])
+
+
+@pytest.mark.parametrize("layout", [0, 1])
+def test_a_front_that_the_source_left_fixed_is_red_and_the_option_that_moves_it_does(layout):
+    """The input states a joint for none of its doors and drawers, and its own joints are asked for."""
+    asset = replace(cabinet(layout), joints=())
+    report = reported(asset)
+    verdict = verdict_of(report)
+
+    assert verdict.colour is Colour.RED
+    assert {line.part for line in verdict.lines} == {joint.part for joint in sound(layout).joints}
+    motions = {}
+    for line in verdict.lines:
+        part, _, way = line.option.removeprefix("--move ").rpartition("=")
+        motions[part] = MotionChoice(Moves.SLIDES) if way == "slides" else MotionChoice(Moves.TURNS, Side(way))
+    assert motions.keys() == {line.part for line in verdict.lines}
+    assert verdict_of(reported(asset, motions=motions)).colour is Colour.GREEN
+
+
+def test_a_joint_that_collides_is_red_whatever_else_is_said():
+    """Doors that are sunk into the case, and nothing may be trimmed."""
+    report = reported(KINDS["doors into the case"](), realization=RealizationConfig(trim=False))
+    bad = {joint.part for joint in report.joints if joint.collision_share > 0}
+    bad |= {skip.request for skip in report.skipped}
+    verdict = verdict_of(report)
+
+    assert bad
+    assert verdict.colour is Colour.RED
+    assert {line.part for line in verdict.lines if line.colour is Colour.RED} == bad
+
+
+def test_the_report_holds_its_verdict_and_its_thresholds():
+    report = sound(0)
+
+    assert report.verdict == verdict_of(report)
+    assert report.to_json()["verdict"]["least_confidence"] == LEAST_CONFIDENCE
+    assert Report.model_validate(report.to_json()) == report
+
+
+def test_a_report_of_an_earlier_version_is_read_and_judged():
+    old = sound(1).to_json()
+    for name in ("verdict", "size", "guesses", "moves"):
+        old.pop(name)
+    for joint in old["joints"]:
+        joint.pop("wanted")
+    read = Report.model_validate(old)
+
+    assert verdict_of(read).colour is Colour.GREEN
+    assert verdict_of(with_joint(read, read.joints[0].part, restricted=True)).colour is Colour.YELLOW
+
+
+def test_a_part_that_is_hardly_told_from_a_drawer_is_a_guess_until_somebody_says_what_it_is():
+    report = sound(0)
+    guess = GuessRecord(
+        part="top_panel", question="label", choice="shelf", score=0.6, runner_up="drawer", runner_up_score=0.3
+    )
+    [line] = verdict_of(report.model_copy(update={"guesses": (guess,)})).lines
+
+    assert (line.kind, line.part) == (FaultKind.GUESSED, "top_panel")
+    assert "60 % sure, less than 80 %; drawer: 30 %" in line.why
+    sure = guess.model_copy(update={"score": LEAST_CONFIDENCE})
+    assert verdict_of(report.model_copy(update={"guesses": (sure,)})).colour is Colour.GREEN
+
+
+def test_what_the_budget_did_not_hold_is_something_to_look_at():
+    verdict = verdict_of(sound(0).model_copy(update={"notes": ("no interiors: the budget was used up",)}))
+
+    assert (verdict.colour, [line.kind for line in verdict.lines]) == (Colour.YELLOW, [FaultKind.NOTED])
+    assert verdict.sentence == "Works, but look at the whole (note)."
