@@ -18,4 +18,4 @@ def test_doors_and_drawers_that_come_too_late_are_refused() -> None:
     assert moved
     assert refused
     assert moved | refused == {node.id for node in graph.nodes if node.label.is_movable}
-    assert all(one.why.startswith("too complex") for one in found.refused)
+    assert all(one.is_too_complex for one in found.refused)

@@ -20,7 +20,7 @@ MotionAnswer = tuple[tuple[Edge, ...], tuple[Decision, ...]] | RefusedMotion
 """The edges that a part moves by, with how sure each choice is; or why there are none."""
 
 _DECIDING = 0.9  # of the time that is left: with so many doors, some decided are worth more than none
-_TIME_IS_UP = "too complex: with so many doors and drawers there was no time left to decide how it moves"
+_TIME_IS_UP = "with so many doors and drawers there was no time left to decide how it moves"
 
 
 @final
@@ -49,7 +49,7 @@ def move_parts(
         if node.id in stated:
             continue
         if budget.left == 0:
-            refused.append(RefusedMotion(node.id, _TIME_IS_UP))
+            refused.append(RefusedMotion(node.id, _TIME_IS_UP, is_too_complex=True))
             continue
         answer = _hung(node, scene, hang) if node.label is PartLabel.DOOR else run(node)
         if isinstance(answer, RefusedMotion):

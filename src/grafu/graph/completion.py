@@ -41,10 +41,14 @@ class Decision:
 @final
 @dataclass(frozen=True, slots=True)
 class RefusedMotion:
-    """A movable part that is left static, and why, in words."""
+    """A movable part that is left static, and why, in words.
+
+    `is_too_complex` says that there was no time to decide how it moves: another run, with more time, may.
+    """
 
     part: str
     why: str
+    is_too_complex: bool = False
 
 
 @final

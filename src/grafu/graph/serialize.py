@@ -198,4 +198,5 @@ def _decision_from_json(data: Json) -> Decision:
 
 
 def _refusal_from_json(data: Json) -> RefusedMotion:
-    return RefusedMotion(read_text(data, "part", "a refusal"), read_text(data, "why", "a refusal"))
+    part, why = read_text(data, "part", "a refusal"), read_text(data, "why", "a refusal")
+    return RefusedMotion(part, why, is_too_complex=data.get("is_too_complex") is True)

@@ -20,6 +20,7 @@ from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.realization.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
 from grafu.realization.motion_source import riders_of
 from grafu.realization.plan import JointChoice, JointRequest, RealizationPlan, Refusal
+from grafu.realization.report import SkipReason
 from grafu.vocabulary import PartLabel
 
 USER = "user"
@@ -151,7 +152,7 @@ def plan_with_motions(
     requests = [_without_riders(request, sorted(movers - {request.moving})) for request in requests]
     refused = tuple(r for r in plan.refused if r.part not in motions)
     still = (p for p, c in motions.items() if c.moves is Moves.NOT and (p in moved or asset.part(p).label.is_movable))
-    rejected = tuple(Refusal(part, REJECTED, is_decided=True) for part in still)
+    rejected = tuple(Refusal(part, REJECTED, SkipReason.REJECTED) for part in still)
     return RealizationPlan((*kept, *requests), (*refused, *rejected))
 
 

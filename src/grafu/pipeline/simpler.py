@@ -43,7 +43,7 @@ def _bare(parsing: ParsingConfig, make: Callable[[ParsingConfig], T], _: str) ->
 
 def without_network(graph: FunctionalGraph, why: str) -> GraphCompletion:
     """Returns the graph as the rule completes it; where that is too much, too, every door and drawer is refused."""
-    refused = tuple(RefusedMotion(node.id, why) for node in graph.nodes if node.label.is_movable)
+    refused = tuple(RefusedMotion(node.id, why, is_too_complex=True) for node in graph.nodes if node.label.is_movable)
     still = partial(GraphCompletion, graph, graph, "rule", (), (), refused)
     return within(_HALF, partial(complete_by_rule, graph), lambda _: still())
 

@@ -12,9 +12,10 @@ from grafu.articulation.articulated_object import Joint, JointLimits
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
-from grafu.graph.completion import GraphCompletion
+from grafu.graph.completion import GraphCompletion, RefusedMotion
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.realization.plan import JointRequest, RealizationPlan, Refusal
+from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType
 
 # A limit on the other side of the drawn pose that is less than this share of the wider one is play, not motion.
@@ -56,8 +57,13 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
         mounts = tuple(rail.parent for rail in edges)
         rides = riders.get(child, ())
         requests.append(JointRequest(child, JointType.PRISMATIC, axis, completion.source, None, mounts, rides))
-    refused = tuple(Refusal(r.part, r.why) for r in completion.refused)
+    refused = tuple(_refusal(r) for r in completion.refused)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
+
+
+def _refusal(refused: RefusedMotion) -> Refusal:
+    reason = SkipReason.TOO_COMPLEX if refused.is_too_complex else SkipReason.NO_MOTION
+    return Refusal(refused.part, refused.why, reason)
 
 
 def riders_of(asset: Asset, attached: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:

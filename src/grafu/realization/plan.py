@@ -6,6 +6,7 @@ from math import isfinite
 from typing import final
 
 from grafu.geometry.axis import Axis
+from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType, MechanismClass
 
 PIVOT = "pivot"
@@ -100,14 +101,15 @@ class JointRequest:
 @final
 @dataclass(frozen=True)
 class Refusal:
-    """A movable part for which no motion could be stated, and why, in words.
+    """A movable part for which no joint is requested: the reason, and why, in words.
 
-    `is_decided` says that somebody wants it to stand still: nothing is amiss.
+    The reason is `NO_MOTION`, `TOO_COMPLEX` where there was no time to decide, or `REJECTED` where the user wants the
+    part to stand still.
     """
 
     part: str
     why: str
-    is_decided: bool = False
+    reason: SkipReason = SkipReason.NO_MOTION
 
 
 @final

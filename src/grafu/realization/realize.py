@@ -29,7 +29,7 @@ from grafu.realization.limits import motion_about
 from grafu.realization.measuring import Measured, measure_all
 from grafu.realization.order import Moving, Order, order_joints, stand_aside
 from grafu.realization.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
-from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped, SkipReason
+from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped
 from grafu.realization.scene import Mover, Scene, Way
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
@@ -79,8 +79,7 @@ def realize(
 
 
 def _refused(refusal: Refusal) -> Skipped:
-    reason = SkipReason.REJECTED if refusal.is_decided else SkipReason.NO_MOTION
-    return Skipped(refusal.part, reason, refusal.why)
+    return Skipped(refusal.part, refusal.reason, refusal.why)
 
 
 def _final_scene(scene: Scene, built: Sequence[Built], orders: Mapping[str, Order]) -> Scene:
