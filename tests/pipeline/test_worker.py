@@ -18,8 +18,8 @@ from grafu.pipeline.interactive import compartments_to_json, run
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
+from grafu.realization.cache import Cache
 from grafu.realization.interior.request import CompartmentChoice
-from grafu.realization.kept import Kept
 from grafu.realization.plan import JointChoice
 from grafu.realization.top.config import TopConfig
 from grafu.templates.gallery import builtin_gallery
@@ -50,26 +50,26 @@ def everything(result) -> tuple:
 
 
 @pytest.fixture(scope="module")
-def kept():
-    return Kept(400)
+def cache():
+    return Cache(400)
 
 
 @pytest.mark.parametrize("change", [*CHANGES, "as it is"])
-def test_a_run_that_keeps_gives_what_a_fresh_one_gives(change, kept):
+def test_a_run_that_keeps_gives_what_a_fresh_one_gives(change, cache):
     settings = CHANGES[change]
     asset = load_asset(SAMPLE)
     fresh, again = (
-        functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), kept=one)
-        for one in (Kept(0), kept)
+        functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), cache=one)
+        for one in (Cache(0), cache)
     )
     assert everything(again) == everything(fresh)
 
 
-def test_only_what_a_change_touches_is_made_again(kept):
+def test_only_what_a_change_touches_is_made_again(cache):
     def made_by(settings):
-        before = dict(kept.made)
-        functionalize(load_asset(SAMPLE), settings.motion, builtin_gallery(), settings.pipeline(), kept=kept)
-        return {name: count - before.get(name, 0) for name, count in kept.made.items() if count > before.get(name, 0)}
+        before = dict(cache.made)
+        functionalize(load_asset(SAMPLE), settings.motion, builtin_gallery(), settings.pipeline(), cache=cache)
+        return {name: count - before.get(name, 0) for name, count in cache.made.items() if count > before.get(name, 0)}
 
     made_by(BASE)
     assert made_by(BASE) == {}

@@ -10,7 +10,7 @@ from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.settings import Settings
-from grafu.realization.kept import Kept
+from grafu.realization.cache import Cache
 from grafu.realization.motion_choice import MotionChoice, choice_in_words
 from grafu.templates.available import open_gallery
 from grafu.templates.user_handles import load_handles
@@ -32,7 +32,7 @@ class Request:
     settings: Settings
     foreign: ForeignMotions | None = None
     templates: Path | None = None
-    cache: Kept = field(default_factory=lambda: Kept(CACHED_VALUES), compare=False, repr=False)
+    cache: Cache = field(default_factory=lambda: Cache(CACHED_VALUES), compare=False, repr=False)
 
     def with_settings(self, settings: Settings) -> "Request":
         """Returns the request with other settings, and the same cache."""
@@ -47,7 +47,7 @@ class Request:
         own = load_handles(self.templates) if self.templates else {}
         source = self.foreign or self.settings.motion
         config = self.settings.pipeline(own)
-        return functionalize(self.asset, source, open_gallery(self.templates), config, kept=self.cache)
+        return functionalize(self.asset, source, open_gallery(self.templates), config, cache=self.cache)
 
 
 def motion_in_words(part: str, word: str) -> MotionChoice:

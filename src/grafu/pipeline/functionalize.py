@@ -28,9 +28,9 @@ from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.simpler import bare_body, bare_fittings, by_contacts, without_joints, without_network
 from grafu.pipeline.stages import Stages
 from grafu.realization.addition import Addition
+from grafu.realization.cache import NO_CACHE, Cache
 from grafu.realization.config import RealizationConfig
 from grafu.realization.joint_choice import with_choices
-from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.realization.motion_choice import MotionChoice
 from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
 from grafu.realization.plan import JointChoice, RealizationPlan
@@ -154,15 +154,16 @@ def functionalize(
     gallery: Gallery,
     config: PipelineConfig = PipelineConfig(),
     on_stage: Callable[[str], None] = _say_nothing,
-    kept: Kept = NOTHING_KEPT,
+    cache: Cache = NO_CACHE,
     budget: Budget = UNLIMITED,
 ) -> Functionalized:
     """Returns the asset as an object that works, and how it came about.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
     that cannot be made to move is no error: the report says which, and why. `on_stage` is told each stage as it begins.
-    What is `kept` of earlier runs is not made again; the result is the same. What `budget` does not hold is left out:
-    joints are skipped as too complex, `notes` say what was done in a simpler way. Where it holds all, nothing changes.
+    What the `cache` holds of earlier runs is not computed again; the result is the same. What `budget` does not hold is
+    left out: joints are skipped as too complex, `notes` say what was done in a simpler way. Where it holds all, nothing
+    changes.
 
     Raises:
         OptionError: if what is chosen for a part or joint does not exist.
@@ -185,17 +186,18 @@ def functionalize(
     motion = _motion(chosen, config.weights)
     if not motion.reads_annotation:
         asset = asset.without_annotation()
-    parse = partial(kept.value, "parse", parse_graph, asset)  # contacts only
+    parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
     source_name = f"complete by {chosen} of {config.weights}"
-    complete = partial(kept.value, source_name, motion.complete, asset, graph)  # who moves, and how
+    complete = partial(cache.value, source_name, motion.complete, asset, graph)  # who moves, and how
     completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, config.motions, asset), config.joints)
-    plan = stages.timed("plan", lambda: kept.value(f"plan by {chosen}", motion.plan, asset, completion))  # initial axes
+    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion)  # initial axes
+    plan = stages.timed("plan", first)
     plan = with_choices(plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery)
-    add = partial(kept.value, "body", complete_body, asset, completion, plan, config.additions.of_body)
+    add = partial(cache.value, "body", complete_body, asset, completion, plan, config.additions.of_body)
     body = stages.timed("body", add, partial(bare_body, asset, plan))  # top, drawer boxes
-    build = partial(realize, body.plan, body.asset, gallery, config.realization, kept)
+    build = partial(realize, body.plan, body.asset, gallery, config.realization, cache)
     realized = stages.timed("realize", build, partial(without_joints, body.plan, body.asset))  # joints
     fit = partial(add_fittings, realized.scene, completion, config.additions, config.own_handles)
     fittings = stages.timed("fittings", fit, partial(bare_fittings, realized.scene))

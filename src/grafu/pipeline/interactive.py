@@ -21,16 +21,16 @@ from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import settings_from_json
+from grafu.realization.cache import NO_CACHE, Cache
 from grafu.realization.interior.turned import compartments_of
-from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.templates.gallery import builtin_gallery
 from grafu.visible import visible
 
 
-def run(source: Path, settings_file: Path, folder: Path, kept: Kept = NOTHING_KEPT) -> Functionalized:
+def run(source: Path, settings_file: Path, folder: Path, cache: Cache = NO_CACHE) -> Functionalized:
     """Functionalizes one input as the settings say and writes what the module's docstring lists.
 
-    What is `kept` of earlier runs is not made again.
+    What the `cache` holds of earlier runs is not computed again.
 
     Raises:
         FunctionalizationError: if the input or a setting is at fault.
@@ -38,8 +38,8 @@ def run(source: Path, settings_file: Path, folder: Path, kept: Kept = NOTHING_KE
     settings = settings_from_json(json.loads(settings_file.read_text(encoding="utf-8")))
     _say("load")
     asset = load_asset(source, settings.reading.options)
-    asset = kept.value("asset", _itself, asset)  # the same object: what was worked out on its meshes stays
-    result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say, kept)
+    asset = cache.value("asset", _itself, asset)  # the same object: what was worked out on its meshes stays
+    result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say, cache)
     _say("write")
     (folder / "object.packed").write_bytes(packed(result.object))
     for name, values in (

@@ -17,19 +17,19 @@ from threading import Thread
 
 from grafu.errors import FunctionalizationError
 from grafu.pipeline.interactive import run
-from grafu.realization.kept import Kept
+from grafu.realization.cache import Cache
 from grafu.visible import visible
 
-MOST_KEPT = 400
+CACHED_VALUES = 400
 """Values: some ten changes of a model with twenty joints. Most are scenes that share their meshes."""
 
 
-def serve(lines: Iterator[str], kept: Kept) -> None:
+def serve(lines: Iterator[str], cache: Cache) -> None:
     """Answers one line after another; an input or a setting at fault is an answer, too."""
     for line in lines:
         try:
             source, settings, folder = map(Path, json.loads(line))
-            run(source, settings, folder, kept)
+            run(source, settings, folder, cache)
             _say("done")
         except FunctionalizationError as error:
             _say("error " + " ".join(str(error).split()))
@@ -56,7 +56,7 @@ def _say(what: str) -> None:
 
 if __name__ == "__main__":
     try:
-        serve(_lines(Path(sys.argv[1])), Kept(MOST_KEPT))
+        serve(_lines(Path(sys.argv[1])), Cache(CACHED_VALUES))
     except Exception as error:  # a fault of ours: one line, and the next line needs a new process
         _say(f"error internal fault: {type(error).__name__}: {' '.join(str(error).split())}")
         os._exit(1)

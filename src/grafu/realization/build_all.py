@@ -9,9 +9,9 @@ from functools import partial
 
 from grafu.geometry.budget import present_budget, within
 from grafu.realization.build import Built, build_joint
+from grafu.realization.cache import Cache
 from grafu.realization.config import RealizationConfig
 from grafu.realization.expectation import expected_ways
-from grafu.realization.kept import Kept
 from grafu.realization.plan import JointRequest
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.scene import Scene, Way
@@ -38,35 +38,35 @@ def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
 
 
 def build_fairly(
-    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Outcomes:
     """Returns what came of all requests, each joint keeping out of the expected ways of those built after it.
 
     Doors for which that left no place are given the way that was asked for, and all is built again; the first try
     stands unless the second builds more.
     """
-    find = partial(kept.value, "ways", expected_ways, tuple(requests), scene, config)
+    find = partial(cache.value, "ways", expected_ways, tuple(requests), scene, config)
     ways: Mapping[str, Way] = within(_EXPECTING, find, lambda _: {})
     budget = present_budget().share(_TRY)
     with budget.in_force():
-        first = _build_all(requests, replace(scene, ways=ways), gallery, config, kept)
+        first = _build_all(requests, replace(scene, ways=ways), gallery, config, cache)
         left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & ways.keys()
         asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
         if not asked or not first[0] or budget.left == 0:
             return first
         wider = {r.moving: replace(ways[r.moving], axis=r.axis) for r in asked}
-        second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config, kept)
+        second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config, cache)
     return second if len(second[1]) < len(first[1]) else first
 
 
 def _build_all(
-    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Outcomes:
     """Returns the joints built, those that were not, and the scene with all hardware."""
     built: list[Built] = []
     skipped: list[Skipped] = []
     for k, request in enumerate(requests):
-        outcome = _build(request, len(requests) - k, scene, gallery, config, kept)
+        outcome = _build(request, len(requests) - k, scene, gallery, config, cache)
         if isinstance(outcome, Skipped):
             skipped.append(outcome)
             scene = replace(scene, ways={name: way for name, way in scene.ways.items() if name != request.moving})
@@ -77,10 +77,10 @@ def _build_all(
 
 
 def _build(
-    request: JointRequest, left: int, scene: Scene, gallery: Gallery, config: RealizationConfig, kept: Kept
+    request: JointRequest, left: int, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Built | Skipped:
     """Returns one joint of those `left` to build, or why it could not be built."""
-    work = partial(kept.value, "joint", build_joint, request, scene, gallery, config)
+    work = partial(cache.value, "joint", build_joint, request, scene, gallery, config)
     return within(joint_share(left), work, partial(Skipped, request.moving, SkipReason.TOO_COMPLEX))
 
 

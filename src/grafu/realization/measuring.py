@@ -16,9 +16,9 @@ from grafu.geometry.budget import within
 from grafu.geometry.intersection import MeshCollider
 from grafu.realization.build import Built
 from grafu.realization.build_all import joint_share
+from grafu.realization.cache import Cache
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.kept import Kept
 from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
 from grafu.realization.order import Order
 from grafu.realization.placement import Placement
@@ -47,14 +47,14 @@ class Measured:
 
 
 def measure_all(
-    built: Sequence[Built], orders: Mapping[str, Order], scene: Scene, config: RealizationConfig, kept: Kept
+    built: Sequence[Built], orders: Mapping[str, Order], scene: Scene, config: RealizationConfig, cache: Cache
 ) -> Measured:
     """Returns what was measured on each joint; one that takes more than its share of the time is taken out again."""
     figures: dict[str, Figures] = {}
     skipped: list[Skipped] = []
     for k, one in enumerate(built):
         name = one.request.moving
-        work = partial(_measured, one, orders[name].upper, scene, config, kept)
+        work = partial(_measured, one, orders[name].upper, scene, config, cache)
         found: Figures | Skipped = within(
             joint_share(len(built) - k), work, partial(Skipped, name, SkipReason.TOO_COMPLEX)
         )
@@ -84,7 +84,7 @@ def _without(gone: set[str], measured: Measured) -> Measured:
     return replace(measured, built=built, orders=orders, scene=replace(measured.scene, hardware=hardware))
 
 
-def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, kept: Kept) -> Figures | Skipped:
+def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Skipped:
     """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
     mover = built.request.moving
     motion = motion_about(built.placement.axis, built.request.type)
@@ -97,7 +97,7 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
         hardware=tuple((mover, visual) for visual in scene.hardware_of(mover)),
         ways={},
     )
-    return kept.value("measure", _measure, built.request, built.placement, upper, around, config)
+    return cache.value("measure", _measure, built.request, built.placement, upper, around, config)
 
 
 def _measure(

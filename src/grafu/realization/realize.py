@@ -19,12 +19,12 @@ from grafu.geometry.budget import within
 from grafu.geometry.intersection import forget_large_shapes
 from grafu.realization.build import Built
 from grafu.realization.build_all import build_fairly, in_order
+from grafu.realization.cache import NO_CACHE, Cache
 from grafu.realization.clearance.make import adopt
 from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.joint_choice import short_of_chosen
-from grafu.realization.kept import NOTHING_KEPT, Kept
 from grafu.realization.limits import motion_about
 from grafu.realization.measuring import Measured, measure_all
 from grafu.realization.order import Moving, Order, order_joints, stand_aside
@@ -56,18 +56,18 @@ def realize(
     asset: Asset,
     gallery: Gallery,
     config: RealizationConfig = RealizationConfig(),
-    kept: Kept = NOTHING_KEPT,
+    cache: Cache = NO_CACHE,
 ) -> Realized:
-    """Returns the asset with every joint of the plan built that can be built; what is `kept` is not built again."""
+    """Returns the asset with every joint of the plan that can be built; what `cache` holds is not built again."""
     started = perf_counter()
     requests = in_order(plan.joints)
     free = tuple(replace(request, choice=AUTOMATIC) for request in requests)
-    scene, closed = kept.value("closed", _closed_scene, asset, free, config)
-    built, failed, scene = build_fairly(requests, scene, gallery, config, kept)
+    scene, closed = cache.value("closed", _closed_scene, asset, free, config)
+    built, failed, scene = build_fairly(requests, scene, gallery, config, cache)
     skipped = [*(_refused(refusal) for refusal in plan.refused), *failed]
-    order = partial(kept.value, "order", _orders, tuple(built), scene, config)
+    order = partial(cache.value, "order", _orders, tuple(built), scene, config)
     orders = within(_ORDERING, order, partial(_without_order, built))
-    measured = measure_all(built, orders, scene, config, kept)
+    measured = measure_all(built, orders, scene, config, cache)
     built, scene = list(measured.built), measured.scene
     installed = [_installed(b, measured, closed, config) for b in built]
     skipped += measured.skipped

@@ -1,7 +1,7 @@
-"""Values kept by what they were made of, so that a run that changes little builds little again.
+"""A cache by content, so that a run that changes little builds little again.
 
-A kept value is what the function would return again: the functions are pure, and the key is the content of everything
-that they are given. It knows nothing of what it keeps.
+A cached value is what the function would return again: the functions are pure, and the key is the content of everything
+that they are given. It knows nothing of what it holds.
 """
 
 from collections import OrderedDict
@@ -14,8 +14,8 @@ T = TypeVar("T")
 
 
 @final
-class Kept:
-    """The last `most` values that were asked for; not a value. With `most` 0 nothing is kept, and no key is made.
+class Cache:
+    """The last `most` values that were asked for; not a value. With `most` 0 nothing is cached, and no key is made.
 
     `made` counts how often something was made rather than found, by name.
     """
@@ -26,7 +26,7 @@ class Kept:
         self.made: dict[str, int] = {}
 
     def value(self, name: str, make: Callable[..., T], *given: object) -> T:
-        """Returns `make(*given)`: the one that was kept under this name for the same content, else a new one."""
+        """Returns `make(*given)`: the one that was cached under this name for the same content, else a new one."""
         if not self._most:
             return make(*given)
         key = content_key((name, given))
@@ -40,5 +40,5 @@ class Kept:
         return found
 
 
-NOTHING_KEPT = Kept(0)
+NO_CACHE = Cache(0)
 """Makes everything anew."""

@@ -1,0 +1,62 @@
+"""Words that the project no longer uses stay out of it: the field has a better one (docs/glossary.md)."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+LOOKED_AT = ("src", "docs", "examples", "scripts", "blender_addon", "README.md", "CONTRIBUTING.md")
+
+# A pattern, and the word that stands in its place. `_` parts words here, and so does a capital.
+RETIRED = {
+    r"\bKept\b|NOTHING_KEPT|MOST_KEPT|\bkept=": "cache",
+}
+# Names of files, keys and columns that others read stay as they are: (path, the text that may stand there).
+ALLOWED: frozenset[tuple[str, str]] = frozenset()
+NOT_TEXT = ("docs/figures.json",)  # what commands printed
+
+
+def texts() -> list[tuple[str, str]]:
+    listed = subprocess.run(["git", "ls-files", *LOOKED_AT], cwd=ROOT, capture_output=True, text=True, check=False)
+    if listed.returncode:
+        pytest.skip("not a git checkout")
+    names = [name for name in listed.stdout.splitlines() if (ROOT / name).is_file() and name not in NOT_TEXT]
+    contents = [(name, (ROOT / name).read_bytes()) for name in names]
+    return [(name, data.decode()) for name, data in contents if b"\0" not in data]
+
+
+def uses(name: str, text: str, pattern: re.Pattern[str]) -> list[str]:
+    """Returns where a text or its file's name uses a retired word, a line for each."""
+    lines = [(0, name), *enumerate(text.splitlines(), 1)]
+    found = [(row, match[0]) for row, line in lines for match in pattern.finditer(line)]
+    return [f"{name}:{row}: {word}" for row, word in found if (name, word) not in ALLOWED]
+
+
+@pytest.fixture(scope="module")
+def found_texts() -> list[tuple[str, str]]:
+    return texts()
+
+
+@pytest.mark.parametrize("pattern", RETIRED)
+def test_retired_words_stay_out(pattern: str, found_texts: list[tuple[str, str]]) -> None:
+    compiled = re.compile(pattern)
+
+    found = [line for name, text in found_texts for line in uses(name, text, compiled)]
+
+    assert found == [], f"the word is: {RETIRED[pattern]} (docs/glossary.md)"
+
+
+def test_a_retired_word_is_found_in_text_and_in_a_name() -> None:
+    pattern = re.compile(r"(?i)(?<![a-z])ballots?(?![a-z])")
+
+    assert uses("src/a.py", "votes = 3\nmy_ballot = Ballot()", pattern) == ["src/a.py:2: ballot", "src/a.py:2: Ballot"]
+    assert uses("src/ballot.py", "", pattern) == ["src/ballot.py:0: ballot"]
+
+
+def test_the_glossary_defines_each_term_once() -> None:
+    rows = re.findall(r"^\| ([^|]+) \| [^|]+ \| [^|]*\|$", (ROOT / "docs" / "glossary.md").read_text(), re.MULTILINE)
+    terms = [term.strip() for row in rows if row != "term" for term in row.split(",")]
+
+    assert len(terms) == len(set(terms)) > 50
