@@ -1,6 +1,10 @@
 import pytest
 
 from grafu.cli.main import main
+from grafu.export.files import write_files
+from grafu.export.particulate import export_particulate
+from grafu.synth.articulated import articulated_of
+from predictions import cabinet
 from small_assets import write_glb
 
 
@@ -28,3 +32,15 @@ def test_settings_that_are_no_file_are_refused_at_once(tmp_path, capsys):
     path = write_glb(tmp_path / "a.glb")
     assert main(["functionalize", str(path), "--out", str(tmp_path / "out"), "--settings", "/dev/zero"]) == 2
     assert "it is a device" in capsys.readouterr().err
+
+
+def test_a_limit_holds_for_the_prediction_of_another_system_too(tmp_path, capsys):
+    path = write_glb(tmp_path / "cabinet.glb")  # which has no lines of OBJ
+    write_files(export_particulate(articulated_of(cabinet())), tmp_path / "run")
+    motion = f"particulate:{tmp_path / 'run'}"
+    arguments = ["functionalize", str(path), "--out", str(tmp_path / "out"), "--motion", motion]
+    assert main([*arguments, "--limit", "lines=9"]) == 2
+    said = capsys.readouterr().err
+    assert "pred.obj has" in said
+    assert "lines: at most 9 are read; simplify it, or allow more by --limit lines=" in said
+    assert not (tmp_path / "out").exists()

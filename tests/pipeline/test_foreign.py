@@ -8,7 +8,8 @@ import pytest
 
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.load import load_asset
-from grafu.errors import OptionError, UnreadableAsset
+from grafu.asset.options import Limits
+from grafu.errors import AssetTooLarge, OptionError, UnreadableAsset
 from grafu.export.files import ExportFiles, write_files
 from grafu.export.particulate import export_particulate
 from grafu.export.singapo import export_singapo
@@ -150,3 +151,21 @@ def test_a_choice_names_its_file_or_has_none() -> None:
         MotionChoice(MotionSource.URDF)
     with pytest.raises(OptionError, match="the motion source rule reads no file"):
         MotionChoice(MotionSource.RULE, Path("x"))
+
+
+@pytest.mark.parametrize(("kind", "limit"), [("particulate", "lines"), ("singapo", "values"), ("urdf", "values")])
+def test_limits_hold_for_predictions_too(kind: str, limit: str, tmp_path: Path) -> None:
+    write_files(FILES[kind], tmp_path / "run")
+    for name, most in ((limit, 3), ("bytes", 99)):
+        with pytest.raises(AssetTooLarge, match=rf"at most .* are read; .* --limit {name}="):
+            read_foreign(tmp_path / "run", limits=Limits().with_limit(name, most))
+    file = tmp_path / "run" / {"particulate": "eval/pred.npz", "singapo": "object.json", "urdf": "model.urdf"}[kind]
+    with pytest.raises(AssetTooLarge, match="--limit bytes="):
+        read_foreign(file, limits=Limits().with_limit("bytes", 99))
+
+
+def test_limits_hold_for_a_predicted_graph_too(tmp_path: Path) -> None:
+    path = tmp_path / "m_pred.json"
+    path.write_text('{"nodes": {"a": {"slot": 0}, "b": {"slot": 1}}, "edges": []}')
+    with pytest.raises(AssetTooLarge, match="--limit values=7"):
+        read_foreign(path, limits=Limits().with_limit("values", 5))

@@ -13,12 +13,13 @@ from grafu.asset.options import LoadOptions
 from grafu.cli.limit_options import too_large
 from grafu.cli.messages import internal_fault, one_line
 from grafu.errors import ExportError, FunctionalizationError
-from grafu.pipeline.motion_source import MotionChoice
+from grafu.pipeline.motion_source import MotionChoice, MotionSource
 from grafu.processes.limits import Limits
 from grafu.templates.available import open_gallery
 
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
+    from grafu.asset.foreign.motions import ForeignMotions
     from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import PipelineConfig
     from grafu.pipeline.report_schema import Report
@@ -171,7 +172,6 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     from grafu.asset.load import load_asset
     from grafu.export.files import write_files
     from grafu.geometry.budget import UNLIMITED, Budget
-    from grafu.pipeline.foreign import prediction_for
     from grafu.pipeline.functionalize import functionalize
 
     options = job.options
@@ -181,8 +181,7 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     started = perf_counter()
     asset = load_asset(job.input, options.load)
     timings = {"load": perf_counter() - started}
-    config, motion = _config(options), options.motion
-    source = prediction_for(motion, job.name, options.alone) if motion.source.is_foreign else motion.source
+    config, source = _config(options), _motions(job)
     made = functionalize(asset, source, open_gallery(options.templates), config, listener.on_stage, budget=budget)
     listener.on_stage("export")
     listener.on_object(made.object)
@@ -190,6 +189,15 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     listener.on_stage("write")
     write_files(saved.files, job.folder, options.overwrite)
     return saved.report, saved.picture
+
+
+def _motions(job: Job) -> "MotionSource | ForeignMotions":
+    from grafu.pipeline.foreign import prediction_for
+
+    options, motion = job.options, job.options.motion
+    if not motion.source.is_foreign:
+        return motion.source
+    return prediction_for(motion, job.name, options.alone, options.load.limits)
 
 
 def _config(options: JobOptions) -> "PipelineConfig":

@@ -14,14 +14,14 @@ from grafu.asset.foreign.particulate import read_particulate
 from grafu.asset.foreign.robot import read_robot
 from grafu.asset.foreign.singapo import TREES, read_singapo
 from grafu.asset.json_files import parse_json
-from grafu.asset.options import Limits
+from grafu.asset.options import Limits, LoadOptions
 from grafu.asset.partnet_mobility import is_partnet_mobility
 from grafu.asset.resources import read_bytes
 from grafu.errors import UnreadableAsset
 from grafu.graph.official_prediction import SUFFIX, is_prediction, read_prediction
 from grafu.pipeline.motion_source import MotionChoice
 
-Reader = Callable[[Path], ForeignMotions]
+Reader = Callable[[Path, LoadOptions], ForeignMotions]
 
 _READERS: Final[dict[str, Reader]] = {
     "particulate": read_particulate,
@@ -35,24 +35,26 @@ _EXPECTED: Final[dict[str, str]] = {
     "grafu-pred": "the authors' <model>_pred.json",
     "urdf": "a URDF file or a PartNet-Mobility folder",
 }
+_LIMITS = Limits()
 _ENTRIES = ("", ".json", ".npz", ".urdf", SUFFIX)
 _ANY = "; ".join(_EXPECTED.values())
 
 
-def read_foreign(path: Path, source: ForeignSource | None = None) -> ForeignMotions:
+def read_foreign(path: Path, source: ForeignSource | None = None, limits: Limits = _LIMITS) -> ForeignMotions:
     """Returns the prediction at `path`, a file or the folder that holds it.
 
     Args:
         path: what the other system wrote.
         source: whose it is said to be; None: whatever its content says.
+        limits: what is read at most, of all its files together.
 
     Raises:
         UnreadableAsset: if there is nothing that can be read, it is damaged, or it is not of that source.
-        AssetTooLarge: if it exceeds the limits on files.
+        AssetTooLarge: if it exceeds the limits.
     """
     path = Path(path)
     try:
-        found = _found(path)
+        found = _found(path, limits)
     except OSError as error:
         raise UnreadableAsset(f"{path} cannot be read ({error.strerror}): expected {_expected(source)}") from None
     if found is None:
@@ -64,7 +66,9 @@ def read_foreign(path: Path, source: ForeignSource | None = None) -> ForeignMoti
     # Whose a robot description is, its content does not always say.
     if source is not None and kind != source and kind != "urdf":
         raise UnreadableAsset(f"{path} is of the kind {kind}, not {source}: expected {_expected(source)}")
-    motions = _READERS[kind](place)
+    motions = _READERS[kind](
+        place, LoadOptions(limits=limits)
+    )  # what else is chosen for the input, it does not hold for
     if source is None or motions.source == source:
         return motions
     if {source, motions.source} == {"urdf", "particulate"}:
@@ -72,30 +76,32 @@ def read_foreign(path: Path, source: ForeignSource | None = None) -> ForeignMoti
     raise UnreadableAsset(f"{path} is of the kind {motions.source}, not {source}: expected {_expected(source)}")
 
 
-def prediction_for(choice: MotionChoice, name: str, alone: bool = True) -> ForeignMotions:
+def prediction_for(choice: MotionChoice, name: str, alone: bool = True, limits: Limits = _LIMITS) -> ForeignMotions:
     """Returns what a foreign choice holds for the input whose results are called `name`.
 
     Where the choice's folder has an entry of that name (`name/`, `name.json`, `name.npz`, `name.urdf` or
-    `name_pred.json`), that is read. Else the whole is, if the input is `alone`.
+    `name_pred.json`), that is read. Else the whole is, if the input is `alone`. Of it no more is
+    read than the `limits` allow.
 
     Raises:
         UnreadableAsset: if there is no entry for one of several inputs, or what is there is damaged.
+        AssetTooLarge: if it exceeds the limits.
     """
     folder = Path(choice.path or "")
     source: ForeignSource = choice.source.value  # type: ignore[assignment]
     entry = next((path for path in (folder / f"{name}{end}" for end in _ENTRIES) if path.exists()), None)
     if entry is None and not alone:
         raise UnreadableAsset(f"{folder} holds nothing for {name}: for several inputs {folder}/{name} is expected")
-    return read_foreign(entry or folder, source)
+    return read_foreign(entry or folder, source, limits)
 
 
 def _expected(source: ForeignSource | None) -> str:
     return _ANY if source is None else _EXPECTED[source]
 
 
-def _found(path: Path) -> tuple[str, Path] | None:
+def _found(path: Path, limits: Limits) -> tuple[str, Path] | None:
     """Returns which reader reads what is at a path, and the file or folder to give it, or None."""
-    return _in_folder(path) if path.is_dir() else _of_file(path) if path.is_file() else None
+    return _in_folder(path) if path.is_dir() else _of_file(path, limits) if path.is_file() else None
 
 
 def _in_folder(folder: Path) -> tuple[str, Path] | None:
@@ -113,19 +119,19 @@ def _in_folder(folder: Path) -> tuple[str, Path] | None:
     return ("urdf", robots[0]) if len(robots) == 1 else None
 
 
-def _of_file(path: Path) -> tuple[str, Path] | None:
+def _of_file(path: Path, limits: Limits) -> tuple[str, Path] | None:
     if path.suffix.lower() == ".npz":
         return "particulate", path
     if path.suffix.lower() == ".urdf":
         return "urdf", path
-    data = read_bytes(path, Limits())
+    data = read_bytes(path, limits)
     if path.suffix.lower() == ".json":
-        return _of_json(data, path)
+        return _of_json(data, path, limits)
     return ("urdf", path) if b"<robot" in data[:4096] else None
 
 
-def _of_json(data: bytes, path: Path) -> tuple[str, Path] | None:
-    decoded = parse_json(data, path, f"{_EXPECTED['singapo']}; {_EXPECTED['grafu-pred']}")
+def _of_json(data: bytes, path: Path, limits: Limits) -> tuple[str, Path] | None:
+    decoded = parse_json(data, path, f"{_EXPECTED['singapo']}; {_EXPECTED['grafu-pred']}", limits)
     if isinstance(decoded, dict) and any(key in decoded for key in TREES):
         return "singapo", path
     return ("grafu-pred", path) if is_prediction(decoded) else None

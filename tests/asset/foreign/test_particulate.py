@@ -14,7 +14,7 @@ from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.frames import quarter_turns
 from grafu.asset.foreign.particulate import UP_ROTATIONS, normalisation, read_particulate
 from grafu.asset.part import AnnotatedJoint
-from grafu.errors import AssetError, ExportError, UnreadableAsset
+from grafu.errors import AssetError, AssetTooLarge, ExportError, UnreadableAsset
 from grafu.export.files import write_files
 from grafu.export.particulate import ParticulateConfig, export_particulate
 from grafu.geometry.arrays import vec3
@@ -212,6 +212,32 @@ def test_missing_and_foreign_files_are_refused_in_one_line(folder: Path) -> None
     np.savez(folder / "eval" / "pred.npz", face_part_ids=np.array([{}]))  # what only pickle can say is not loaded
     with pytest.raises(UnreadableAsset, match="expected a NumPy archive of plain arrays"):
         read_foreign(folder)
+
+
+def with_rows(arrays: Arrays, count: int) -> Arrays:
+    names = [key for key in arrays if key not in ("face_part_ids", "motion_hierarchy")]
+    return arrays | {key: np.repeat(arrays[key][:1], count, axis=0) for key in names}
+
+
+def test_more_parts_than_are_read_are_refused(folder: Path) -> None:
+    write_arrays(folder, with_rows(arrays_in(folder), 5_001))
+    with pytest.raises(AssetTooLarge, match="5,001 parts: at most 5,000 are read"):
+        read_foreign(folder)
+
+
+def test_each_of_thousands_of_parts_gets_its_own_faces_and_parent(folder: Path) -> None:
+    count = 4_000
+    corners = np.arange(3 * count).reshape(-1, 3) + 1
+    lines = [f"v {k % 3} {k // 3} {k % 2}" for k in range(3 * count)]
+    lines += [f"f {a} {b} {c}" for a, b, c in corners]
+    (folder / "eval" / "pred.obj").write_text("\n".join(lines))
+    chain = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
+    of_face = np.arange(count)[::-1]  # the last part has the first face
+    write_arrays(folder, with_rows(arrays_in(folder), count) | {"face_part_ids": of_face, "motion_hierarchy": chain})
+
+    read = read_foreign(folder)
+    assert [part.parent for part in read.parts] == [None, *(f"part_{k}" for k in range(count - 1))]
+    np.testing.assert_array_equal([part.mesh.vertices[0, 1] for part in read.parts], of_face)
 
 
 @pytest.mark.parametrize(("place", "value"), [(6, 1), (8, 99)], ids=["encrypted", "unknown compression"])

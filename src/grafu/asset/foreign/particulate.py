@@ -6,7 +6,7 @@ side 1. Which direction was stated is not stored, so all six come out as possibl
 
 import io
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Final
@@ -21,7 +21,7 @@ from grafu.asset.options import LoadOptions
 from grafu.asset.resources import ModelFiles
 from grafu.asset.triangulate import triangulate
 from grafu.errors import AssetError, UnreadableAsset
-from grafu.geometry.arrays import Mat3, Mat4, Vec3
+from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -88,11 +88,11 @@ def read_particulate(path: Path, options: LoadOptions = LoadOptions()) -> Foreig
             "expected the two files of one run"
         )
     _check_numbers(arrays, path)
+    files.tally.add(path, parts=len(arrays["is_part_revolute"]))
     parents = {int(child): int(parent) for parent, child in arrays["motion_hierarchy"]}
-    count = len(arrays["is_part_revolute"])
-    filled = [k for k in range(count) if (part_of == k).any()]
+    filled = _faces_by_part(part_of)
     parts = tuple(
-        ForeignPart(_name(k), mesh.with_faces(part_of == k), parent=_parent(k, parents, filled)) for k in filled
+        ForeignPart(_name(k), mesh.with_faces(faces), parent=_parent(k, parents, filled)) for k, faces in filled.items()
     )
     notes: list[str] = []
     joints = tuple(joint for k in filled for joint in _joints(k, arrays, notes))
@@ -169,7 +169,14 @@ def _name(part: int) -> str:
     return f"part_{part}"
 
 
-def _parent(part: int, parents: Mapping[int, int], filled: list[int]) -> str | None:
+def _faces_by_part(part_of: Indices) -> dict[int, np.ndarray]:
+    """Returns the faces of each part that has some, in the file's order."""
+    order = np.argsort(part_of, kind="stable")
+    found, starts = np.unique(part_of[order], return_index=True)
+    return dict(zip(found.tolist(), np.split(order, starts[1:]), strict=True))
+
+
+def _parent(part: int, parents: Mapping[int, int], filled: Container[int]) -> str | None:
     """Returns the nearest ancestor that has faces."""
     above = parents.get(part)
     seen = {part}
