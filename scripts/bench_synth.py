@@ -60,10 +60,10 @@ def time_stages(count: int) -> dict[str, float]:
     """Returns the milliseconds of each stage of one model."""
     from grafu.geometry.sampling import sample_surfaces
     from grafu.synth.blueprint import draw_made, make_furniture
-    from grafu.synth.check import faults_of
-    from grafu.synth.habits import draw_untidiness
-    from grafu.synth.truth import true_graph
-    from grafu.synth.untidiness import apply_untidiness
+    from grafu.synth.noise.habits import draw_untidiness
+    from grafu.synth.noise.untidiness import apply_untidiness
+    from grafu.synth.truth.check import faults_of
+    from grafu.synth.truth.true_graph import true_graph
 
     clock = _Stages()
     for index in range(count):

@@ -8,11 +8,12 @@ from dataclasses import fields
 
 from grafu.data.corruption.config import OFFICIAL, PAPER, STRATEGY_NAMES
 from grafu.data.corruption.strategies import STRATEGIES, probabilities
-from grafu.synth import carpentry, cutting, habits, naming, style
 from grafu.synth.families.table import FAMILIES
-from grafu.synth.habits import HABITS
-from grafu.synth.tradition import Tradition
-from grafu.synth.traditions import TRADITIONS
+from grafu.synth.noise import cutting, habits, naming
+from grafu.synth.noise.habits import HABITS
+from grafu.synth.sampling import carpentry, style
+from grafu.synth.sampling.tradition import Tradition
+from grafu.synth.sampling.traditions import TRADITIONS
 
 SYNTH = "../src/grafu/synth"
 HEAD = """\
@@ -30,22 +31,23 @@ TRADITIONS_HEAD = f"""\
 One piece is built in one tradition, so that what goes together in real furniture is drawn together: a shaker leaf on a
 hairpin leg is rare. Each family names the traditions that it comes in ([families]({SYNTH}/families/table.py)), and may
 narrow a table. Thicknesses are those of boards as they are sold, and the rounder ones of bare models from modelling
-sites; shares follow what is sold and what the real development models show ([traditions]({SYNTH}/traditions.py)).
-Thicknesses are given as least · median · most.
+sites; shares follow what is sold and what the real development models show
+([traditions]({SYNTH}/sampling/traditions.py)). Thicknesses are given as least · median · most.
 """
 STYLE_HEAD = f"""\
 ## Doors and handles
 
 A hinge is drawn first and the handle follows it, so that a handle tells about its hinge as often as it does in real
-furniture ([style]({SYNTH}/style.py), [carpentry]({SYNTH}/carpentry.py)). A piece carries them all alike. Reach: on the
-free edge, as near to the hand as the door allows; middle and corner: of the free edge; top line: lying in the middle
-of the upper or lower edge, which says nothing about the hinge; middle line: in the middle of the door.
+furniture ([style]({SYNTH}/sampling/style.py), [carpentry]({SYNTH}/sampling/carpentry.py)). A piece carries them all
+alike. Reach: on the free edge, as near to the hand as the door allows; middle and corner: of the free edge; top line:
+lying in the middle of the upper or lower edge, which says nothing about the hinge; middle line: in the middle of the
+door.
 """
 HABITS_HEAD = f"""\
 ## Modellers' habits
 
 A modeller who draws one panel as a sheet does so all over the model. So a habit is drawn first, and it makes the rest
-likely or not ([habits]({SYNTH}/habits.py)). The shares come from the seventeen development models, which are few,
+likely or not ([habits]({SYNTH}/noise/habits.py)). The shares come from the seventeen development models, which are few,
 widened towards what other sources are known for. Chances are per model; that of sheets is for each group of panels,
 that of clutter for each kind, both times the factors below.
 """
@@ -59,9 +61,9 @@ theirs in any case; the whole holds what a completion would add.
 WORDING_HEAD = f"""\
 ## Words, faces, cuts
 
-What one data set calls a divider is a side panel in another ([naming]({SYNTH}/naming.py)); such wording holds for the
-model and for its truth. What is joined and cut is in [cutting]({SYNTH}/cutting.py), how finely faces are drawn in
-[habits]({SYNTH}/habits.py).
+What one data set calls a divider is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such wording holds for
+the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
+drawn in [habits]({SYNTH}/noise/habits.py).
 """
 
 # A tradition's tables of weights, in the order of the page, and what each decides.

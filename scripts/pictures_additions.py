@@ -26,16 +26,16 @@ from grafu.realization.handle.config import HandleConfig
 from grafu.realization.interior.request import parse_interior
 from grafu.realization.top.config import TopConfig, TopShape
 from grafu.synth.blueprint import draw_made
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.construction import Base, Top
-from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, make_desk
-from grafu.synth.finish import textured_finish
-from grafu.synth.inner_corner import InnerCorner, make_inner_corner
-from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
-from grafu.synth.table import Table, make_table
-from grafu.synth.untidy import without_parts
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
+from grafu.synth.cabinets.inner_corner import InnerCorner, make_inner_corner
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Base, Top
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.noise.untidy import without_parts
+from grafu.synth.pieces.finish import textured_finish
+from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.table import Table, make_table
 from grafu.templates.gallery import builtin_gallery
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import JointType, PartLabel

@@ -2,10 +2,10 @@
 
     python scripts/survey.py [--count 10000] [--seed 0] [--jobs 2] [--points 512] [--out survey]
 
-Every specimen is checked (`grafu.synth.check.faults_in`) and hashed: two of the same boxes and labels are duplicates.
-The first draw of each is judged as well, before it is made untidy: its faults are why draws are rejected. Results lie
-in `--out`, a file for each hundred specimens; a survey that was stopped goes on where it ended. Exit code 1: something
-is wrong.
+Every specimen is checked (`grafu.synth.truth.check.faults_in`) and hashed: two of the same boxes and labels are
+duplicates. The first draw of each is judged as well, before it is made untidy: its faults are why draws are rejected.
+Results lie in `--out`, a file for each hundred specimens; a survey that was stopped goes on where it ended. Exit code
+1: something is wrong.
 """
 
 import argparse
@@ -99,9 +99,9 @@ def read(path: Path) -> list[Finding]:
 def survey_one(seed: int, index: int, points: int) -> Finding:
     """Returns what one specimen is like; an exception is a fault of its own."""
     from grafu.synth.blueprint import draw_made
-    from grafu.synth.check import faults_in, faults_of
     from grafu.synth.generate import make_specimen
     from grafu.synth.repair import repaired
+    from grafu.synth.truth.check import faults_in, faults_of
 
     try:
         started = time.process_time()

@@ -1,18 +1,18 @@
 """Cabinets, tables, desks and chests of every construction, one of each: what several tests go through."""
 
-from grafu.synth.bureau import Bureau
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.case import Case
-from grafu.synth.chest import Chest
-from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Sides, Top
-from grafu.synth.corner import CornerCabinet
-from grafu.synth.desk import Desk
-from grafu.synth.inner_corner import InnerCorner
-from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Blank, Door, Drawer, Pair, Row, Stack, Tilt
-from grafu.synth.legs import Leg
-from grafu.synth.rack import Rack
-from grafu.synth.table import Table
+from grafu.synth.cabinets.bureau import Bureau
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.chest import Chest
+from grafu.synth.cabinets.corner import CornerCabinet
+from grafu.synth.cabinets.inner_corner import InnerCorner
+from grafu.synth.cabinets.rack import Rack
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Sides, Top
+from grafu.synth.case.legs import Leg
+from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Pair, Row, Stack, Tilt
+from grafu.synth.tables.desk import Desk
+from grafu.synth.tables.table import Table
 
 MIXED = Stack((Pair(shelves=1), Row((Drawer(), Drawer()))), (3.0, 1.0))
 LEGS = ("square", "tapered", "round", "cone", "turned", "splayed", "hairpin", "cabriole")

@@ -8,15 +8,15 @@ from math import pi
 from hypothesis import strategies as st
 
 from grafu.asset.part import Asset
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.chest import Chest, make_chest
-from grafu.synth.construction import Base, FaceFrame, Top
-from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, make_desk
-from grafu.synth.hold import Hold
-from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
-from grafu.synth.table import Table, make_table
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import Chest, make_chest
+from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Base, FaceFrame, Top
+from grafu.synth.fronts.hold import Hold
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.table import Table, make_table
 
 handles = st.sampled_from(["bar-round", "bar-profile", "bail", "knob-round", "ring", "cup-shell", "none"])
 boards = st.sampled_from(["slab", "chamfered", "rounded", "arched", "planks", "raised panel", "two panels"])

@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 
 from grafu.asset.edit import as_static_object, centred, mirrored, moved, scaled, yawed
 from grafu.geometry.transform import from_rotation, reflection, rotation_about, transform_points
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.layout import Door, Drawer, Row
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Door, Drawer, Row
 from grafu.vocabulary import JointType
 from strategies import furniture_specs, made, yaws
 from sweeping import joint_motion

@@ -17,7 +17,7 @@ from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
 from grafu.errors import AssetError
 from grafu.export.files import write_files
 from grafu.export.glb import export_glb
-from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.vocabulary import PartLabel
 from strategies import cabinet_specs
 

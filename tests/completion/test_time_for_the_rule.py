@@ -4,9 +4,9 @@ from clocks import Clock
 from grafu.completion.rule import complete_by_rule
 from grafu.geometry.budget import Budget
 from grafu.graph.parse import parse_graph
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Drawer, Stack
 
 
 def test_doors_and_drawers_that_come_too_late_are_refused() -> None:

@@ -21,8 +21,8 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.synth.articulated import articulated_of
 from grafu.synth.generate import make_specimen
+from grafu.synth.truth.articulated import articulated_of
 from grafu.vocabulary import JointType
 
 

@@ -30,7 +30,7 @@ def _beside_cabinet(write: Callable[[Path], None]) -> Maker:
 def _singapo(folder: Path) -> None:
     from grafu.export.files import write_files
     from grafu.export.singapo import export_singapo
-    from grafu.synth.articulated import articulated_of
+    from grafu.synth.truth.articulated import articulated_of
 
     write_files(export_singapo(articulated_of(_asset())), folder, overwrite=True)
 
@@ -38,7 +38,7 @@ def _singapo(folder: Path) -> None:
 def _particulate(folder: Path) -> None:
     from grafu.export.files import write_files
     from grafu.export.particulate import export_particulate
-    from grafu.synth.articulated import articulated_of
+    from grafu.synth.truth.articulated import articulated_of
 
     write_files(export_particulate(articulated_of(_asset())), folder, overwrite=True)
 

@@ -8,9 +8,9 @@ from grafu.asset.part import Asset
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.parse import parse_graph
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 
 
 @pytest.fixture(scope="module")

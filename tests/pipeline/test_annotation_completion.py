@@ -10,9 +10,9 @@ from grafu.geometry.axis import Axis
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.graph.parse import parse_graph
 from grafu.pipeline.annotation import complete_by_annotation
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Pair, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.vocabulary import JointType, PartLabel
 
 

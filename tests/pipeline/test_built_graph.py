@@ -14,8 +14,8 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import parse_graph
 from grafu.pipeline.built_graph import as_built
 from grafu.realization.addition import Addition, added_part
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.layout import Door
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Door
 from grafu.vocabulary import PartLabel
 
 

@@ -7,8 +7,8 @@ from grafu.graph.parse import parse_graph
 from grafu.pipeline.deficiencies import DeficiencyKind, Findings, find_deficiencies
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 

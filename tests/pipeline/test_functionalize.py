@@ -20,9 +20,9 @@ from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.realization.interior.request import parse_interior
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 

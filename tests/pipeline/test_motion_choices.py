@@ -32,9 +32,9 @@ from grafu.realization.motion_choice import (
     motion_as_choice,
 )
 from grafu.realization.plan import JointChoice
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 

@@ -13,9 +13,9 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.realization.top.config import TopConfig
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case, Top
-from grafu.synth.layout import Door
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case, Top
+from grafu.synth.fronts.layout import Door
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 

@@ -15,9 +15,9 @@ from grafu.pipeline.report import report_of
 from grafu.realization import build_all
 from grafu.realization.build_all import joint_share
 from grafu.realization.report import SkipReason
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 
 CABINET = Cabinet("made", Case(0.5, 0.9), Stack((Drawer(), Door(handle="none")), (1.0, 3.0)))

@@ -22,9 +22,9 @@ from grafu.realization.interior.request import CompartmentChoice
 from grafu.realization.interior.turned import compartments_of
 from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
 from grafu.realization.plan import AUTOMATIC, JointChoice
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import MechanismClass, PartLabel

@@ -12,9 +12,9 @@ from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.triage import Level, joint_states, lost
 from grafu.realization.plan import PIVOT, JointChoice
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import MechanismClass
 

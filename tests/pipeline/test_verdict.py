@@ -23,10 +23,10 @@ from grafu.pipeline.verdict import LEAST_CONFIDENCE, LEAST_OPENING, MOST_CARVED,
 from grafu.realization.config import RealizationConfig
 from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
 from grafu.realization.report import SkipReason
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.synth.kinds import KINDS
-from grafu.synth.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType
 

@@ -10,9 +10,9 @@ import numpy as np
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.box import Box
 from grafu.realization.scene import Mover, Scene, Way
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Layout
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Layout
 from grafu.vocabulary import JointType, PartLabel
 
 

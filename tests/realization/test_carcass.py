@@ -15,12 +15,12 @@ from grafu.realization.carcass.complete import complete_carcass
 from grafu.realization.carcass.lacks import carcass_lacks
 from grafu.realization.motion_source import plan_from_annotation
 from grafu.realization.realize import realize
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.construction import Base
-from grafu.synth.layout import Door, Drawer, Layout, Pair, Row, Stack
-from grafu.synth.setting import Mount
-from grafu.synth.table import Table, make_table
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Base
+from grafu.synth.fronts.layout import Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.fronts.setting import Mount
+from grafu.synth.tables.table import Table, make_table
 from grafu.vocabulary import PartLabel
 
 LAYOUTS: dict[str, Layout] = {

@@ -10,9 +10,9 @@ from small_scenes import DOOR, SIDE, box, drawer, hinged, scene
 from grafu.articulation.articulated_object import VisualRole
 from grafu.realization.config import RealizationConfig
 from grafu.realization.report import SkipReason
-from grafu.synth import untidy
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.layout import Door
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Door
+from grafu.synth.noise import untidy
 
 KINDS = ("doors into the case", "inset door into the side", "drawer into both walls")
 NO_TRIM = RealizationConfig(trim=False)

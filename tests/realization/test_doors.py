@@ -12,11 +12,11 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import MeshCollider
 from grafu.metrics.connectivity import largest_gaps
-from grafu.synth import untidy
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.construction import Base, FaceFrame, Top
-from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Base, FaceFrame, Top
+from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.noise import untidy
 from grafu.vocabulary import MechanismClass
 
 # the kind, a door of it, the class that a joiner would take

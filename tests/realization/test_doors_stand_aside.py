@@ -12,9 +12,9 @@ from grafu.realization.joint_choice import with_choices
 from grafu.realization.motion_source import plan_from_annotation
 from grafu.realization.plan import JointChoice
 from grafu.realization.realize import Realized, realize
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Layout, Row, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Layout, Row, Stack
 
 LEFT, RIGHT = Door("left"), Door("right")
 BARE_LEFT, BARE_RIGHT = Door("left", handle="none"), Door("right", handle="none")

@@ -16,11 +16,11 @@ from grafu.geometry.transform import translation
 from grafu.realization.drawer_box.complete import complete_drawers, with_riders
 from grafu.realization.motion_source import plan_from_annotation
 from grafu.realization.realize import realize
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Drawer, DrawerBox, Stack
-from grafu.synth.segmentation import with_box_apart
-from grafu.synth.table import Table, make_table
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Drawer, DrawerBox, Stack
+from grafu.synth.noise.segmentation import with_box_apart
+from grafu.synth.tables.table import Table, make_table
 from grafu.vocabulary import PartLabel
 
 CASE = Case(width=0.45)

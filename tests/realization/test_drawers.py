@@ -12,9 +12,9 @@ from grafu.asset.edit import yawed
 from grafu.asset.part import Part
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Drawer, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Drawer, Stack
 from grafu.vocabulary import MechanismClass
 
 

@@ -14,8 +14,8 @@ from grafu.asset.edit import yawed
 from grafu.geometry.arrays import vec3
 from grafu.realization.handle.config import size_factor
 from grafu.realization.handle.grasp import find_grasp, find_grasps
+from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.synth.kinds import KINDS
-from grafu.synth.layout import Door, Drawer, Pair, Stack
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import PartLabel
 

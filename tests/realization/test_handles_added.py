@@ -15,8 +15,8 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.realization.handle.config import HandleConfig
 from grafu.realization.handle.grasp import find_grasps
 from grafu.realization.handle.place import Handles, NoHandle, add_handles, movers_without
+from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
 from grafu.synth.kinds import KINDS
-from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import PartLabel
 from sweeping import collisions

@@ -15,8 +15,8 @@ from grafu.realization.handle.grasp import find_grasps
 from grafu.realization.handle.place import add_handles
 from grafu.realization.limits import motion_about
 from grafu.realization.scene import Scene, Way
+from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.synth.kinds import KINDS
-from grafu.synth.layout import Door, Drawer, Pair, Stack
 from grafu.templates.gallery import builtin_gallery
 
 BEHIND = ("drawers behind a pair", "drawers behind an inset door")

@@ -9,10 +9,10 @@ from small_scenes import box, hinged, scene
 from grafu.asset.part import Asset
 from grafu.metrics.collision import CollisionConfig, collision_shares
 from grafu.metrics.connectivity import largest_gaps
-from grafu.synth import untidy
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Door, Drawer, Layout, Pair, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Layout, Pair, Stack
+from grafu.synth.noise import untidy
 
 DROP, LIFT, LEFT, RIGHT = Door("bottom"), Door("top"), Door("left"), Door("right")
 STACKS: dict[str, tuple[Layout, ...]] = {  # from the lowest front up

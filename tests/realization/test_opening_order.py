@@ -10,9 +10,9 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.metrics.collision import CollisionConfig, collision_shares
-from grafu.synth.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Drawer, Pair
 from grafu.synth.kinds import KINDS
-from grafu.synth.layout import Drawer, Pair
 
 BEHIND = ("drawers behind a pair", "drawers behind an inset door")
 

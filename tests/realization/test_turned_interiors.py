@@ -15,8 +15,8 @@ from grafu.geometry.transform import from_rotation, rotation_matrix, transform_p
 from grafu.realization.interior.furnish import Furnished
 from grafu.realization.interior.request import PREDICTED, PanelHint, parse_interior
 from grafu.realization.interior.turned import furnish_scene
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Row, Stack
 from grafu.synth.kinds import KINDS
-from grafu.synth.layout import Bay, Door, Drawer, Pair, Row, Stack
 from grafu.vocabulary import PartLabel
 
 LAYOUTS = {

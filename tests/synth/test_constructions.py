@@ -6,20 +6,20 @@ import pytest
 
 from constructions import CHESTS, SPECS
 from grafu.graph.touching import touching_pairs
-from grafu.synth.bases import base_pieces
-from grafu.synth.bureau import Bureau, make_bureau
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.chest import make_chest
-from grafu.synth.construction import Back, Base, Bottom, FaceFrame, Top
-from grafu.synth.desk import Desk
-from grafu.synth.finish import PLAIN
-from grafu.synth.inner_corner import InnerCorner, make_inner_corner
-from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Blank, Door, Drawer, Pair, Stack, Tilt
-from grafu.synth.legs import Leg
-from grafu.synth.rack import Rack, make_rack
-from grafu.synth.table import Table
+from grafu.synth.cabinets.bureau import Bureau, make_bureau
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import make_chest
+from grafu.synth.cabinets.inner_corner import InnerCorner, make_inner_corner
+from grafu.synth.cabinets.rack import Rack, make_rack
+from grafu.synth.case.bases import base_pieces
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Top
+from grafu.synth.case.legs import Leg
+from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Pair, Stack, Tilt
+from grafu.synth.pieces.finish import PLAIN
+from grafu.synth.tables.desk import Desk
+from grafu.synth.tables.table import Table
 from grafu.vocabulary import PartLabel
 from strategies import made as made_of_strategies
 from sweeping import collisions, joint_motion

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.chest import Chest, make_chest
-from grafu.synth.construction import Base, FaceFrame
-from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, make_desk
-from grafu.synth.layout import Door, Drawer, Pair, Row, Stack
-from grafu.synth.table import Table, make_table
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import Chest, make_chest
+from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Base, FaceFrame
+from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.table import Table, make_table
 from grafu.vocabulary import JointType, PartLabel
 from strategies import furniture_specs, made
 from sweeping import collisions

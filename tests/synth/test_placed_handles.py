@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from grafu.geometry.mesh import merge_meshes
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.finish import STEEL
-from grafu.synth.handles import handle_pieces, held_side
-from grafu.synth.hold import HandleStyle, Hold, Place
-from grafu.synth.layout import Door, Drawer, LeafStyle, Pair, Rect
-from grafu.synth.leaves import LeafShape, face_at
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.handles import handle_pieces, held_side
+from grafu.synth.fronts.hold import HandleStyle, Hold, Place
+from grafu.synth.fronts.layout import Door, Drawer, LeafStyle, Pair, Rect
+from grafu.synth.fronts.leaves import LeafShape, face_at
+from grafu.synth.pieces.finish import STEEL
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import PartLabel
 

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from grafu.synth.blueprint import Blueprint, make_furniture
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.case import Case
-from grafu.synth.check import faults_of
-from grafu.synth.chest import Chest
-from grafu.synth.construction import Top
-from grafu.synth.hold import Hold
-from grafu.synth.layout import Door, Drawer, Row, Stack
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.chest import Chest
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Top
+from grafu.synth.fronts.hold import Hold
+from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
 from grafu.synth.repair import repaired, with_bare_fronts_held
+from grafu.synth.truth.check import faults_of
 from grafu.vocabulary import PartLabel
 
 BARE = Row((Door(handle="none", behind=Stack((Drawer(handle="none"),) * 2)), Drawer(handle="none"), Drawer()))

@@ -6,11 +6,11 @@ import pytest
 
 from grafu.graph.edges import Contact, ends_of
 from grafu.graph.parse import parse_graph
-from grafu.synth.check import faults_in
-from grafu.synth.clutter import CLUTTER
 from grafu.synth.generate import MOST_PARTS, make_specimen
-from grafu.synth.habits import is_storage
+from grafu.synth.noise.clutter import CLUTTER
+from grafu.synth.noise.habits import is_storage
 from grafu.synth.specimen import Specimen
+from grafu.synth.truth.check import faults_in
 from grafu.vocabulary import PartLabel
 
 NUMBER = 200

@@ -25,8 +25,8 @@ from grafu.export.graph_picture import (
     drawing_svg,
 )
 from grafu.export.picture import Picture, box_of, contact_sheet, encode_jpeg, encode_png, posed_visuals, render
-from grafu.synth.articulated import articulated_of
 from grafu.synth.specimen import Specimen
+from grafu.synth.truth.articulated import articulated_of
 
 PAGE_NAME = "gallery.html"
 SHEET_NAME = "gallery.png"

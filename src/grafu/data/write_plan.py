@@ -23,9 +23,9 @@ from grafu.data.stream import shard_paths
 from grafu.errors import ExportError, UnreadableAsset
 from grafu.export.whole_file import write_whole
 from grafu.graph.arrays import LABELS
-from grafu.synth.check import faults_in
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
+from grafu.synth.truth.check import faults_in
 from grafu.version import __version__
 
 DatasetFormat = Literal["shards", "furfun"]

@@ -10,17 +10,17 @@ from typing import Any, final
 import numpy as np
 
 from grafu.asset.part import Asset
-from grafu.synth.bureau import Bureau, make_bureau
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.chance import pick
-from grafu.synth.chest import Chest, make_chest
-from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, make_desk
-from grafu.synth.ensemble import Ensemble, make_ensemble
+from grafu.synth.cabinets.bureau import Bureau, make_bureau
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import Chest, make_chest
+from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
+from grafu.synth.cabinets.ensemble import Ensemble, make_ensemble
+from grafu.synth.cabinets.inner_corner import InnerCorner, make_inner_corner
+from grafu.synth.cabinets.rack import Rack, make_rack
 from grafu.synth.families.table import FAMILIES, Spec
-from grafu.synth.inner_corner import InnerCorner, make_inner_corner
-from grafu.synth.rack import Rack, make_rack
-from grafu.synth.table import Table, make_table
+from grafu.synth.sampling.chance import pick
+from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.table import Table, make_table
 
 ATTEMPTS = 50  # draws of one family before giving up: at a rejection rate of 20 % this never happens
 

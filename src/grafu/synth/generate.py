@@ -12,13 +12,13 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.graph.touching import touching_pairs
 from grafu.synth.blueprint import draw_made
-from grafu.synth.check import faults_in, faults_of
-from grafu.synth.habits import draw_untidiness
+from grafu.synth.noise.habits import draw_untidiness
+from grafu.synth.noise.tessellation import CUT, STEPS, tessellated
+from grafu.synth.noise.untidiness import Untidiness, apply_untidiness, as_given
 from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
-from grafu.synth.tessellation import CUT, STEPS, tessellated
-from grafu.synth.truth import carriers, pairs_apart, with_true_edges
-from grafu.synth.untidiness import Untidiness, apply_untidiness, as_given
+from grafu.synth.truth.check import faults_in, faults_of
+from grafu.synth.truth.true_graph import carriers, pairs_apart, with_true_edges
 from grafu.vocabulary import PartLabel
 
 ATTEMPTS = 40  # models drawn for one specimen before giving up: at a rejection rate of 30 % this never happens

@@ -10,17 +10,17 @@ from typing import Any
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
-from grafu.synth import untidy
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.chest import Chest, make_chest
-from grafu.synth.construction import Back, Base, FaceFrame, Top
-from grafu.synth.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.desk import Desk, make_desk
-from grafu.synth.hold import Hold
-from grafu.synth.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
-from grafu.synth.setting import Mount
-from grafu.synth.table import Table, make_table
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import Chest, make_chest
+from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Back, Base, FaceFrame, Top
+from grafu.synth.fronts.hold import Hold
+from grafu.synth.fronts.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
+from grafu.synth.fronts.setting import Mount
+from grafu.synth.noise import untidy
+from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.table import Table, make_table
 
 Maker = Callable[[], Asset]
 NARROW = Case(width=0.45)

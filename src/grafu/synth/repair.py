@@ -17,11 +17,11 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.blueprint import Blueprint, make_furniture
-from grafu.synth.chance import between, chance, pick
-from grafu.synth.finish import surface_of
-from grafu.synth.habits import is_storage
-from grafu.synth.hold import HandleStyle, Hold
-from grafu.synth.segmentation import fresh_ids
+from grafu.synth.fronts.hold import HandleStyle, Hold
+from grafu.synth.noise.habits import is_storage
+from grafu.synth.noise.segmentation import fresh_ids
+from grafu.synth.pieces.finish import surface_of
+from grafu.synth.sampling.chance import between, chance, pick
 from grafu.vocabulary import PartLabel
 
 # What is screwed on afterwards: plain bars and knobs

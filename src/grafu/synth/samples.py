@@ -3,13 +3,13 @@
 from collections.abc import Callable
 
 from grafu.asset.part import Asset
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.chest import Chest, make_chest
-from grafu.synth.construction import Base, FaceFrame, Top
-from grafu.synth.desk import Desk, make_desk
-from grafu.synth.finish import textured_finish
-from grafu.synth.layout import Bay, Door, Drawer, Pair, Row, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import Chest, make_chest
+from grafu.synth.case.case import Case
+from grafu.synth.case.construction import Base, FaceFrame, Top
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Row, Stack
+from grafu.synth.pieces.finish import textured_finish
+from grafu.synth.tables.desk import Desk, make_desk
 
 
 def kitchen_base() -> Asset:

@@ -1,9 +1,9 @@
 """Furniture of any number of parts, for benches: walls of doors and drawers."""
 
 from grafu.asset.part import Asset
-from grafu.synth.cabinet import Cabinet, make_cabinet
-from grafu.synth.case import Case
-from grafu.synth.layout import Bay, Door, Drawer, Layout, Row, Stack
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Row, Stack
 
 CASE_PARTS = 5  # two sides, top, bottom, back
 COLUMN_PARTS = 11  # a door and four drawers with handles, and the divider to the next column

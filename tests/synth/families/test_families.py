@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from grafu.synth.blueprint import draw_made
-from grafu.synth.check import faults_of
 from grafu.synth.families.table import FAMILIES
+from grafu.synth.truth.check import faults_of
 from grafu.vocabulary import JointType, PartLabel
 from sweeping import collisions
 

@@ -5,16 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site
-from grafu.synth.casework import Build, draw_case
-from grafu.synth.chance import between, chance, pick
-from grafu.synth.construction import Top
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.case.construction import Top
 from grafu.synth.families.built import cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_stack
-from grafu.synth.layout import Layout
-from grafu.synth.style import draw_style
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Layout
+from grafu.synth.sampling.carpentry import Site
+from grafu.synth.sampling.casework import Build, draw_case
+from grafu.synth.sampling.chance import between, chance, pick
+from grafu.synth.sampling.style import draw_style
+from grafu.synth.sampling.tradition import TraditionName
 
 BATH: Mapping[TraditionName, float] = {"frameless": 0.62, "minimal": 0.15, "flat-pack": 0.15, "shaker": 0.08}
 HUNG = Build(

@@ -5,18 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site, fitted
-from grafu.synth.case import Case
-from grafu.synth.casework import EDGES, ORNATE_EDGES, Build, draw_base
-from grafu.synth.chance import between, chance, count, pick
-from grafu.synth.chest import Chest
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.chest import Chest
+from grafu.synth.case.case import Case
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
-from grafu.synth.inside import Inside
-from grafu.synth.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
-from grafu.synth.style import chunky, draw_style, pushed
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
+from grafu.synth.sampling.carpentry import Site, fitted
+from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base
+from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.style import chunky, draw_style, pushed
+from grafu.synth.sampling.tradition import TraditionName
 
 BEDROOM: Mapping[TraditionName, float] = {
     "shaker": 0.24, "mid-century": 0.18, "flat-pack": 0.22, "minimal": 0.18, "ornate": 0.14, "frameless": 0.04

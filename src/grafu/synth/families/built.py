@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import FREE, Site, fitted, needed_gap
-from grafu.synth.case import Case
-from grafu.synth.casework import ANY, Build, draw_case
-from grafu.synth.chance import Span, between, spread
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.case.case import Case
 from grafu.synth.families.layouts import with_inner_drawers
-from grafu.synth.layout import Layout
-from grafu.synth.style import Style
+from grafu.synth.fronts.layout import Layout
+from grafu.synth.sampling.carpentry import FREE, Site, fitted, needed_gap
+from grafu.synth.sampling.casework import ANY, Build, draw_case
+from grafu.synth.sampling.chance import Span, between, spread
+from grafu.synth.sampling.style import Style
 
 INNER_DEPTH = 0.42  # metres: drawers behind doors need some length
 INNER_HEIGHT = 1.2  # metres: families of tall pieces say themselves what is behind their doors

@@ -5,15 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.bureau import Bureau
-from grafu.synth.carpentry import Site, fitted
-from grafu.synth.casework import Build
-from grafu.synth.chance import between, chance, count
+from grafu.synth.cabinets.bureau import Bureau
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
-from grafu.synth.layout import Door, Layout, Pair, Rect
-from grafu.synth.style import draw_style
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Door, Layout, Pair, Rect
+from grafu.synth.sampling.carpentry import Site, fitted
+from grafu.synth.sampling.casework import Build
+from grafu.synth.sampling.chance import between, chance, count
+from grafu.synth.sampling.style import draw_style
+from grafu.synth.sampling.tradition import TraditionName
 
 HOME: Mapping[TraditionName, float] = {"ornate": 0.35, "shaker": 0.35, "mid-century": 0.3}
 STAND = Site(hand=0.9)

@@ -5,19 +5,19 @@ from math import pi
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site
-from grafu.synth.casework import Build, draw_case
-from grafu.synth.chance import between, chance, count, pick
-from grafu.synth.construction import Base
-from grafu.synth.ensemble import Ensemble, Placed, Slab
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.ensemble import Ensemble, Placed, Slab
+from grafu.synth.case.construction import Base
 from grafu.synth.families.bedroom import OVER
 from grafu.synth.families.built import build_cabinet, cabinet_of
 from grafu.synth.families.kitchen import BASE, KITCHEN, ON_WALL, base_layout, tall_layout, wall_layout
 from grafu.synth.families.layouts import doors_across, doors_under_drawers, drawer_stack
 from grafu.synth.families.living import GLASS, LIVING
-from grafu.synth.layout import Bay, Layout, Pair, Row, Side, Stack
-from grafu.synth.style import Style, draw_style
+from grafu.synth.fronts.layout import Bay, Layout, Pair, Row, Side, Stack
+from grafu.synth.sampling.carpentry import Site
+from grafu.synth.sampling.casework import Build, draw_case
+from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.style import Style, draw_style
 from grafu.vocabulary import PartLabel
 
 UNIT_WIDTHS = {0.3: 1.0, 0.4: 1.5, 0.45: 1.0, 0.5: 1.5, 0.6: 3.0, 0.8: 1.5, 0.9: 1.0}  # metres: the trade's modules

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from grafu.synth.carpentry import fitted, needed_gap
-from grafu.synth.chance import between, chance
-from grafu.synth.corner import CornerCabinet
+from grafu.synth.cabinets.corner import CornerCabinet
+from grafu.synth.cabinets.inner_corner import InnerCorner
 from grafu.synth.families.kitchen import KITCHEN
-from grafu.synth.fittings import fit_door
-from grafu.synth.inner_corner import InnerCorner
-from grafu.synth.layout import Door, Rect, Side
-from grafu.synth.style import Style, draw_style
+from grafu.synth.fronts.layout import Door, Rect, Side
+from grafu.synth.sampling.carpentry import fitted, needed_gap
+from grafu.synth.sampling.chance import between, chance
+from grafu.synth.sampling.fittings import fit_door
+from grafu.synth.sampling.style import Style, draw_style
 
 FRONT = Rect(0.0, 0.4, 0.1, 0.75)  # metres: about what a corner's door closes
 

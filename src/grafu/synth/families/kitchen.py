@@ -8,16 +8,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import FREE, Site
-from grafu.synth.casework import WALL_HUNG, Build, draw_case
-from grafu.synth.chance import between, chance, count, pick
-from grafu.synth.construction import Top
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.layout import Bay, Blank, Door, Layout, Pair, Row, Stack
-from grafu.synth.style import Style, chunky, draw_style, pushed
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Bay, Blank, Door, Layout, Pair, Row, Stack
+from grafu.synth.sampling.carpentry import FREE, Site
+from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
+from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.style import Style, chunky, draw_style, pushed
+from grafu.synth.sampling.tradition import TraditionName
 
 KITCHEN: Mapping[TraditionName, float] = {
     "frameless": 0.42,

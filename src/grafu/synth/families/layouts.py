@@ -9,11 +9,11 @@ from functools import partial
 
 import numpy as np
 
-from grafu.synth.carpentry import drawer_heights
-from grafu.synth.chance import between, chance, count, pick, weights
-from grafu.synth.hold import HandleStyle
-from grafu.synth.layout import Bay, Between, Blank, Door, Drawer, Layout, Pair, Row, Stack
-from grafu.synth.style import Style
+from grafu.synth.fronts.hold import HandleStyle
+from grafu.synth.fronts.layout import Bay, Between, Blank, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.sampling.carpentry import drawer_heights
+from grafu.synth.sampling.chance import between, chance, count, pick, weights
+from grafu.synth.sampling.style import Style
 
 WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a pair
 WIDEST_PAIR = 1.15

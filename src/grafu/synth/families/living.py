@@ -5,15 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site
-from grafu.synth.casework import Build
-from grafu.synth.chance import between, chance, count, pick, weights
+from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
-from grafu.synth.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
-from grafu.synth.style import Style, draw_style
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
+from grafu.synth.sampling.carpentry import Site
+from grafu.synth.sampling.casework import Build
+from grafu.synth.sampling.chance import between, chance, count, pick, weights
+from grafu.synth.sampling.style import Style, draw_style
+from grafu.synth.sampling.tradition import TraditionName
 
 LIVING: Mapping[TraditionName, float] = {
     "shaker": 0.22, "mid-century": 0.26, "minimal": 0.2, "ornate": 0.14, "flat-pack": 0.14, "frameless": 0.04

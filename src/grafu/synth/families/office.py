@@ -5,14 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site
-from grafu.synth.casework import Build
-from grafu.synth.chance import between, chance, count, pick
+from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.families.built import build_cabinet, draw_size
-from grafu.synth.layout import Blank, Door, Drawer, Layout, Pair, Stack
-from grafu.synth.style import draw_style, pushed
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Blank, Door, Drawer, Layout, Pair, Stack
+from grafu.synth.sampling.carpentry import Site
+from grafu.synth.sampling.casework import Build
+from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.style import draw_style, pushed
+from grafu.synth.sampling.tradition import TraditionName
 
 OFFICE: Mapping[TraditionName, float] = {"office": 0.5, "minimal": 0.2, "flat-pack": 0.2, "shaker": 0.1}
 STAND = Site(hand=0.9)

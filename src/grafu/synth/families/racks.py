@@ -5,17 +5,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site
-from grafu.synth.casework import Build, draw_case
-from grafu.synth.chance import between, chance, count, pick
-from grafu.synth.construction import Sides
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.rack import Rack
+from grafu.synth.case.construction import Sides
 from grafu.synth.families.built import build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import drawer_stack
-from grafu.synth.layout import Bay, Door, Layout, Stack
-from grafu.synth.rack import Rack
-from grafu.synth.style import Style, draw_style
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Bay, Door, Layout, Stack
+from grafu.synth.sampling.carpentry import Site
+from grafu.synth.sampling.casework import Build, draw_case
+from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.style import Style, draw_style
+from grafu.synth.sampling.tradition import TraditionName
 
 RACKS: Mapping[TraditionName, float] = {"minimal": 0.6, "flat-pack": 0.4}
 PLAIN = Build(

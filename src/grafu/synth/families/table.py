@@ -9,16 +9,16 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from grafu.synth.bureau import Bureau
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.chest import Chest
-from grafu.synth.corner import CornerCabinet
-from grafu.synth.desk import Desk
-from grafu.synth.ensemble import Ensemble
+from grafu.synth.cabinets.bureau import Bureau
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.chest import Chest
+from grafu.synth.cabinets.corner import CornerCabinet
+from grafu.synth.cabinets.ensemble import Ensemble
+from grafu.synth.cabinets.inner_corner import InnerCorner
+from grafu.synth.cabinets.rack import Rack
 from grafu.synth.families import bath, bedroom, bureaus, composed, corners, kitchen, living, office, racks, tables
-from grafu.synth.inner_corner import InnerCorner
-from grafu.synth.rack import Rack
-from grafu.synth.table import Table
+from grafu.synth.tables.desk import Desk
+from grafu.synth.tables.table import Table
 
 Spec = Cabinet | Table | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble | Bureau
 Draw = Callable[[np.random.Generator], Spec]

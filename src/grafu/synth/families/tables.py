@@ -5,19 +5,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.cabinet import Cabinet
-from grafu.synth.carpentry import Site, fitted, needed_gap
-from grafu.synth.casework import EDGES, ORNATE_EDGES, Build, draw_base, draw_leg
-from grafu.synth.chance import Span, between, chance, count, only, pick, spread, weights
-from grafu.synth.construction import Stretcher
-from grafu.synth.desk import Desk
+from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.case.construction import Stretcher
+from grafu.synth.case.legs import Leg, LegShape
 from grafu.synth.families.built import Size, build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
-from grafu.synth.layout import Bay, Between, Door, Drawer, Layout, Rect, Row, Stack
-from grafu.synth.legs import Leg, LegShape
-from grafu.synth.style import Style, draw_style, pushed
-from grafu.synth.table import Table
-from grafu.synth.tradition import TraditionName
+from grafu.synth.fronts.layout import Bay, Between, Door, Drawer, Layout, Rect, Row, Stack
+from grafu.synth.sampling.carpentry import Site, fitted, needed_gap
+from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base, draw_leg
+from grafu.synth.sampling.chance import Span, between, chance, count, only, pick, spread, weights
+from grafu.synth.sampling.style import Style, draw_style, pushed
+from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.tables.desk import Desk
+from grafu.synth.tables.table import Table
 
 HOME: Mapping[TraditionName, float] = {
     "shaker": 0.3, "mid-century": 0.22, "ornate": 0.2, "minimal": 0.18, "flat-pack": 0.1

@@ -1,0 +1,127 @@
+"""Corner cabinets: a five-sided case in a room's corner, its door turned about Z by any angle."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, cos, hypot, sin
+from typing import final
+
+from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.synth.fronts.front import front_pieces
+from grafu.synth.fronts.layout import Cell, Door, Edges, Rect
+from grafu.synth.fronts.setting import Mount, Setting
+from grafu.synth.pieces.assembly import Piece, assemble
+from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
+from grafu.synth.pieces.planks import plank, solid
+from grafu.synth.pieces.shapes import framed_opening, prism
+from grafu.vocabulary import PartLabel
+
+ONE_DOOR = Door()
+SHELF_ROOM = 0.02  # metres between the face frame and the shelves: an inset door may be thicker than the frame
+Outline = tuple[tuple[float, float], ...]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class CornerCabinet:
+    """A corner cabinet, metres: it stands `along_x` and `along_y` against two walls, its ends `depth` deep.
+
+    The front runs between the ends, yawed by atan2(along_y - depth, along_x - depth): 45 degrees where both walls are
+    alike. The door hangs in a face frame of width `frame`. The case stands on boards `base` high (0: none), the one
+    below the door `recess` behind the frame; its top may be missing. `height` is that of the whole.
+
+    Raises:
+        ValueError: if the ends leave no room for a front.
+    """
+
+    name: str = "corner_cabinet"
+    along_x: float = 0.9
+    along_y: float = 0.9
+    depth: float = 0.35
+    height: float = 0.8
+    panel: float = 0.018
+    frame: float = 0.04
+    door: Door = ONE_DOOR
+    mount: Mount = "overlay"
+    finish: Finish = PLAIN
+    shelves: int = 1
+    topped: bool = True
+    base: float = 0.0
+    recess: float = 0.05
+
+    def __post_init__(self) -> None:
+        if self.base < 0 or self.base > self.height / 2:
+            raise ValueError(f"`CornerCabinet.base` must be at most half the height: got {self.base} m")
+        if min(self.along_x, self.along_y) <= self.depth or self.front_width <= 4 * self.frame:
+            size = f"{self.along_x} x {self.along_y} m, ends {self.depth} m, frame {self.frame} m"
+            raise ValueError(f"`CornerCabinet` needs walls longer than its ends, with room for a door: got {size}")
+
+    @property
+    def front_width(self) -> float:
+        """The length of the angled front."""
+        return hypot(self.along_x - self.depth, self.along_y - self.depth)
+
+    @property
+    def yaw(self) -> float:
+        """How far the front is turned about Z, radians: 0 faces -Y, pi / 2 faces +X."""
+        return atan2(self.along_y - self.depth, self.along_x - self.depth)
+
+
+def make_corner_cabinet(spec: CornerCabinet) -> Asset:
+    """Returns the corner cabinet with its door's true joint."""
+    middle = vec3((spec.depth + spec.along_x) / 2, (spec.along_y - spec.depth) / 2, 0.0)
+    T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), spec.yaw), middle)
+    return assemble(spec.name, [*_case(spec), *_base(spec), *(piece.transformed(T) for piece in _front(spec))])
+
+
+def _front(spec: CornerCabinet) -> Iterator[Piece]:
+    """Yields the frame and the door before they are turned: the plane y = 0, facing -Y, centred in x."""
+    half, thick, b, low = spec.front_width / 2, spec.panel, spec.frame, spec.base
+    setting = Setting(0.0, spec.depth, spec.mount, lap=0.6 * b, panel=b, finish=spec.finish)
+    frame = framed_opening(Box(vec3(-half, 0.0, low), vec3(half, thick, spec.height)), b)
+    yield Piece(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, spec.finish.case) for mesh in frame))
+    yield from front_pieces(Cell(spec.door, Rect(b - half, half - b, low + b, spec.height - b), Edges()), setting)
+    if low:
+        span = ((b - half, spec.recess, 0.0), (half - b, spec.recess + thick, low))
+        yield plank(PartLabel.SIDE_PANEL, "toe_kick", spec.finish.case, span)
+
+
+def _base(spec: CornerCabinet) -> Iterator[Piece]:
+    """Yields the boards below the ends."""
+    if spec.base:
+        x, y, d, t, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.finish.case
+        for span in (((0.0, 0.0, 0.0), (d - 0.02, t, spec.base)), ((x - t, y - d + 0.02, 0.0), (x, y, spec.base))):
+            yield plank(PartLabel.SIDE_PANEL, "base_side_panel", wood, span)
+
+
+def _case(spec: CornerCabinet) -> Iterator[Piece]:
+    x, y, t, h, floor = spec.along_x, spec.along_y, spec.panel, spec.height, spec.base
+    flat: dict[str, tuple[PartLabel, Outline]] = {
+        "side_panel_left": (PartLabel.SIDE_PANEL, ((t, 0.0), _across(spec, 0.0), _across(spec, t), (t, t))),
+        "side_panel_right": (PartLabel.SIDE_PANEL, (_along(spec, x), (x, y - t), (x - t, y - t), _along(spec, x - t))),
+        "back_panel_left": (PartLabel.BACK_PANEL, ((0.0, 0.0), (t, 0.0), (t, y - t), (0.0, y - t))),
+        "back_panel_right": (PartLabel.BACK_PANEL, ((0.0, y - t), (x, y - t), (x, y), (0.0, y))),
+    }
+    for stem, (label, outline) in flat.items():
+        yield solid(label, stem, spec.finish.case, [prism(outline, floor, h)])
+    pitch = (h - floor) / (spec.shelves + 1)
+    levels = [(PartLabel.BOTTOM_PANEL, "bottom_panel", floor)]
+    levels += [(PartLabel.SHELF, "shelf", floor + pitch * (k + 1) - t / 2) for k in range(spec.shelves)]
+    if spec.topped:
+        levels.append((PartLabel.TOP_PANEL, "top_panel", h - t))
+    for label, stem, z in levels:
+        back = SHELF_ROOM if label is PartLabel.SHELF else 0.0
+        outline = (_across(spec, t, back), _along(spec, x - t, back), (x - t, y - t), (t, y - t), (t, t))
+        yield solid(label, stem, spec.finish.case, [prism(outline, z, z + t)])
+
+
+def _across(spec: CornerCabinet, y: float, back: float = 0.0) -> tuple[float, float]:
+    """Returns the point at this y on the face frame's inner face, or `back` behind it."""
+    return spec.depth + (y * cos(spec.yaw) - spec.panel - back) / sin(spec.yaw), y
+
+
+def _along(spec: CornerCabinet, x: float, back: float = 0.0) -> tuple[float, float]:
+    """Returns the point at this x on the face frame's inner face, or `back` behind it."""
+    return x, ((x - spec.depth) * sin(spec.yaw) + spec.panel + back) / cos(spec.yaw)

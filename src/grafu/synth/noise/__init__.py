@@ -1,0 +1,1 @@
+"""Modelling noise: what people who model furniture leave out, join, cut, misname, bend and add."""

@@ -1,0 +1,117 @@
+"""Which parts a modeller joins to one and which are in several pieces: the drawing of cuts, with their rates."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.synth.noise.segmentation import is_board
+from grafu.synth.noise.untidiness import Cut, Joined
+from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.vocabulary import PartLabel
+
+_CASE = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.TOP_PANEL, PartLabel.DIVIDER)
+# What is joined, by weight. 32052 has each pedestal's whole case as one back panel, and 22692 and 49182 have panels
+# with their mouldings in one.
+GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...]]]] = {
+    "case": (0.22, (*_CASE, PartLabel.SHELF)),
+    "case without shelves": (0.13, _CASE),
+    "sides": (0.15, (PartLabel.SIDE_PANEL,)),
+    "sides and back": (0.1, (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL)),
+    "shelves": (0.12, (PartLabel.SHELF,)),
+    "legs": (0.1, (PartLabel.LEG,)),
+    "bars": (0.08, (PartLabel.BAR,)),
+    "front frame": (0.1, (PartLabel.FACE_FRAME, PartLabel.BAR)),
+}
+# What is joined of several kinds is called after its largest wall; now and then it is an odd part, or has no label.
+ODD, NAMELESS = 0.15, 0.12
+LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  # nobody calls a case after these
+
+# A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
+FRAME_IN_BARS = 0.6
+STRIP = 0.15  # of cut models: solid-edge strips along panels
+# How much likelier the walls of a case are in planks than its levels: 32052 has its back in three.
+WALLS: Final = {PartLabel.SIDE_PANEL: 5.0, PartLabel.BACK_PANEL: 9.0}
+ALIKE, SAME = 0.8, 0.001  # of boards in planks, their twins too; metres within which two boards are of one size
+BOX_APART = 0.12  # of cut models: fronts moved by the artist, their boxes left as boards
+
+
+def draw_joined(
+    rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float, handles: float, tops: float = 1.0
+) -> tuple[Joined, ...]:
+    """Returns which of the parts are joined: with chance `share` a group, with chance `handles` handles with fronts.
+
+    Where a case is joined, its top is one of what is joined with chance `tops`.
+    """
+    found = []
+    busy = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
+    still = [p for p in parts if p.id not in busy and p.rides_on is None]
+    if not chance(rng, tops):
+        still = [p for p in still if p.label is not PartLabel.TOP_PANEL]
+    if chance(rng, share):
+        able = {
+            name: weight
+            for name, (weight, labels) in GROUPS.items()
+            if sum(p.label in labels for p in still) > 1
+            and len({p.label for p in still} & set(labels)) > (len(labels) > 1)
+        }
+        if able:
+            _, labels = GROUPS[pick(rng, able)]
+            found.append(_joined(rng, [p for p in still if p.label in labels]))
+    riders = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.rides_on)
+    if riders and chance(rng, handles):
+        found.append(Joined(riders, None))
+    return tuple(found)
+
+
+def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:
+    walls = [p for p in parts if p.label not in LEVEL] or parts
+    largest = max(walls, key=lambda p: float(p.box.volume)).label
+    alike = all(p.label is largest for p in parts)
+    odd, nameless = chance(rng, ODD), chance(rng, NAMELESS)
+    label = PartLabel.MISC if odd and not alike else largest
+    return Joined(tuple(p.id for p in parts), label, named=alike or not nameless)
+
+
+def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float) -> tuple[Cut, ...]:
+    """Returns which of the parts are in several pieces: frames often, panels with chance `share`."""
+    found = []
+    label = PartLabel.BAR if chance(rng, 0.7) else PartLabel.FACE_FRAME
+    if chance(rng, FRAME_IN_BARS):
+        frames = (p for p in parts if p.label is PartLabel.FACE_FRAME and len(p.surfaces) > 1)
+        found += [Cut(p.id, "pieces", label) for p in frames]
+    if not chance(rng, share):
+        return tuple(found)
+    boards = [p for p in parts if p.label in (*_CASE, PartLabel.SHELF) and is_board(p) and p.box.size.min() > 0.002]
+    if boards and chance(rng, STRIP):
+        width = between(rng, (0.01, 0.04))
+        return (*found, *(Cut(p.id, "edge strip", width=width) for p in boards if p.box.thin_axis != 1))
+    if chance(rng, BOX_APART):
+        return (*found, *(Cut(j.part, "box apart") for j in asset.joints))
+    weights = np.array([WALLS.get(board.label, 1.0) for board in boards])
+    number = min(count(rng, 1, 2), len(boards))
+    for k in rng.choice(len(boards), number, replace=False, p=weights / weights.sum()) if number else ():
+        found.append(_planks(rng, boards[k]))
+    return (*found, *_twins(rng, boards, found))
+
+
+def _twins(rng: np.random.Generator, boards: Sequence[Part], cuts: Sequence[Cut]) -> Iterator[Cut]:
+    """Yields the cuts of boards whose twins, of the same label and size, are cut: one side as the other."""
+    whole = {board.id: board for board in boards}
+    done = {cut.part for cut in cuts}
+    for cut in cuts:
+        if cut.part not in whole or not chance(rng, ALIKE):
+            continue
+        board = whole[cut.part]
+        twins = [b for b in boards if b.label is board.label and np.allclose(b.box.size, board.box.size, atol=SAME)]
+        yield from (replace(cut, part=twin.id) for twin in twins if twin.id not in done)
+        done |= {twin.id for twin in twins}
+
+
+def _planks(rng: np.random.Generator, board: Part) -> Cut:
+    """Returns a board in two to five, square to its longer or (seldom) shorter side."""
+    order = np.argsort(board.box.size)
+    axis = int(order[1] if chance(rng, 0.6) else order[2])
+    return Cut(board.id, "planks", count=count(rng, 2, 5), axis=axis)

@@ -1,0 +1,232 @@
+"""How one model is untidy: every decision drawn (`Untidiness`), and their application. `habits` draws them.
+
+Two things come of it: the whole (untidy in its geometry, cut and words, complete, with true joints) and what is given
+of it (parts missing, labels lost or wrong).
+"""
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
+from typing import Final, Literal, final
+
+import numpy as np
+
+from grafu.asset.edit import centred, yawed
+from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import vec3
+from grafu.synth.noise import untidy
+from grafu.synth.noise.clutter import with_clutter
+from grafu.synth.noise.distortion import ajar, bent, stretched
+from grafu.synth.noise.naming import MISTAKES, mistaken, with_labels_masked, worded
+from grafu.synth.noise.segmentation import (
+    in_pieces,
+    in_planks,
+    is_board,
+    with_box_apart,
+    with_edge_strip,
+    with_joined,
+    with_riders_joined,
+)
+from grafu.synth.noise.sheets import with_anchored_sheets
+from grafu.synth.noise.tessellation import Density
+from grafu.synth.specimen import Defect
+from grafu.vocabulary import PartLabel
+
+Offset = tuple[float, float, float]
+Faces = Literal["sheet", "open back", "doubled", "inverted", "loose", "shells"]
+
+FACE_EDITS: Final[dict[Faces, Callable[[Asset, Collection[str]], Asset]]] = {
+    "sheet": with_anchored_sheets,
+    "open back": untidy.with_open_backs,
+    "doubled": untidy.with_doubled_faces,
+    "inverted": untidy.with_inverted_normals,
+    "loose": untidy.with_loose_faces,
+    "shells": lambda asset, ids: untidy.with_many_shells(asset, 3, ids),
+}
+BOARDS_ONLY: Final[frozenset[Faces]] = frozenset({"shells"})  # edits that would fill what is no plain board
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Joined:
+    """Still parts in one: all of `ids` become one part with this label; handles vanish into what carries them."""
+
+    ids: tuple[str, ...]
+    label: PartLabel | None  # none: the ids are riders, and join what carries them
+    named: bool = True  # otherwise the input says no label for it
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """One part in several: by its surfaces, in planks, with a front edge strip, or a drawer's box apart."""
+
+    part: str
+    way: Literal["pieces", "planks", "edge strip", "box apart"]
+    label: PartLabel | None = None  # of the pieces
+    count: int = 2
+    axis: int = 0
+    width: float = 0.02  # of an edge strip, metres
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Misfit:
+    """A part shifted by `offset`, or grown by it to both sides, metres."""
+
+    part: str
+    offset: Offset
+    grown: bool = False
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Untidiness:
+    """All that is untidy about one model; the parts named are those of the tidy one.
+
+    `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
+    shares of their range; `masked` is the share of parts whose label is lost. `density`, `edge` (metres) and
+    `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying (clutter,
+    which labels are lost) follows `seed`.
+    """
+
+    habit: str
+    seed: int = 0
+    clutter: tuple[str, ...] = ()
+    joined: tuple[Joined, ...] = ()
+    cuts: tuple[Cut, ...] = ()
+    faces: tuple[tuple[Faces, tuple[str, ...]], ...] = ()
+    misfits: tuple[Misfit, ...] = ()
+    ajar: tuple[tuple[str, float], ...] = ()
+    factors: Offset = (1.0, 1.0, 1.0)
+    bend: float = 0.0
+    yaw: float = 0.0
+    wording: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
+    masked: float = 0.0
+    mislabelled: bool = False
+    shuffled: bool = False
+    density: Density = "plain"
+    edge: float = 0.0015
+    both_sides: bool = False
+
+
+def apply_untidiness(tidy: Asset, untidiness: Untidiness) -> tuple[Asset, tuple[Defect, ...]]:
+    """Returns the whole, untidy model, centred and standing on z = 0, and the defects of its geometry.
+
+    A decision about a part that an earlier one did away with is passed over.
+    """
+    rng = np.random.default_rng(untidiness.seed)
+    asset = tidy
+    for kind in untidiness.clutter:
+        asset = with_clutter(asset, kind, rng)
+    asset = _recut(asset, untidiness)
+    asset = worded(asset, untidiness.wording)
+    defects = []
+    for part_id, share in untidiness.ajar:
+        if _has(asset, part_id):
+            asset = ajar(asset, part_id, share)
+            defects.append(Defect("ajar", (part_id,)))
+    for misfit in untidiness.misfits:
+        if _has(asset, misfit.part):
+            before, asset = asset, _misfitted(asset, misfit)
+            defects.append(_defect(before, asset, misfit))
+    for edit, ids in untidiness.faces:
+        asset = _with_faces(asset, edit, ids)
+    if untidiness.bend:
+        asset = bent(asset, untidiness.bend, rng)
+        defects.append(Defect("interpenetrating", tuple(joint.part for joint in asset.joints)))
+    asset = stretched(asset, vec3(*untidiness.factors))
+    asset = centred(yawed(asset, untidiness.yaw)) if untidiness.yaw else asset
+    if untidiness.shuffled:
+        asset = replace(asset, parts=tuple(asset.parts[k] for k in rng.permutation(len(asset.parts))))
+    return replace(asset, frame=tidy.frame), tuple(defects)
+
+
+def as_given(whole: Asset, untidiness: Untidiness, removable: Collection[str]) -> tuple[Asset, tuple[Defect, ...]]:
+    """Returns what a reader would load of the whole: without missing parts, joints and riders, labels as they survive.
+
+    Only `removable` parts go missing, and never all still parts.
+    """
+    rng = np.random.default_rng([untidiness.seed, 1])
+    gone = [p.id for p in whole.parts if p.id in untidiness.missing and p.id in removable]
+    given = whole.without_annotation()
+    kept = tuple(p for p in given.parts if p.id not in gone)
+    if not any(p.label.is_support for p in kept):
+        gone, kept = [], given.parts
+    given = replace(given, parts=kept)
+    defects = [Defect("missing", tuple(gone))] if gone else []
+    mistakable = [part for part in kept if part.label in MISTAKES]
+    if untidiness.mislabelled and mistakable:
+        part = mistakable[int(rng.integers(len(mistakable)))]
+        given = given.with_labels({part.id: mistaken(part, rng)})
+        defects.append(Defect("mislabelled", (part.id,)))
+    nameless = {_joined_id(k) for k, group in enumerate(untidiness.joined) if not group.named}
+    lost = _masked(given, untidiness.masked, rng) | {p.id for p in kept if p.id in nameless}
+    return with_labels_masked(given, lost), tuple(defects)
+
+
+def _masked(given: Asset, share: float, rng: np.random.Generator) -> frozenset[str]:
+    """Returns which parts lose their label: odd ones and bars rather than panels, unless nearly all do."""
+    if share <= 0:
+        return frozenset()
+    odd = {PartLabel.MISC: 6.0, PartLabel.BAR: 2.0, PartLabel.DOOR: 0.4, PartLabel.DRAWER: 0.4}
+    weights = np.array([odd.get(part.label, 1.0) for part in given.parts])
+    count = min(max(round(share * len(weights)), 1), len(weights))
+    picked = rng.choice(len(weights), count, replace=False, p=weights / weights.sum())
+    return frozenset(given.parts[k].id for k in picked)
+
+
+def _joined_id(k: int) -> str:
+    return f"joined_{k + 1}"
+
+
+def _has(asset: Asset, part_id: str) -> bool:
+    return any(part.id == part_id for part in asset.parts)
+
+
+def _recut(asset: Asset, untidiness: Untidiness) -> Asset:
+    for k, group in enumerate(untidiness.joined):
+        if group.label is None:
+            asset = with_riders_joined(asset, group.ids)
+            continue
+        ids = [p.id for p in asset.parts if p.id in group.ids]
+        asset = with_joined(asset, ids, group.label, _joined_id(k)) if len(ids) > 1 else asset
+    for cut in untidiness.cuts:
+        asset = _cut(asset, cut) if _has(asset, cut.part) else asset
+    return asset
+
+
+def _cut(asset: Asset, cut: Cut) -> Asset:
+    match cut.way:
+        case "pieces":
+            return in_pieces(asset, cut.part, cut.label)
+        case "planks":
+            return in_planks(asset, cut.part, cut.count, cut.axis)
+        case "edge strip":
+            return with_edge_strip(asset, cut.part, cut.width)
+        case "box apart":
+            return with_box_apart(asset, cut.part)
+
+
+def _misfitted(asset: Asset, misfit: Misfit) -> Asset:
+    edit = untidy.with_swollen if misfit.grown else untidy.with_shifted
+    return edit(asset, misfit.part, vec3(*misfit.offset))
+
+
+def _defect(before: Asset, after: Asset, misfit: Misfit) -> Defect:
+    """Returns what a misfit comes to: the part cuts deeper into a neighbour's box than before, or only stands off."""
+    old, new = before.part(misfit.part).box, after.part(misfit.part).box
+    deeper = any(
+        float(new.axis_gaps(p.box).max()) < min(float(old.axis_gaps(p.box).max()), 0.0) - 1e-5
+        for p in after.parts
+        if misfit.part not in (p.id, p.rides_on)
+    )
+    return Defect("interpenetrating" if deeper else "floating", (misfit.part,))
+
+
+def _with_faces(asset: Asset, edit: Faces, ids: Collection[str]) -> Asset:
+    def fits(part: Part) -> bool:
+        return part.id in ids and (edit not in BOARDS_ONLY or is_board(part))
+
+    present = frozenset(part.id for part in asset.parts if fits(part))
+    return FACE_EDITS[edit](asset, present) if present else asset

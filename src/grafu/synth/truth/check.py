@@ -1,0 +1,271 @@
+"""Whether made furniture is what it claims: it moves freely, its labels agree with its joints, its graph with both.
+
+`faults_of` judges a tidy model, where every fault is one. `faults_in` judges a specimen: what its declared defects
+explain is no fault. It mends nothing and draws nothing.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import radians
+from typing import Literal, final
+
+import numpy as np
+from jaxtyping import Float
+
+from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.sweep import values_before
+from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.graph.edges import Hinge, Rail
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.groups import joined_groups
+from grafu.graph.motion import axis_to_hinge, axis_to_rail
+from grafu.synth.specimen import DefectKind, Specimen
+from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import clashes_of
+from grafu.vocabulary import JointType, PartLabel
+
+FaultKind = Literal[
+    "collision",  # a moving part cuts into another on its way, those it waits for being open
+    "label",  # a door or drawer without a joint, a joint on something else, or of the wrong type; a label not declared
+    "rider",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
+    "limit",  # an opening that no such furniture has, or that does not lead out
+    "size",  # a door or drawer too small to be one
+    "double",  # two parts with one box
+    "mount",  # a door without exactly one hinge edge, a drawer without one or two rails, a handle with another parent
+    "motion",  # an edge whose codes do not say what the joint does
+    "loose",  # a part that no edges join to the rest
+    "parts",  # the truth, the asset and the whole disagree about their parts
+]
+
+# The least and most that a joint opens. Doors: from shoe-cabinet fronts that tilt by 20 degrees to doors that fold back
+# flat on their neighbours. Drawers: from an apothecary's to as far as the piece is long.
+DOOR_OPENING = (radians(15), radians(185))
+LEAST_SLIDE = 0.03
+LEAST_DOOR, LEAST_DRAWER = 0.08, 0.03  # metres across a door, and in height: a keyboard's tray is hardly higher
+RIDER_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.riders`
+MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
+_BESIDE = 0.05  # metres from a drawer within which parts are its case, and the share of its height that they share
+_OUT = 0.3  # share of its way that a drawer must come out of its case: those behind doors begin within it
+_SAME = 1e-4  # metres within which two boxes are one
+
+BoxRows = Float[np.ndarray, "n 2 3"]
+_EXPLAINS: dict[FaultKind, frozenset[DefectKind]] = {
+    "collision": frozenset({"interpenetrating", "ajar", "floating"}),
+    "rider": frozenset({"floating"}),
+    "mount": frozenset({"floating"}),
+    "label": frozenset({"mislabelled"}),
+    "parts": frozenset({"missing"}),
+}
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is wrong, the parts that it concerns (the culprit first), and the figures in words."""
+
+    kind: FaultKind
+    parts: tuple[str, ...]
+    detail: str = ""
+
+
+def faults_of(
+    whole: Asset, articulated: ArticulatedObject | None = None, truth: FunctionalGraph | None = None
+) -> tuple[Fault, ...]:
+    """Returns all that is wrong with a made model; nothing, where it is sound.
+
+    Args:
+        whole: the model with true labels, joints (lower 0) and riders.
+        articulated: what `articulated_of` gives for it (none: it is worked out).
+        truth: its functional graph (none: the graph is not judged).
+    """
+    wrong = (*_label_faults(whole), *_rider_faults(whole))
+    if wrong:  # nothing below has a meaning
+        return wrong
+    articulated = articulated or articulated_of(whole)
+    found = [
+        *_limit_faults(whole),
+        *_size_faults(whole),
+        *_double_faults(whole),
+        *_collision_faults(whole, articulated),
+    ]
+    if truth is not None:
+        found += _graph_faults(whole, truth)
+    return tuple(found)
+
+
+def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) -> tuple[Fault, ...]:
+    """Returns all that is wrong with a specimen beyond the defects that it declares.
+
+    Loose parts are no fault of a specimen: boards that became sheets stand apart by their thickness. Nor are limits:
+    what lies beside a drawer cannot be told any more where all of a case is one part.
+    """
+    concerned: dict[DefectKind, set[str]] = defaultdict(set)
+    for defect in specimen.defects:
+        concerned[defect.kind] |= {*defect.parts}
+        concerned[defect.kind] |= {p.id for p in specimen.whole.parts if p.rides_on in defect.parts}
+
+    def is_meant(fault: Fault) -> bool:
+        explained = set[str]().union(*(concerned[kind] for kind in _EXPLAINS.get(fault.kind, ())))
+        culprit, *others = fault.parts
+        return culprit in explained or (bool(others) and set(others) <= explained)
+
+    found = (*faults_of(specimen.whole, articulated, specimen.truth), *_given_faults(specimen))
+    return tuple(fault for fault in found if fault.kind not in ("loose", "limit") and not is_meant(fault))
+
+
+def _label_faults(whole: Asset) -> Iterator[Fault]:
+    joints = Counter(joint.part for joint in whole.joints)
+    for part in whole.parts:
+        if joints[part.id] != part.label.is_movable:
+            yield Fault("label", (part.id,), f"a {part.label} with {joints[part.id]} joints")
+    expected = {JointType.REVOLUTE: PartLabel.DOOR, JointType.PRISMATIC: PartLabel.DRAWER}
+    for joint in whole.joints:
+        label = whole.part(joint.part).label
+        if label.is_movable and expected.get(joint.type) is not label:
+            yield Fault("label", (joint.part,), f"a {label} with a {joint.type} joint")
+
+
+def _rider_faults(whole: Asset) -> Iterator[Fault]:
+    movers = {joint.part for joint in whole.joints}
+    for part in whole.parts:
+        if part.rides_on is None:
+            if part.label is PartLabel.HANDLE:
+                yield Fault("rider", (part.id,), "a handle that rides on nothing")
+        elif part.rides_on not in movers or part.id in movers:
+            yield Fault("rider", (part.id,), f"it rides on {part.rides_on}")
+        else:
+            gap = _gap_to_link(part, whole)
+            if gap > RIDER_REACH:
+                yield Fault("rider", (part.id,), f"{gap:.3f} m off {part.rides_on} and all that rides on it")
+
+
+def _gap_to_link(rider: Part, whole: Asset) -> float:
+    """Returns the distance between the boxes of a rider and the nearest part that moves with it."""
+    others = (p for p in whole.parts if p is not rider and rider.rides_on in (p.id, p.rides_on))
+    return min(rider.box.gap(other.box) for other in others)
+
+
+def _limit_faults(whole: Asset) -> Iterator[Fault]:
+    movers = {joint.part for joint in whole.joints}
+    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in movers])
+    still = still.reshape(-1, 2, 3)
+    for joint in whole.joints:
+        if joint.lower != 0.0:
+            yield Fault("limit", (joint.part,), f"from {joint.lower:.3f}, not from 0")
+        if joint.type is JointType.REVOLUTE and not DOOR_OPENING[0] <= joint.upper <= DOOR_OPENING[1]:
+            yield Fault("limit", (joint.part,), f"opens by {joint.upper:.3f} rad")
+        if joint.type is JointType.PRISMATIC:
+            yield from _slide_faults(whole, joint, still)
+
+
+def _slide_faults(whole: Asset, joint: AnnotatedJoint, still: BoxRows) -> Iterator[Fault]:
+    room = float(np.abs(joint.axis.direction) @ whole.box.size)
+    if not LEAST_SLIDE <= joint.upper <= room:
+        yield Fault("limit", (joint.part,), f"slides by {joint.upper:.3f} m of {room:.3f} m")
+        return
+    box, shift = whole.part(joint.part).box, joint.axis.direction * joint.upper
+    gaps = np.maximum(still[:, 0] - box.high, box.low - still[:, 1])
+    beside = still[(gaps.max(axis=1) < _BESIDE) & (gaps[:, 2] < -_BESIDE * box.size[2])]  # not what lies above or below
+    if not len(beside):
+        return
+    out = np.maximum(beside[:, 0].min(axis=0) - box.low - shift, box.high + shift - beside[:, 1].max(axis=0)).max()
+    if out < _OUT * joint.upper:
+        yield Fault("limit", (joint.part,), f"slides out of its case by {out:.3f} of {joint.upper:.3f} m")
+
+
+def _size_faults(whole: Asset) -> Iterator[Fault]:
+    for joint in whole.joints:
+        size = whole.part(joint.part).box.size
+        across = float(np.median(size))  # of a board, the shorter of the two sides that are seen
+        if joint.type is JointType.REVOLUTE and across < LEAST_DOOR:
+            yield Fault("size", (joint.part,), f"a door {across:.3f} m across")
+        if joint.type is JointType.PRISMATIC and size[2] < LEAST_DRAWER:
+            yield Fault("size", (joint.part,), f"a drawer {size[2]:.3f} m high")
+
+
+def _double_faults(whole: Asset) -> Iterator[Fault]:
+    seen: dict[bytes, str] = {}
+    corners = np.array([[p.box.low, p.box.high] for p in whole.parts])
+    for part, row in zip(whole.parts, np.round(corners / _SAME).astype(np.int64), strict=True):
+        first = seen.setdefault(row.tobytes(), part.id)
+        if first != part.id:
+            yield Fault("double", (part.id, first))
+
+
+def _collision_faults(whole: Asset, articulated: ArticulatedObject) -> Iterator[Fault]:
+    clashes, part_of = clashes_of(whole), {joint.id: joint.child for joint in articulated.joints}
+    for joint in articulated.moving_joints:
+        values = values_before(articulated, joint.id)
+        hit = sorted(clashes.hits(joint.child, {part_of[j] for j, value in values.items() if value > 0}))
+        if hit:
+            yield Fault("collision", (joint.child, *hit), f"opening by {joint.limits.upper:.3f}")
+
+
+def _graph_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
+    ids, labels = [n.id for n in truth.nodes], [n.label for n in truth.nodes]
+    if ids != [p.id for p in whole.parts] or labels != [p.label for p in whole.parts]:
+        yield Fault("parts", tuple({*ids} ^ {p.id for p in whole.parts}) or ("",), "nodes and parts differ")
+        return
+    hinges, rails = defaultdict[str, list[Hinge]](list), defaultdict[str, list[Rail]](list)
+    for hinge in truth.hinges:
+        hinges[hinge.child].append(hinge)
+    for rail in truth.rails:
+        rails[rail.child].append(rail)
+    for joint in whole.joints:
+        revolute = joint.type is JointType.REVOLUTE
+        yield from (
+            _hinge_faults(joint, hinges[joint.part], truth) if revolute else _rail_faults(joint, rails[joint.part])
+        )
+    yield from _attachment_faults(whole, truth)
+    loose = _unreached(truth)
+    if loose:
+        yield Fault("loose", loose, "no edges join them to the rest")
+
+
+def _hinge_faults(joint: AnnotatedJoint, hinges: list[Hinge], truth: FunctionalGraph) -> Iterator[Fault]:
+    if len(hinges) != 1:
+        yield Fault("mount", (joint.part,), f"a door with {len(hinges)} hinge edges")
+    for hinge in hinges:
+        door = truth.node(hinge.child)
+        if (hinge.border, hinge.sign) != axis_to_hinge(door.box, joint.axis):
+            yield Fault("motion", (joint.part,), f"border {hinge.border}, sign {hinge.sign}")
+        if truth.node(hinge.parent).box.gap(door.box) > MOUNT_REACH:
+            yield Fault("mount", (joint.part, hinge.parent), "the mount is out of a hinge's reach")
+
+
+def _rail_faults(joint: AnnotatedJoint, rails: list[Rail]) -> Iterator[Fault]:
+    if len(rails) not in (1, 2):
+        yield Fault("mount", (joint.part,), f"a drawer with {len(rails)} rails")
+    if any(rail.axis != axis_to_rail(joint.axis) for rail in rails):
+        yield Fault("motion", (joint.part,), f"rails along {[rail.axis for rail in rails]}")
+
+
+def _attachment_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
+    parent_of = {edge.child: edge.parent for edge in truth.attachments}
+    for part in whole.parts:
+        if part.label is PartLabel.HANDLE and parent_of.get(part.id) != part.rides_on:
+            yield Fault("mount", (part.id,), f"attached to {parent_of.get(part.id)}, rides on {part.rides_on}")
+
+
+def _unreached(truth: FunctionalGraph) -> tuple[str, ...]:
+    """Returns the nodes outside the largest group that edges join."""
+    largest = max(joined_groups(truth.neighbours), key=len, default=frozenset[str]())
+    return tuple(node.id for node in truth.nodes if node.id not in largest)
+
+
+def _given_faults(specimen: Specimen) -> Iterator[Fault]:
+    """Yields what the asset, as modelled, has other than missing parts and unknown labels."""
+    whole = {part.id: part for part in specimen.whole.parts}
+    for part in specimen.asset.parts:
+        true = whole[part.id]
+        if part.label not in (true.label, PartLabel.UNKNOWN):
+            yield Fault("label", (part.id,), f"given as {part.label}, is {true.label}")
+        if not np.allclose([part.box.low, part.box.high], [true.box.low, true.box.high], atol=_SAME):
+            yield Fault("parts", (part.id,), "it stands elsewhere than in the whole")
+    for part_id in specimen.missing:
+        yield Fault("parts", (part_id,), "it is missing")
+    mounts = {hinge.parent for hinge in specimen.truth.hinges} | {rail.parent for rail in specimen.truth.rails}
+    for part_id in sorted(specimen.removable):
+        if whole[part_id].label.is_movable or part_id in mounts:
+            yield Fault("parts", (part_id,), "removable, though it moves or carries what moves")

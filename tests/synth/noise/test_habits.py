@@ -1,0 +1,118 @@
+"""The rates at which untidiness is drawn, without building anything."""
+
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
+from grafu.synth.kinds import TIDY as KINDS
+from grafu.synth.noise.habits import (
+    AJAR,
+    BOTH_SIDES,
+    DENSITY,
+    HABITS,
+    NO_BACK,
+    NO_BOTTOM,
+    NO_CASE_TOP,
+    NO_HANDLES,
+    NO_TOP,
+    TURNED,
+    draw_untidiness,
+    is_storage,
+)
+from grafu.synth.noise.untidiness import Untidiness
+from grafu.vocabulary import PartLabel
+
+TIDY = make_cabinet(Cabinet(layout=Row((Door(shelves=2), Stack((Drawer(), Drawer()))))))
+HANDLES = {p.id for p in TIDY.parts if p.label is PartLabel.HANDLE}
+NUMBER = 2000
+
+
+@cache
+def draws(family: str = "") -> tuple[Untidiness, ...]:
+    rng = np.random.default_rng(5)
+    return tuple(draw_untidiness(rng, TIDY, family) for _ in range(NUMBER))
+
+
+def share(found: list[bool]) -> float:
+    return sum(found) / len(found)
+
+
+def test_habits_come_at_their_shares() -> None:
+    counts = Counter(u.habit for u in draws())
+
+    assert sum(h.share for h in HABITS.values()) == pytest.approx(1.0)
+    for name, habit in HABITS.items():
+        assert counts[name] / NUMBER == pytest.approx(habit.share, abs=0.04)
+
+
+def test_maskings_are_distributions_and_labels_survive_in_about_half() -> None:
+    assert all(sum(h.masking) == pytest.approx(1.0) for h in HABITS.values())
+    assert share([u.masked == 0 for u in draws()]) == pytest.approx(0.53, abs=0.04)
+    assert share([u.masked == 1 for u in draws()]) == pytest.approx(0.10, abs=0.03)
+
+
+@pytest.mark.parametrize(
+    ("part", "rate"),
+    [("back_panel", NO_BACK), ("bottom_panel", NO_BOTTOM), ("top_panel", NO_CASE_TOP), (HANDLES, NO_HANDLES)],
+)
+def test_parts_are_missing_at_their_rates(part: str | set[str], rate: float) -> None:
+    wanted = {part} if isinstance(part, str) else part
+
+    assert share([wanted <= set(u.missing) for u in draws()]) == pytest.approx(rate, abs=0.03)
+
+
+@pytest.mark.parametrize("family", ["base cabinet", "sideboard", "desk"])
+def test_tops_are_missing_where_nobody_sees_them(family: str) -> None:
+    assert share(["top_panel" in u.missing for u in draws(family)]) == pytest.approx(NO_TOP[family], abs=0.04)
+
+
+def test_faces_are_drawn_as_exporters_do() -> None:
+    assert share([u.both_sides for u in draws()]) == pytest.approx(BOTH_SIDES, abs=0.07)
+    assert share([u.density == "plain" for u in draws()]) == pytest.approx(DENSITY["plain"], abs=0.03)
+
+
+def test_few_look_the_wrong_way() -> None:
+    assert share([abs(u.yaw) > 1.0 for u in draws()]) == pytest.approx(TURNED, abs=0.015)
+    assert share([0 < abs(u.yaw) < 1.0 for u in draws()]) < 0.03
+
+
+def test_few_are_ajar_and_few_mislabelled() -> None:
+    assert share([bool(u.ajar) for u in draws()]) == pytest.approx(AJAR, abs=0.015)
+    assert share([u.mislabelled for u in draws()]) < 0.03
+
+
+def test_sizes_are_off_by_no_more_than_people_are() -> None:
+    factors = np.array([u.factors for u in draws()])
+
+    assert share((factors[:, 0] < 0).tolist()) == pytest.approx(0.5, abs=0.04)
+    assert np.all(factors[:, 1:] > 0)
+    assert np.abs(factors).min() > 0.5
+    assert np.abs(factors).max() < 2.0
+
+
+def test_a_merging_modeller_merges_and_never_cuts_panels() -> None:
+    merging = [u for u in draws() if u.habit == "merged export"]
+    exploding = [u for u in draws() if u.habit == "exploded export"]
+
+    assert all(u.joined for u in merging)
+    assert not any(u.cuts for u in merging)
+    assert share([bool(u.cuts) for u in exploding]) > 0.6
+
+
+def test_what_is_absent_is_missing() -> None:
+    rng = np.random.default_rng(0)
+
+    assert all("shelf_1" in draw_untidiness(rng, TIDY, absent=("shelf_1",)).missing for _ in range(20))
+
+
+def test_nothing_stands_on_what_is_missing() -> None:
+    assert not any("top_panel" in u.missing and "things on top" in u.clutter for u in draws())
+
+
+def test_tables_are_no_storage() -> None:
+    assert is_storage(TIDY)
+    assert not is_storage(KINDS["table with hanging drawers"]())
