@@ -19,12 +19,12 @@ SEED = 7
 
 @dataclass(frozen=True)
 class Completing:
-    """Sorted seconds of the processor for each completion, one look at a graph, and how many the network had."""
+    """Sorted seconds of the processor for each completion, one forward pass, and how many the network had."""
 
     parts: int
     seconds: list[float]
-    look: float
-    looks: float
+    forward: float
+    passes: float
 
     @property
     def median(self) -> float:
@@ -35,7 +35,7 @@ class Completing:
 def time_completing(parts: int, repeats: int) -> Completing:
     """Returns how long graphs of about so many parts take, after one that only warms up."""
     from grafu.completion.features import GraphFeatures
-    from grafu.completion.network import complete_by_network, look
+    from grafu.completion.network import complete_by_network, forward
     from grafu.completion.scores import Scores
     from grafu.completion.session import open_network
     from grafu.data.asked import masked_pair
@@ -54,7 +54,7 @@ def time_completing(parts: int, repeats: int) -> Completing:
         return network(features)
 
     complete_by_network(graphs[0], counted, network.features)
-    asked, seconds, looks = 0, [], []
+    asked, seconds, passes = 0, [], []
     for _ in range(repeats):
         for graph in graphs:
             started = time.process_time()
@@ -63,9 +63,9 @@ def time_completing(parts: int, repeats: int) -> Completing:
     had = asked / len(seconds)
     for graph in graphs:
         started = time.process_time()
-        look(graph, network, network.features)
-        looks.append(time.process_time() - started)
-    return Completing(parts, sorted(round(s, 4) for s in seconds), round(median(looks), 4), round(had, 2))
+        forward(graph, network, network.features)
+        passes.append(time.process_time() - started)
+    return Completing(parts, sorted(round(s, 4) for s in seconds), round(median(passes), 4), round(had, 2))
 
 
 def completing_table(completing: Completing) -> str:
@@ -74,7 +74,7 @@ def completing_table(completing: Completing) -> str:
     rows = [
         ("milliseconds of one completion", f"{1e3 * completing.median:.0f}"),
         ("least and most", f"{1e3 * seconds[0]:.0f} .. {1e3 * seconds[-1]:.0f}"),
-        ("of which one look", f"{1e3 * completing.look:.0f}"),
-        ("looks at a graph, mean", f"{completing.looks:.1f}"),
+        ("of which one forward pass", f"{1e3 * completing.forward:.0f}"),
+        ("forward passes, mean", f"{completing.passes:.1f}"),
     ]
     return measured_table("Completing", f"Graphs of about {completing.parts} parts, by the network.", rows)

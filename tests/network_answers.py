@@ -29,8 +29,8 @@ class Answers:
     mounts: dict[tuple[str, str], float] = field(default_factory=dict)
     hinges: dict[str | tuple[str, str], tuple[int, int]] = field(default_factory=dict)
     slides: dict[str | tuple[str, str], int] = field(default_factory=dict)
-    added: list[list[tuple[PartLabel, Box, str | None]]] = field(default_factory=list)  # one list for each look
-    looks: int = 0
+    added: list[list[tuple[PartLabel, Box, str | None]]] = field(default_factory=list)  # one list for each pass
+    passes: int = 0
 
     def about(self, graph: FunctionalGraph) -> "Network":
         """Returns the network that is to be asked about this graph, and about it with parts added."""
@@ -46,12 +46,12 @@ class Network:
     graph: FunctionalGraph
 
     def __call__(self, features: GraphFeatures) -> Scores:
-        """Returns the scores for the next look."""
+        """Returns the scores for the next pass."""
         n = len(features.labels)
         names = self.names + [f"new{k}" for k in range(n - len(self.names))] + [f"free{k}" for k in range(FREE)]
         said, s = self.said, n + FREE
-        fired = said.added[said.looks] if said.looks < len(said.added) else []
-        said.looks += 1
+        fired = said.added[said.passes] if said.passes < len(said.added) else []
+        said.passes += 1
         scores = _Blank(s, names)
         for name, label in said.labels.items():
             scores.label(name, label)

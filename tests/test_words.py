@@ -12,6 +12,9 @@ LOOKED_AT = ("src", "docs", "examples", "scripts", "blender_addon", "README.md",
 # A pattern, and the word that stands in its place. `_` parts words here, and so does a capital.
 RETIRED = {
     r"\bKept\b|NOTHING_KEPT|MOST_KEPT|\bkept=": "cache",
+    r"(?i)beliefs?(?![a-z])": "probabilities",
+    r"(?i)ballots?(?![a-z])": "votes",
+    r"(?i)(?<![a-z])sight(?![a-z])": "features, forward pass",
 }
 # Names of files, keys and columns that others read stay as they are: (path, the text that may stand there).
 ALLOWED: frozenset[tuple[str, str]] = frozenset()

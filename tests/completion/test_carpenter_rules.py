@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grafu.completion.ballot import Ballot
 from grafu.completion.rule import complete_by_rule
+from grafu.completion.votes import Votes
 from grafu.geometry.box import Box
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.edit import mirrored, relabelled, without_nodes
@@ -254,18 +254,18 @@ def test_nothing_that_moves_means_nothing_to_do(missing):
     assert completion.decisions == completion.refused == ()
 
 
-def test_a_ballot_ranks_and_breaks_ties_by_order():
-    ballot = Ballot(("a", "b", "c"))
-    assert ballot.verdict().choice == "a"
-    ballot.vote("b", 1.0)
-    ballot.vote("a", 0.5)
-    ballot.vote("nobody", 9.0)
-    verdict = ballot.verdict()
-    assert (verdict.choice, verdict.runner_up) == ("b", "a")
-    assert 0 < verdict.runner_up_score < verdict.score < 1
+def test_votes_rank_and_breaks_ties_by_order():
+    votes = Votes(("a", "b", "c"))
+    assert votes.ranking().choice == "a"
+    votes.add("b", 1.0)
+    votes.add("a", 0.5)
+    votes.add("nobody", 9.0)
+    ranking = votes.ranking()
+    assert (ranking.choice, ranking.runner_up) == ("b", "a")
+    assert 0 < ranking.runner_up_score < ranking.score < 1
 
 
-def test_a_ballot_of_one_has_no_runner_up_and_of_none_is_refused():
-    assert Ballot(("a",)).verdict().runner_up is None
+def test_votes_for_one_choice_have_no_runner_up_and_of_none_is_refused():
+    assert Votes(("a",)).ranking().runner_up is None
     with pytest.raises(ValueError, match="at least one choice"):
-        Ballot(())
+        Votes(())

@@ -336,7 +336,7 @@ def test_labels_are_settled_before_edges_and_added_parts_are_asked_about() -> No
     graph = relabelled(cupboard(), dict.fromkeys(BOXES, PartLabel.UNKNOWN))
     said = told()
     said.labels = dict(LABEL_OF)
-    said.added = [[], [(PartLabel.HANDLE, KNOB, "drawer")]]  # what is added at the look for labels does not count
+    said.added = [[], [(PartLabel.HANDLE, KNOB, "drawer")]]  # what is added in the pass for labels does not count
     network = said.about(graph)
     seen: list[list[PartLabel]] = []
 
@@ -419,7 +419,7 @@ def test_free_slots_are_asked_until_none_fires() -> None:
 
     assert len(completion.added) == rows
     assert {e.parent: e.child for e in completion.completed.attachments}.keys() == {d.id for d in drawers}
-    assert said.looks == 4  # three that add, and one after which none fires
+    assert said.passes == 4  # three that add, and one after which none fires
 
 
 def test_a_slot_that_never_rests_is_stopped() -> None:

@@ -9,9 +9,9 @@ import pytest
 import torch
 from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, tiny_network
 
-from grafu.completion.beliefs import beliefs_of
 from grafu.completion.features import FeatureConfig, graph_features
 from grafu.completion.network import complete_by_network
+from grafu.completion.probabilities import probabilities_of
 from grafu.completion.session import NetworkSession, open_network
 from grafu.errors import WeightsError
 from grafu.graph.edit import as_contacts
@@ -58,11 +58,11 @@ def test_a_graph_is_completed_by_weights_in_a_file(weights: Path) -> None:
     assert completion == complete_by_network(graph, session, session.features)
 
 
-def test_the_order_of_parts_changes_no_belief(weights: Path) -> None:
+def test_the_order_of_parts_changes_no_probability(weights: Path) -> None:
     graph, session = cabinet(512), open_network(weights)
     turned = type(graph)("turned", graph.nodes[::-1], graph.edges)
     n = len(graph.nodes)
-    here, there = (beliefs_of(session(graph_features(g, FEW))) for g in (graph, turned))
+    here, there = (probabilities_of(session(graph_features(g, FEW))) for g in (graph, turned))
 
     assert np.allclose(here.edge[:n, :n], there.edge[:n, :n][::-1, ::-1], atol=1e-4)
 

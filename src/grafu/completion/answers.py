@@ -1,4 +1,4 @@
-"""What is answered about parts: a verdict as a decision, and of every door and drawer its edges or the reason against.
+"""What is answered about parts: a ranking as a decision, and of every door and drawer its edges or the reason against.
 
 Rules and network share it; it decides nothing itself but that a sliding door is not hung.
 """
@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, final
 
-from grafu.completion.ballot import Verdict
 from grafu.completion.rows import slides_past
 from grafu.completion.scene import Scene
+from grafu.completion.votes import Ranking
 from grafu.geometry.budget import present_budget
 from grafu.graph.completion import Decision, Question, RefusedMotion
 from grafu.graph.edges import Edge
@@ -60,10 +60,10 @@ def move_parts(
     return Motions(tuple(edges), tuple(decisions), tuple(refused))
 
 
-def decision_of(part: str, question: Question, verdict: Verdict[Any], by: str = "") -> Decision:
-    """Returns a verdict as the answer to a question about a part; `by` as in `Decision`."""
-    runner_up = "" if verdict.runner_up is None else str(verdict.runner_up)
-    return Decision(part, question, str(verdict.choice), verdict.score, runner_up, verdict.runner_up_score, by)
+def decision_of(part: str, question: Question, ranking: Ranking[Any], by: str = "") -> Decision:
+    """Returns a ranking as the answer to a question about a part; `by` as in `Decision`."""
+    runner_up = "" if ranking.runner_up is None else str(ranking.runner_up)
+    return Decision(part, question, str(ranking.choice), ranking.score, runner_up, ranking.runner_up_score, by)
 
 
 def _hung(door: PartNode, scene: Scene, hang: Callable[[PartNode], MotionAnswer]) -> MotionAnswer:

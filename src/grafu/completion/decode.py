@@ -1,4 +1,4 @@
-"""What the network believes about a graph becomes a completed graph: exclusive, consistent, and answered for all.
+"""Decodes probabilities into a completed graph: exclusive, consistent, and with an answer for every part.
 
 The order is that of a carpenter: whose handle is whose, then how doors and drawers move. What each part is, is settled
 before. Edges that the input states are kept as they are.
@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.completion.answers import move_parts
-from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.probabilities import Probabilities
 from grafu.completion.scene import Scene
 from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
@@ -25,7 +25,7 @@ from grafu.vocabulary import PartLabel
 @final
 @dataclass(frozen=True)
 class Reading:
-    """A graph whose handles have parents, beside what is believed about it."""
+    """A graph whose handles have parents, beside their probabilities."""
 
     view: View
     decisions: tuple[Decision, ...]
@@ -39,7 +39,7 @@ class Reading:
 
 def read_graph(
     graph: FunctionalGraph,
-    beliefs: Beliefs,
+    probabilities: Probabilities,
     given: frozenset[str],
     parents: Mapping[str, str],
     config: DecodeConfig = DecodeConfig(),
@@ -48,7 +48,7 @@ def read_graph(
 
     `given` are the ids of the input's own parts; `parents` says for which door or drawer a handle was added.
     """
-    view = View(graph, beliefs, given, config)
+    view = View(graph, probabilities, given, config)
     decisions: tuple[Decision, ...] = ()
     known = {edge.child for edge in view.graph.attachments}
     found: list[Attached] = []
@@ -65,7 +65,7 @@ def read_graph(
         else:
             found.append(answer[0])
             decisions += (answer[1],)
-    held = View(with_edges(view.graph, found), beliefs, given, config)
+    held = View(with_edges(view.graph, found), probabilities, given, config)
     return Reading(held, decisions, tuple(refused))
 
 

@@ -10,9 +10,9 @@ from typing import cast
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.ballot import Ballot, Verdict
 from grafu.completion.rows import across_axis, pair_side, row_size
 from grafu.completion.scene import CARRIES, Scene, offset_share
+from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, RefusedMotion
 from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
@@ -55,35 +55,35 @@ def hang_door(door: PartNode, scene: Scene) -> MotionAnswer:
     return (Hinge(mount.choice, door.id, border.choice, sign),), decisions
 
 
-def vote_front(door: PartNode, scene: Scene) -> Verdict[SignedAxis]:
+def vote_front(door: PartNode, scene: Scene) -> Ranking[SignedAxis]:
     """Returns the broad face that looks away from the body: handles sit there, and the body's middle is behind it."""
     thin, box = door.box.thin_axis, door.box
     low, high = signed_axis(thin, False), signed_axis(thin, True)
-    ballot: Ballot[SignedAxis] = Ballot((low, high))
+    votes: Votes[SignedAxis] = Votes((low, high))
     for handle in scene.handles_of(door):
         above = max(float(handle.box.high[thin] - box.high[thin]), 0.0)
         below = max(float(box.low[thin] - handle.box.low[thin]), 0.0)
         if abs(above - below) > 0.1 * float(handle.box.size[thin]):
-            ballot.vote(high if above > below else low, 4.0)
+            votes.add(high if above > below else low, 4.0)
     place = offset_share(scene.body, box.center, thin)
-    ballot.vote(high if place > 0 else low, 3.0 * min(abs(place), 1.0))
-    ballot.vote(2, 0.5)  # the frame's front is -Y,
-    ballot.vote(5, 0.5)  # and a lid opens upwards
-    return ballot.verdict()
+    votes.add(high if place > 0 else low, 3.0 * min(abs(place), 1.0))
+    votes.add(2, 0.5)  # the frame's front is -Y,
+    votes.add(5, 0.5)  # and a lid opens upwards
+    return votes.ranking()
 
 
-def vote_border(door: PartNode, scene: Scene) -> Verdict[HingeBorder]:
+def vote_border(door: PartNode, scene: Scene) -> Ranking[HingeBorder]:
     """Returns the border that the hinge is on."""
     thin = door.box.thin_axis
-    ballot: Ballot[HingeBorder] = Ballot((0, 1, 2, 3))
+    votes: Votes[HingeBorder] = Votes((0, 1, 2, 3))
     if thin == 2:
-        _vote_lid(door, scene, ballot)
+        _vote_lid(door, scene, votes)
     else:
-        _vote_upright(door, scene, ballot)
+        _vote_upright(door, scene, votes)
     for border in cast(tuple[HingeBorder, ...], (0, 1, 2, 3)):
         carriers = [score for _, score in _carriers(door, border, scene)]
-        ballot.vote(border, 0.7 * max(carriers, default=0.0) if carriers else -2.0)
-    return ballot.verdict()
+        votes.add(border, 0.7 * max(carriers, default=0.0) if carriers else -2.0)
+    return votes.ranking()
 
 
 def plain_flap(door: PartNode, scene: Scene) -> HingeBorder | None:
@@ -99,37 +99,37 @@ def plain_flap(door: PartNode, scene: Scene) -> HingeBorder | None:
     return _border(door, 2, aloft < 0) if abs(aside) <= _SLIGHT and abs(aloft) > _CLEAR else None
 
 
-def vote_mount(door: PartNode, border: HingeBorder, scene: Scene) -> Verdict[str] | None:
+def vote_mount(door: PartNode, border: HingeBorder, scene: Scene) -> Ranking[str] | None:
     """Returns the static part that carries the door at a border, or None where none is near."""
     carriers = _carriers(door, border, scene)
     if not carriers:
         return None
-    ballot = Ballot(tuple(node.id for node, _ in carriers))
+    votes = Votes(tuple(node.id for node, _ in carriers))
     for node, score in carriers:
-        ballot.vote(node.id, 3.0 * score)
-    return ballot.verdict()
+        votes.add(node.id, 3.0 * score)
+    return votes.ranking()
 
 
-def _vote_lid(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+def _vote_lid(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
     for axis, offset in _handle_offsets(door, scene).items():
         if abs(offset) > _CLEAR:
-            ballot.vote(_border(door, axis, offset < 0), 5.0 * min(abs(offset), 1.0))
-    ballot.vote(_border(door, 1, True), 2.0)  # the back, where the front is -Y
+            votes.add(_border(door, axis, offset < 0), 5.0 * min(abs(offset), 1.0))
+    votes.add(_border(door, 1, True), 2.0)  # the back, where the front is -Y
 
 
-def _vote_upright(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+def _vote_upright(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
     across = across_axis(door)
     paired = pair_side(door, scene)
-    sideways, upwards = _vote_handle(door, scene, ballot)
+    sideways, upwards = _vote_handle(door, scene, votes)
     if not (sideways or upwards):
-        _vote_flap(door, scene, ballot)
+        _vote_flap(door, scene, votes)
     if paired != "none":
-        ballot.vote(_border(door, across, paired == "high"), 2.5)
+        votes.add(_border(door, across, paired == "high"), 2.5)
     elif not upwards:
-        _vote_outer_side(door, scene, ballot)
+        _vote_outer_side(door, scene, votes)
 
 
-def _vote_handle(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> tuple[bool, bool]:
+def _vote_handle(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> tuple[bool, bool]:
     """Votes for the border opposite the handle; returns whether it spoke for a side and for top or bottom."""
     across = across_axis(door)
     offsets = _handle_offsets(door, scene)
@@ -138,10 +138,10 @@ def _vote_handle(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> t
     aside, aloft = offsets[across], offsets[2]
     if abs(aside) > _SLIGHT:
         weight = 6.0 * min(abs(aside), 1.0) if abs(aside) > _CLEAR else 1.5
-        ballot.vote(_border(door, across, aside < 0), weight)
+        votes.add(_border(door, across, aside < 0), weight)
         return abs(aside) > _CLEAR, False
     if abs(aloft) > _CLEAR and _aspect(door) >= _least_flap_aspect(door, scene, aloft):
-        ballot.vote(_border(door, 2, aloft < 0), 5.0 * min(abs(aloft), 1.0))
+        votes.add(_border(door, 2, aloft < 0), 5.0 * min(abs(aloft), 1.0))
         return False, True
     return False, False
 
@@ -153,23 +153,23 @@ def _least_flap_aspect(door: PartNode, scene: Scene, aloft: float) -> float:
     return _UPRIGHT if abs(aloft) > _EDGE else _WIDE
 
 
-def _vote_flap(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+def _vote_flap(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
     """Votes for the top of a high and the bottom of a low flap, where it is too wide to swing sideways."""
     if _aspect(door) >= _VERY_WIDE:
         high = offset_share(scene.body, door.box.center, 2) >= 0
-        ballot.vote(_border(door, 2, high), 3.0)
+        votes.add(_border(door, 2, high), 3.0)
 
 
-def _vote_outer_side(door: PartNode, scene: Scene, ballot: Ballot[HingeBorder]) -> None:
+def _vote_outer_side(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
     across = across_axis(door)
     to_low = abs(float(door.box.low[across] - scene.body.low[across]))
     to_high = abs(float(door.box.high[across] - scene.body.high[across]))
     if abs(to_low - to_high) > 0.1 * float(door.box.size[across]):
-        ballot.vote(_border(door, across, to_high < to_low), 1.5)
+        votes.add(_border(door, across, to_high < to_low), 1.5)
     else:
         # Nothing decides: hung on the right as one stands before it, so that turning the object changes nothing.
         right = np.cross([0.0, 0.0, 1.0], code_to_direction(vote_front(door, scene).choice))
-        ballot.vote(_border(door, across, bool(right[across] > 0)), 0.2)
+        votes.add(_border(door, across, bool(right[across] > 0)), 0.2)
 
 
 def _handle_offsets(door: PartNode, scene: Scene) -> dict[int, float]:

@@ -7,8 +7,8 @@ between two flanks where there are two, else on whatever is near.
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.ballot import Ballot, Verdict
 from grafu.completion.scene import CARRIES, Scene
+from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
 from grafu.graph.completion import RefusedMotion
 from grafu.graph.edges import Rail, SignedAxis
@@ -34,19 +34,19 @@ def run_drawer(drawer: PartNode, scene: Scene) -> MotionAnswer:
     return rails, (decision_of(drawer.id, "slide", way), *decisions)
 
 
-def vote_way(drawer: PartNode, scene: Scene) -> Verdict[SignedAxis]:
+def vote_way(drawer: PartNode, scene: Scene) -> Ranking[SignedAxis]:
     """Returns the signed axis along which the drawer opens."""
-    ballot: Ballot[SignedAxis] = Ballot(_WAYS)
-    ballot.vote(2, 0.6)
+    votes: Votes[SignedAxis] = Votes(_WAYS)
+    votes.add(2, 0.6)
     for handle in scene.handles_of(drawer):
         for way in _WAYS:
-            ballot.vote(way, 5.0 * _sits_on(handle.box, drawer.box, way))
+            votes.add(way, 5.0 * _sits_on(handle.box, drawer.box, way))
     blocked = _blocked_shares(drawer, scene)
     for way in _WAYS:
         inside = max(_depth_inside(drawer.box, scene.body, way) / scene.unit, 0.0)
-        ballot.vote(way, 1.5 * float(np.exp(-inside / 0.05)))
-        ballot.vote(way, -4.0 * blocked[way])
-    return ballot.verdict()
+        votes.add(way, 1.5 * float(np.exp(-inside / 0.05)))
+        votes.add(way, -4.0 * blocked[way])
+    return votes.ranking()
 
 
 def _sits_on(handle: Box, drawer: Box, way: SignedAxis) -> bool:
@@ -80,14 +80,14 @@ def _blocked_shares(drawer: PartNode, scene: Scene) -> dict[SignedAxis, float]:
     return found
 
 
-def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[Verdict[str]]:
+def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[Ranking[str]]:
     """Returns the best carrier on each side of the drawer; one part around both sides comes once."""
     across = 1 - way // 2
     sides = (_best_flank(drawer, signed_axis(across, high), way // 2, scene) for high in (False, True))
     return list({side.choice: side for side in sides if side is not None}.values())
 
 
-def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) -> Verdict[str] | None:
+def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) -> Ranking[str] | None:
     shares = scene.support_boxes.overlap_shares(drawer.box)
     alongside = shares[:, 2] * shares[:, slide]
     scored = {
@@ -114,17 +114,17 @@ def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: Scene) 
     return 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.unit)))
 
 
-def _nearest(drawer: PartNode, scene: Scene) -> list[Verdict[str]]:
+def _nearest(drawer: PartNode, scene: Scene) -> list[Ranking[str]]:
     """Returns the one part that carries a drawer without flanks: a tray hangs under its top."""
     gaps = zip(scene.supports, scene.support_boxes.gaps(drawer.box) / scene.unit, strict=True)
     found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps if gap <= _REACH})
     return [] if found is None else [found]
 
 
-def _elect(scores: dict[str, float]) -> Verdict[str] | None:
+def _elect(scores: dict[str, float]) -> Ranking[str] | None:
     if not scores:
         return None
-    ballot = Ballot(tuple(scores))
+    votes = Votes(tuple(scores))
     for node_id, score in scores.items():
-        ballot.vote(node_id, 3.0 * score)
-    return ballot.verdict()
+        votes.add(node_id, 3.0 * score)
+    return votes.ranking()

@@ -2,7 +2,7 @@
 
 Labels and edges are codes; boxes and points stand in a frame of the object's own size. What a pair of parts has in
 common (their distance, their gaps) the network works out from the boxes, so that a mirror image or one more node needs
-no second look at the points.
+no second pass over the points.
 """
 
 from dataclasses import dataclass, replace

@@ -6,9 +6,9 @@ Labels that the input states are kept, whatever the network says.
 import numpy as np
 
 from grafu.completion.answers import decision_of
-from grafu.completion.ballot import verdict_of
-from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.probabilities import Probabilities
+from grafu.completion.votes import ranking_of
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, LABELS, RAIL, UNKNOWN
 from grafu.graph.completion import Decision
 from grafu.graph.edges import Contact, ends_of
@@ -19,7 +19,7 @@ _CARRIED_BY = {DOOR: HINGE, DRAWER: RAIL, HANDLE: ATTACHED}
 
 
 def choose_labels(
-    graph: FunctionalGraph, beliefs: Beliefs, config: DecodeConfig
+    graph: FunctionalGraph, probabilities: Probabilities, config: DecodeConfig
 ) -> tuple[dict[str, PartLabel], tuple[Decision, ...]]:
     """Returns a label, never `unknown`, for each unlabelled part, and how sure it is.
 
@@ -27,22 +27,22 @@ def choose_labels(
     """
     labels: dict[str, PartLabel] = {}
     decisions = []
-    weights = _weights(beliefs, len(graph.nodes), config)
+    weights = _weights(probabilities, len(graph.nodes), config)
     for k, node in enumerate(graph.nodes):
         if node.label is not PartLabel.UNKNOWN:
             continue
         allowed = _allowed(graph, node.id, labels)
-        verdict = verdict_of([label.value for label in LABELS], np.maximum(weights[k], 1e-9) * allowed)
-        labels[node.id] = PartLabel(verdict.choice)
-        decisions.append(decision_of(node.id, "label", verdict))
+        ranking = ranking_of([label.value for label in LABELS], np.maximum(weights[k], 1e-9) * allowed)
+        labels[node.id] = PartLabel(ranking.choice)
+        decisions.append(decision_of(node.id, "label", ranking))
     return labels, tuple(decisions)
 
 
-def _weights(beliefs: Beliefs, count: int, config: DecodeConfig) -> np.ndarray:
+def _weights(probabilities: Probabilities, count: int, config: DecodeConfig) -> np.ndarray:
     """Returns the probability of each label of each node; less for what moves or is grasped if nothing carries it."""
-    weights = beliefs.label[:count].copy()
+    weights = probabilities.label[:count].copy()
     if count > 1:
-        others = beliefs.edge[:count, :count] * (1.0 - np.eye(count))[..., None]
+        others = probabilities.edge[:count, :count] * (1.0 - np.eye(count))[..., None]
         for label, kind in _CARRIED_BY.items():
             carried = others[..., kind].max(axis=1)
             weights[:, label] *= config.edge_for_label + (1.0 - config.edge_for_label) * carried

@@ -1,17 +1,17 @@
-"""Completes a graph by the trained network: say what each part is, look again, add what is missing, then decide.
+"""Completes a graph by the trained network: label the parts, add what is missing, then decode.
 
-Labels come first, because the network sees better what goes where when it is told what the parts are. Free slots are
-asked again, with what they added now seen as parts, until none fires: there is no most of handles. The last look is
-the mean of two, at the graph and at its mirror image: who is right about the one is not always about the other.
+Labels come first, because edges are more accurate when labels are given. Free slots are evaluated again, with the parts
+that they added as nodes of the input, until none fires: the number of handles has no limit. The last result is the mean
+of two forward passes, on the graph and on its mirror image: their errors differ.
 """
 
 import numpy as np
 
-from grafu.completion.beliefs import Beliefs, averaged, beliefs_of, mirrored_back
 from grafu.completion.decode import complete_reading, read_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.labelling import choose_labels
+from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
 from grafu.geometry.budget import fits, present_budget, require_room, require_time
@@ -21,9 +21,9 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
 
 _ACROSS = 0  # furniture is alike on its left and right, not in front and behind
-_MOVERS_PER_ROUND = 4  # handles that one look can add: the paper's free slots
-_PAIR_BYTES = 4_500  # of each two parts, while the network looks
-_ADDING = 0.6  # of the time: asking again for what is missing
+_MOVERS_PER_ROUND = 4  # handles that one pass can add: the paper's free slots
+_PAIR_BYTES = 4_500  # for each pair of parts, during a forward pass
+_ADDING = 0.6  # of the time: adding what is missing
 
 
 def complete_by_network(
@@ -31,30 +31,30 @@ def complete_by_network(
 ) -> GraphCompletion:
     """Returns the graph with labels, handles, missing parts, and a motion or a refusal for each door and drawer.
 
-    `features` says how many points the network wants to see. Nodes should have points; those without are seen as their
+    `features` says how many points the network takes. Nodes should have points; those without are sampled on their
     boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen.
 
     Raises:
-        TooComplex: if there are so many parts, each seen beside each, that the budget in force does not hold them.
+        TooComplex: if there are more pairs of parts than the budget in force allows.
     """
     if not graph.nodes:
         return GraphCompletion(graph, graph, "network")
-    require_room(len(graph.nodes) ** 2, _PAIR_BYTES, f"the network's look at {len(graph.nodes):,} parts")
+    require_room(len(graph.nodes) ** 2, _PAIR_BYTES, f"the network's forward pass over {len(graph.nodes):,} parts")
     adding = present_budget().share(_ADDING)
     seen, labelling = label_parts(graph, network, features, config)
     added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)
     rounds = 0
     while True:
-        sight, beliefs = look(seen, network, features)
+        inputs, probabilities = forward(seen, network, features)
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
-        reading = read_graph(seen, beliefs, given, parents, config)
+        reading = read_graph(seen, probabilities, given, parents, config)
         most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND
         goes_on = rounds < most and adding.left > 0 and fits(len(seen.nodes) ** 2, _PAIR_BYTES)
         found = new_parts(reading.view, reading.held) if goes_on else ()
         if not found:
             if config.mirror:
-                reading = read_graph(seen, with_image(beliefs, seen, sight, network), given, parents, config)
+                reading = read_graph(seen, with_image(probabilities, seen, inputs, network), given, parents, config)
             return complete_reading(graph, reading, labelling, added)
         seen, rounds = with_parts(seen, found), rounds + 1
         added += found
@@ -63,23 +63,27 @@ def complete_by_network(
 def label_parts(
     graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, config: DecodeConfig
 ) -> tuple[FunctionalGraph, tuple[Decision, ...]]:
-    """Returns the graph with a label for each unlabelled part, and how sure each is; one look where there is any."""
+    """Returns the graph with a label for each unlabelled part, and its confidence; one forward pass if there is one."""
     if all(node.label is not PartLabel.UNKNOWN for node in graph.nodes):
         return graph, ()
-    _, beliefs = look(graph, network, features)
-    labels, decisions = choose_labels(graph, beliefs, config)
+    _, probabilities = forward(graph, network, features)
+    labels, decisions = choose_labels(graph, probabilities, config)
     return relabelled(graph, labels), decisions
 
 
-def look(graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig) -> tuple[GraphFeatures, Beliefs]:
-    """Returns how a graph is seen, and what a network believes about it."""
+def forward(
+    graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig
+) -> tuple[GraphFeatures, Probabilities]:
+    """Returns the features of a graph, and the probabilities that a network computes from them."""
     require_time()
-    sight = graph_features(graph, features)
-    return sight, beliefs_of(network(sight))
+    inputs = graph_features(graph, features)
+    return inputs, probabilities_of(network(inputs))
 
 
-def with_image(beliefs: Beliefs, graph: FunctionalGraph, sight: GraphFeatures, network: GraphNetwork) -> Beliefs:
-    """Returns the mean of what a network believes about a graph, as it is seen, and about its mirror image."""
-    image = beliefs_of(network(mirrored(sight, _ACROSS)))
+def with_image(
+    probabilities: Probabilities, graph: FunctionalGraph, inputs: GraphFeatures, network: GraphNetwork
+) -> Probabilities:
+    """Returns the mean of the probabilities of a graph and of its mirror image."""
+    image = probabilities_of(network(mirrored(inputs, _ACROSS)))
     thin = np.array([node.box.thin_axis for node in graph.nodes], dtype=np.int64)
-    return averaged(beliefs, mirrored_back(image, thin, _ACROSS), len(graph.nodes))
+    return averaged(probabilities, mirrored_back(image, thin, _ACROSS), len(graph.nodes))

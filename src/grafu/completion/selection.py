@@ -1,4 +1,4 @@
-"""Exclusive choices out of the network's beliefs: a mount for a door, two rails for a drawer, a parent for a handle.
+"""Exclusive choices from probabilities: a mount for a door, two rails for a drawer, a parent for a handle.
 
 A motion is a property of the part, while the network answers for each pair: answers are averaged over the parts that
 may carry it, each by how likely it does. A score is the network's own, or its decision says that it is a rule's. What
@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.ballot import Verdict, chosen_of, verdict_of
-from grafu.completion.beliefs import softmax
 from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_mount
 from grafu.completion.drawers import run_drawer
+from grafu.completion.probabilities import softmax
 from grafu.completion.scene import Scene
 from grafu.completion.senses import leaned_motion, leaned_way
 from grafu.completion.view import View
+from grafu.completion.votes import Ranking, chosen_of, ranking_of
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL
 from grafu.graph.completion import BY_BOTH, BY_RULE, Decision, RefusedMotion
@@ -35,11 +35,11 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
         return RefusedMotion(handle.id, _NO_PARENT)
     slots = view.within_reach(handle, view.movers)
     shares, none = parent_shares(view.place[handle.id], slots, view)
-    attached = view.beliefs.edge[view.place[handle.id], slots, ATTACHED]
+    attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
     if none >= view.config.no_parent and attached.max() < 0.5:
         return RefusedMotion(handle.id, f"the network takes it for decoration ({none:.2f}): it is on no door or drawer")
-    verdict = verdict_of(view.ids(slots), shares)
-    return Attached(verdict.choice, handle.id), decision_of(handle.id, "parent", verdict)
+    ranking = ranking_of(view.ids(slots), shares)
+    return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
 
 
 def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float]:
@@ -47,9 +47,9 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
 
     The choice among all is weighed by the edge of each pair, of which some chance always remains.
     """
-    logits = np.append(view.beliefs.parent[slot, slots], view.beliefs.no_parent)
+    logits = np.append(view.probabilities.parent[slot, slots], view.probabilities.no_parent)
     chosen = softmax(logits)
-    return chosen[:-1] * (SOME_CHANCE + view.beliefs.edge[slot, slots, ATTACHED]), float(chosen[-1])
+    return chosen[:-1] * (SOME_CHANCE + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
 def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
@@ -62,13 +62,13 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     if not len(view.supports):
         return RefusedMotion(door.id, _NO_SUPPORT)
     slot, slots = view.place[door.id], view.within_reach(door, view.supports)
-    hinged = view.beliefs.edge[slot, slots, HINGE]
+    hinged = view.probabilities.edge[slot, slots, HINGE]
     if hinged.max() < view.config.sure and (answer := _on_given(hang_door(door, scene), view)) is not None:
         return answer
     if hinged.max() < view.config.least_edge:
         return RefusedMotion(door.id, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}")
-    mounts = softmax(view.beliefs.mount[slot, slots]) * hinged
-    motions = view.beliefs.hinge[slot, slots]
+    mounts = softmax(view.probabilities.mount[slot, slots]) * hinged
+    motions = view.probabilities.hinge[slot, slots]
     motion = np.einsum("k,kbs->bs", mounts, motions)
     leaned = leaned_motion(door, motion, view.config.outward, scene)
     border = chosen_of(BORDERS, motion.sum(axis=1), leaned.sum(axis=1))
@@ -76,7 +76,7 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     border = flap or border
     sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])
     on = None if flap is None else _flap_mount(door, flap.choice, view, scene)
-    mount = on or verdict_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
+    mount = on or ranking_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
     edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
     decisions = (
         decision_of(door.id, "border", border, _by(border) if flap is None else BY_RULE),
@@ -91,25 +91,25 @@ def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
     if not len(view.supports):
         return RefusedMotion(drawer.id, _NO_SUPPORT)
     slot, slots = view.place[drawer.id], view.within_reach(drawer, view.supports)
-    railed = view.beliefs.edge[slot, slots, RAIL]
+    railed = view.probabilities.edge[slot, slots, RAIL]
     if railed.max() < view.config.least_edge:
         answer = _on_given(run_drawer(drawer, scene), view)
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
         return RefusedMotion(drawer.id, why) if answer is None else answer
-    shares = railed @ view.beliefs.slide[slot, slots]
+    shares = railed @ view.probabilities.slide[slot, slots]
     slide = chosen_of(SIGNED_AXES, shares, leaned_way(drawer, shares, view.config.outward, scene))
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (
-        decision_of(drawer.id, "mount", verdict_of(view.ids(group), view.beliefs.edge[slot, group, RAIL]))
+        decision_of(drawer.id, "mount", ranking_of(view.ids(group), view.probabilities.edge[slot, group, RAIL]))
         for group in groups
     )
     return rails, (decision_of(drawer.id, "slide", slide, _by(slide)), *mounts)
 
 
-def _by(verdict: Verdict[Any]) -> str:
+def _by(ranking: Ranking[Any]) -> str:
     """Returns who chose: a rule as well where the network itself prefers the runner-up."""
-    return BY_BOTH if verdict.runner_up_score > verdict.score else ""
+    return BY_BOTH if ranking.runner_up_score > ranking.score else ""
 
 
 def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
@@ -122,16 +122,16 @@ def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
     return (kept, said) if kept else None
 
 
-def _plain_flap(door: PartNode, said: HingeBorder, scene: Scene) -> Verdict[HingeBorder] | None:
+def _plain_flap(door: PartNode, said: HingeBorder, scene: Scene) -> Ranking[HingeBorder] | None:
     """Returns the carpenter's border of a door that is plainly a flap where the network says another one, else None."""
     flap = plain_flap(door, scene)
     if flap is None or flap == said:
         return None
-    verdict = vote_border(door, scene)
-    return verdict if verdict.choice == flap else None
+    ranking = vote_border(door, scene)
+    return ranking if ranking.choice == flap else None
 
 
-def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: Scene) -> Verdict[str] | None:
+def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: Scene) -> Ranking[str] | None:
     """Returns what a carpenter hangs a plain flap on; None where that is nothing that the input has."""
     mount = vote_mount(door, flap, scene)
     return mount if mount is not None and mount.choice in view.given else None

@@ -6,10 +6,10 @@ weighs what is chosen, never the probabilities that are told: these are the netw
 
 import numpy as np
 
-from grafu.completion.ballot import Verdict
 from grafu.completion.doors import vote_front
 from grafu.completion.drawers import vote_way
 from grafu.completion.scene import Scene
+from grafu.completion.votes import Ranking
 from grafu.geometry.arrays import Scalars
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, SignedAxis
 from grafu.graph.functional_graph import PartNode
@@ -29,10 +29,10 @@ def leaned_way(drawer: PartNode, shares: Scalars, power: float, scene: Scene) ->
     return shares * _opinion(vote_way(drawer, scene), power)
 
 
-def _opinion(verdict: Verdict[SignedAxis], power: float) -> Scalars:
+def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
     """Returns what the rule's vote weighs for each signed axis."""
     shares = np.full(len(SIGNED_AXES), _LEAST)
-    for code, score in ((verdict.choice, verdict.score), (verdict.runner_up, verdict.runner_up_score)):
+    for code, score in ((ranking.choice, ranking.score), (ranking.runner_up, ranking.runner_up_score)):
         if code is not None:
             shares[code] = max(score, _LEAST)
     return shares**power

@@ -6,11 +6,11 @@ from typing import final
 import numpy as np
 
 from grafu.completion.answers import decision_of
-from grafu.completion.ballot import verdict_of
 from grafu.completion.decode_config import ADDABLE
 from grafu.completion.features import object_frame
 from grafu.completion.selection import parent_shares
 from grafu.completion.view import View
+from grafu.completion.votes import ranking_of
 from grafu.geometry.box import Box
 from grafu.graph.arrays import LABEL_CODES
 from grafu.graph.completion import Decision
@@ -45,8 +45,10 @@ def new_parts(view: View, held: frozenset[str]) -> tuple[NewPart, ...]:
     """
     found: list[NewPart] = []
     seen = len(view.graph.nodes)
-    fired = [k for k in range(seen, len(view.beliefs.exists)) if view.beliefs.exists[k] >= view.config.fires]
-    for slot in sorted(fired, key=lambda k: -float(view.beliefs.exists[k])):
+    fired = [
+        k for k in range(seen, len(view.probabilities.exists)) if view.probabilities.exists[k] >= view.config.fires
+    ]
+    for slot in sorted(fired, key=lambda k: -float(view.probabilities.exists[k])):
         others = (*view.graph.nodes, *(part.node for part in found))
         part = _part_of(slot, view, others)
         if part is None or _is_there(part.node, others, view):
@@ -70,20 +72,20 @@ def with_parts(graph: FunctionalGraph, parts: tuple[NewPart, ...]) -> Functional
 
 def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | None:
     """Returns the part that a slot stands for, or None where its label may not be added or it is nobody's handle."""
-    beliefs = view.beliefs
-    shares = beliefs.label[slot, _ADDABLE]
+    probabilities = view.probabilities
+    shares = probabilities.label[slot, _ADDABLE]
     if shares.sum() < view.config.addable:
         return None
-    verdict = verdict_of([label.value for label in ADDABLE], shares)
-    label = PartLabel(verdict.choice)
+    ranking = ranking_of([label.value for label in ADDABLE], shares)
+    label = PartLabel(ranking.choice)
     origin, scale = object_frame(view.graph)
-    half = np.maximum(beliefs.half[slot], _LEAST_HALF)
-    box = Box.from_center(beliefs.centre[slot] * scale + origin, half * scale)
+    half = np.maximum(probabilities.half[slot], _LEAST_HALF)
+    box = Box.from_center(probabilities.centre[slot] * scale + origin, half * scale)
     name = _new_id(label, others)
-    exists = float(beliefs.exists[slot])
+    exists = float(probabilities.exists[slot])
     decisions = (
         Decision(name, "exists", "yes", exists, "no", max(1.0 - exists, 0.0)),
-        decision_of(name, "label", verdict),
+        decision_of(name, "label", ranking),
     )
     node = PartNode(name, label, box)
     if label is not PartLabel.HANDLE:
@@ -97,7 +99,7 @@ def _parent_of(slot: int, handle: PartNode, view: View) -> str | None:
     if not len(near):
         return None
     shares, _ = parent_shares(slot, near, view)
-    return verdict_of(view.ids(near), shares).choice
+    return ranking_of(view.ids(near), shares).choice
 
 
 def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:

@@ -1,4 +1,4 @@
-"""A graph beside what the network believes about it, and what selecting among parts asks again and again."""
+"""A graph beside its probabilities, and what selecting among parts asks repeatedly."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,8 +7,8 @@ from typing import final
 import numpy as np
 from jaxtyping import Int64
 
-from grafu.completion.beliefs import Beliefs
 from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.probabilities import Probabilities
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 
@@ -16,13 +16,13 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 @final
 @dataclass(frozen=True)
 class View:
-    """A graph whose labels are settled: node k is slot k of the beliefs, and slots beyond the nodes are free.
+    """A graph whose labels are settled: node k is slot k of the probabilities, and slots beyond the nodes are free.
 
     Only the nodes of `given` may carry a mechanism: they are there, while what was added may still be left out.
     """
 
     graph: FunctionalGraph
-    beliefs: Beliefs
+    probabilities: Probabilities
     given: frozenset[str]
     config: DecodeConfig
 

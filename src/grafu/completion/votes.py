@@ -1,4 +1,4 @@
-"""Weighted votes for a closed list of choices, and the verdict with its runner-up. It knows no furniture."""
+"""Weighted votes for a closed list of choices, and their ranking. It knows no furniture."""
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
@@ -16,8 +16,8 @@ _PRIOR = 0.15
 
 @final
 @dataclass(frozen=True, slots=True)
-class Verdict(Generic[Choice]):
-    """The choice with the most votes, its share of them (0..1), and the next best (None where there is only one)."""
+class Ranking(Generic[Choice]):
+    """The choice with the most votes, its fraction of them (0..1), and the next best (None where there is only one)."""
 
     choice: Choice
     score: float
@@ -26,31 +26,31 @@ class Verdict(Generic[Choice]):
 
 
 @final
-class Ballot(Generic[Choice]):
-    """Collects weighted votes; a negative weight speaks against a choice. Ties fall to the choice listed first."""
+class Votes(Generic[Choice]):
+    """Collects weighted votes; a negative weight counts against a choice. Ties fall to the choice listed first."""
 
     def __init__(self, choices: tuple[Choice, ...]) -> None:
         if not choices:
-            raise ValueError("a ballot needs at least one choice")
+            raise ValueError("a vote needs at least one choice")
         self._weights: dict[Choice, float] = dict.fromkeys(choices, _PRIOR)
 
-    def vote(self, choice: Choice, weight: float) -> None:
+    def add(self, choice: Choice, weight: float) -> None:
         """Adds weight to a choice; one that is not on the list is ignored."""
         if choice in self._weights:
             self._weights[choice] += weight
 
-    def verdict(self) -> Verdict[Choice]:
-        """Returns the outcome; shares are of the positive weights."""
+    def ranking(self) -> Ranking[Choice]:
+        """Returns the outcome; scores are fractions of the positive weights."""
         ranked = sorted(self._weights.items(), key=lambda item: -item[1])
         total = sum(max(weight, 0.0) for _, weight in ranked)
         shares = [max(weight, 0.0) / total if total > 0 else 1.0 / len(ranked) for _, weight in ranked]
         if len(ranked) == 1:
-            return Verdict(ranked[0][0], shares[0])
-        return Verdict(ranked[0][0], shares[0], ranked[1][0], shares[1])
+            return Ranking(ranked[0][0], shares[0])
+        return Ranking(ranked[0][0], shares[0], ranked[1][0], shares[1])
 
 
-def verdict_of(choices: Sequence[Choice], weights: Scalars) -> Verdict[Choice]:
-    """Returns the choice of the largest weight and the next; scores are shares of all weights, ties fall to the first.
+def ranking_of(choices: Sequence[Choice], weights: Scalars) -> Ranking[Choice]:
+    """Returns the choice of the largest weight and the next; scores are fractions of all weights; the first wins a tie.
 
     There is at least one choice, and no weight is negative.
     """
@@ -59,19 +59,19 @@ def verdict_of(choices: Sequence[Choice], weights: Scalars) -> Verdict[Choice]:
     order = np.argsort(-shares, kind="stable").tolist()
     scores = np.minimum(shares, 1.0).tolist()
     if len(order) == 1:
-        return Verdict(choices[0], scores[0])
-    return Verdict(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
+        return Ranking(choices[0], scores[0])
+    return Ranking(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
 
 
-def chosen_of(choices: Sequence[Choice], weights: Scalars, leaned: Scalars) -> Verdict[Choice]:
+def chosen_of(choices: Sequence[Choice], weights: Scalars, leaned: Scalars) -> Ranking[Choice]:
     """Returns the choice that `leaned` is the largest for, and the best of the others by `weights`.
 
-    Scores are shares of `weights` alone, so that of a choice that they do not prefer is below its runner-up's.
+    Scores are fractions of `weights` alone, so that of a choice that they do not prefer is below its runner-up's.
     """
     total, best = float(weights.sum()), int(np.argmax(leaned))
     shares = np.minimum(weights / total, 1.0) if total > 0 else np.full(len(choices), 1.0 / len(choices))
     others = np.delete(np.arange(len(choices)), best)
     if not len(others):
-        return Verdict(choices[best], float(shares[best]))
+        return Ranking(choices[best], float(shares[best]))
     second = int(others[np.argmax(shares[others])])
-    return Verdict(choices[best], float(shares[best]), choices[second], float(shares[second]))
+    return Ranking(choices[best], float(shares[best]), choices[second], float(shares[second]))

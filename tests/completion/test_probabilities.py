@@ -1,4 +1,4 @@
-"""Scores as probabilities, and the mean of a look at a graph and a look at its mirror image."""
+"""Scores as probabilities, and the mean of a pass over a graph and one over its mirror image."""
 
 from dataclasses import replace
 
@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.completion.beliefs import averaged, beliefs_of, mirrored_back, softmax
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features
-from grafu.completion.network import complete_by_network, look, with_image
+from grafu.completion.network import complete_by_network, forward, with_image
+from grafu.completion.probabilities import averaged, mirrored_back, probabilities_of, softmax
 from grafu.completion.scores import SCORE_NAMES, Scores
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.graph.edit import mirrored as mirrored_graph
@@ -24,13 +24,13 @@ THIN = np.array([node.box.thin_axis for node in cabinet().nodes])
 
 
 def test_probabilities_sum_to_one() -> None:
-    beliefs = beliefs_of(silent(cabinet()))
+    probabilities = probabilities_of(silent(cabinet()))
 
-    assert np.allclose(beliefs.label.sum(axis=1), 1)
-    assert np.allclose(beliefs.edge.sum(axis=2), 1)
-    assert np.allclose(beliefs.hinge.sum(axis=(2, 3)), 1)
-    assert np.allclose(beliefs.slide.sum(axis=2), 1)
-    assert ((beliefs.exists >= 0) & (beliefs.exists <= 1)).all()
+    assert np.allclose(probabilities.label.sum(axis=1), 1)
+    assert np.allclose(probabilities.edge.sum(axis=2), 1)
+    assert np.allclose(probabilities.hinge.sum(axis=(2, 3)), 1)
+    assert np.allclose(probabilities.slide.sum(axis=2), 1)
+    assert ((probabilities.exists >= 0) & (probabilities.exists <= 1)).all()
 
 
 def test_large_logits_stay_finite() -> None:
@@ -44,7 +44,7 @@ def test_what_is_said_of_the_image_is_said_of_the_graph(across: int, border: int
     graph = cabinet()
     there = mirror_hinge(int(THIN[DOOR]), border, sign, across)
     said = Answers(hinges={"door_1": there}, slides={"door_1": mirror_face(axis, across)})
-    back = mirrored_back(beliefs_of(said.about(graph)(seen(graph))), THIN, across)
+    back = mirrored_back(probabilities_of(said.about(graph)(seen(graph))), THIN, across)
 
     assert back.hinge[DOOR, 0].argmax() == 2 * border + sign
     assert back.slide[DOOR, 0].argmax() == axis
@@ -56,15 +56,17 @@ def seen(graph: FunctionalGraph) -> GraphFeatures:
 
 
 def test_twice_mirrored_is_as_before() -> None:
-    beliefs = beliefs_of(Answers(hinges={"door_1": (1, 0)}, slides={"drawer_1": 2}).about(cabinet())(seen(cabinet())))
+    probabilities = probabilities_of(
+        Answers(hinges={"door_1": (1, 0)}, slides={"drawer_1": 2}).about(cabinet())(seen(cabinet()))
+    )
 
-    assert mirrored_back(mirrored_back(beliefs, THIN, 0), THIN, 0) == beliefs
+    assert mirrored_back(mirrored_back(probabilities, THIN, 0), THIN, 0) == probabilities
 
 
 def test_the_mean_is_of_seen_slots_alone() -> None:
     graph, n = cabinet(), len(cabinet().nodes)
-    one = beliefs_of(Answers(slides={"drawer_1": 2}).about(graph)(seen(graph)))
-    two = beliefs_of(Answers(slides={"drawer_1": 3, "free0": 5}).about(graph)(seen(graph)))
+    one = probabilities_of(Answers(slides={"drawer_1": 2}).about(graph)(seen(graph)))
+    two = probabilities_of(Answers(slides={"drawer_1": 3, "free0": 5}).about(graph)(seen(graph)))
     mean = averaged(one, two, n)
 
     assert np.allclose(mean.slide[:n, :n], (one.slide[:n, :n] + two.slide[:n, :n]) / 2)
@@ -76,11 +78,11 @@ def test_with_the_image_left_and_right_weigh_the_same() -> None:
     """A network that always says one thing, whatever it sees, says nothing about left and right when asked twice."""
     graph = cabinet()
     stubborn = Answers(slides={"drawer_1": 0}).about(graph)
-    sight, once = look(graph, stubborn, FEW)
-    beliefs = with_image(once, graph, sight, stubborn)
+    inputs, once = forward(graph, stubborn, FEW)
+    probabilities = with_image(once, graph, inputs, stubborn)
     drawer = [node.id for node in graph.nodes].index("drawer_1")
 
-    assert beliefs.slide[drawer, 0, 0] == pytest.approx(beliefs.slide[drawer, 0, 1])
+    assert probabilities.slide[drawer, 0, 0] == pytest.approx(probabilities.slide[drawer, 0, 1])
 
 
 def test_with_the_image_the_mirrored_graph_is_completed_in_the_mirror() -> None:

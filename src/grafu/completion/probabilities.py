@@ -1,4 +1,4 @@
-"""The network's scores as probabilities, and the mean of two looks at one graph, as it is and in the mirror.
+"""The network's scores as probabilities, and the mean of two forward passes: a graph and its mirror image.
 
 Border and sign of a hinge stand in one table: in the mirror the sign turns or stays by the border. It decides nothing.
 """
@@ -17,8 +17,8 @@ from grafu.graph.motion import mirror_face, mirror_hinge
 
 @final
 @dataclass(frozen=True, eq=False, slots=True)
-class Beliefs(ArrayValue):
-    """Probabilities for s slots, the first n of them nodes that were seen.
+class Probabilities(ArrayValue):
+    """Probabilities for s slots, the first n of them nodes of the input.
 
     `centre` and `half` stand in the normalised frame. `hinge[i, j]` is a table of border and sign. `parent` and
     `mount` stay logits, beside the logit of none, because what they choose among depends on the labels.
@@ -40,10 +40,10 @@ class Beliefs(ArrayValue):
         freeze_arrays(self, dtype=np.float64)
 
 
-def beliefs_of(scores: Scores) -> Beliefs:
-    """Returns the scores of one look as probabilities."""
+def probabilities_of(scores: Scores) -> Probabilities:
+    """Returns the scores of one forward pass as probabilities."""
     border, sign = softmax(scores.border), softmax(scores.sign)
-    return Beliefs(
+    return Probabilities(
         exists=1.0 / (1.0 + np.exp(-np.clip(scores.exists.astype(np.float64), -60.0, 60.0))),
         label=softmax(scores.category),
         centre=scores.centre.astype(np.float64),
@@ -58,31 +58,31 @@ def beliefs_of(scores: Scores) -> Beliefs:
     )
 
 
-def mirrored_back(beliefs: Beliefs, thin: Int64[np.ndarray, " n"], across: int) -> Beliefs:
-    """Returns what was believed of the mirror image across an axis, said of the graph itself.
+def mirrored_back(probabilities: Probabilities, thin: Int64[np.ndarray, " n"], across: int) -> Probabilities:
+    """Returns the probabilities of the mirror image across an axis, mapped back to the graph.
 
     `thin` are the thin axes of the boxes of the seen nodes; free slots, which are none's, keep their hinges.
     """
     signs = np.ones(3)
     signs[across] = -1.0
     faces = [mirror_face(code, across) for code in SIGNED_AXES]
-    hinge = beliefs.hinge.reshape(*beliefs.hinge.shape[:2], -1).copy()
+    hinge = probabilities.hinge.reshape(*probabilities.hinge.shape[:2], -1).copy()
     for axis in range(3):
         images = [mirror_hinge(axis, border, sign, across) for border in BORDERS for sign in SIGNS]
         rows = np.flatnonzero(thin == axis)
         hinge[rows] = hinge[rows][:, :, [2 * border + sign for border, sign in images]]
     return replace(
-        beliefs,
-        centre=beliefs.centre * signs,
-        hinge=hinge.reshape(beliefs.hinge.shape),
-        slide=beliefs.slide[..., faces],
+        probabilities,
+        centre=probabilities.centre * signs,
+        hinge=hinge.reshape(probabilities.hinge.shape),
+        slide=probabilities.slide[..., faces],
     )
 
 
-def averaged(first: Beliefs, second: Beliefs, seen: int) -> Beliefs:
-    """Returns the mean of two looks for the first `seen` slots and pairs of them; free slots are the first look's.
+def averaged(first: Probabilities, second: Probabilities, seen: int) -> Probabilities:
+    """Returns the mean of two passes over the first `seen` slots and their pairs; free slots are those of the first.
 
-    In each look the free slots may stand for other parts.
+    In each pass the free slots may stand for other parts.
     """
 
     def mean(name: str, *, pairs: bool) -> np.ndarray:
@@ -98,9 +98,9 @@ def averaged(first: Beliefs, second: Beliefs, seen: int) -> Beliefs:
 
 
 def softmax(logits: np.ndarray) -> np.ndarray:
-    """Returns the shares that logits stand for, along the last axis; of no logits none."""
+    """Returns the softmax of logits along the last axis; of no logits none."""
     if not logits.shape[-1]:
         return np.zeros(logits.shape)
     weights = np.exp(logits.astype(np.float64) - logits.max(axis=-1, keepdims=True))
-    shares: np.ndarray = weights / weights.sum(axis=-1, keepdims=True)
-    return shares
+    normalised: np.ndarray = weights / weights.sum(axis=-1, keepdims=True)
+    return normalised
