@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.asset.labels import is_control, is_piece, is_whole_mover, label_of
+from grafu.asset.labels import is_control, is_piece, is_whole_mover, label_of, sense_of
 from grafu.asset.names import safe_id, unique_ids, words
 from grafu.vocabulary import PartLabel
 
@@ -95,3 +95,63 @@ def test_ids_of_long_names_leave_room_in_a_file_name(name, is_handle):
 
 def test_words_part_camel_case_digits_and_signs():
     assert words("SidePanel_02.left-TOPDrawer") == ("side", "panel", "left", "top", "drawer")
+
+
+COMPOUNDS = {
+    PartLabel.MISC: [
+        "drawer_0_left_rail",
+        "deep_drawer_0_fixed_rail_a",
+        "drawer_bearing_2",
+        "reveal_drawer_gap",
+        "lower_hinge_door_leaf",
+        "handle_shadow",
+        "knob_recess_0",
+        "window_pane_on_hinge_1_mirror",
+    ],
+    PartLabel.TOP_PANEL: ["drawer_case_top", "top_slab"],
+    PartLabel.SIDE_PANEL: ["drawer_cheek", "cavity_wall_left", "outer_side"],
+    PartLabel.FACE_FRAME: ["drawer_lintel", "drawer_jamb_0"],
+    PartLabel.DIVIDER: ["drawer_divider"],
+    PartLabel.DOOR: ["opening_on_hinge_1_door", "hingeleftdoor.002", "microdoor", "leftGlassDoor", "door_stile_0"],
+    PartLabel.DRAWER: ["drawer of the desk", "Kitchen_drawer_main", "cabinet1_drawer_top_left", "drawer_0_left_side"],
+    PartLabel.HANDLE: ["handle of the upper drawer", "drawerhandle", "handle_post_0", "Handle-Joint-top"],
+    PartLabel.UNKNOWN: ["drawercase", "drawer_unit", "Korpus", "柜体"],
+}
+LANGUAGES = {
+    PartLabel.DOOR: [
+        *("Schranktür links", "Schiebetuer_2", "porte gauche", "Armario_Puerta_Izq", "Anta.001", "porta do armário"),
+        *("柜门_1", "推拉门", "左扉", "引き戸"),
+    ],
+    PartLabel.DRAWER: [
+        *("Schublade.003", "Schubladenfront", "tiroir du bas", "cajón 2", "cassetto_sinistro", "gaveta_1"),
+        *("抽屉2", "引き出し_上"),
+    ],
+    PartLabel.HANDLE: [
+        *("Schubladengriff", "poignée de porte", "puerta_tirador", "maniglia anta", "puxador da gaveta"),
+        *("抽屉把手", "扉の取っ手"),
+    ],
+    PartLabel.SHELF: ["Einlegeboden", "étagère_3", "estante", "ripiano", "prateleira", "层板", "棚板"],
+    PartLabel.LEG: ["Tischbein", "pied de table", "pata_1", "gamba.002", "perna", "桌腿", "脚"],
+    PartLabel.TOP_PANEL: ["Tischplatte", "dessus", "encimera", "tampo", "台面", "天板"],
+    PartLabel.BACK_PANEL: ["Rückwand", "panneau arrière", "schienale", "背板"],
+    PartLabel.SIDE_PANEL: ["Seitenwand", "fianco destro", "侧板"],
+    PartLabel.MISC: ["Scharnier", "charnière de porte", "bisagra", "cerniera", "dobradiça", "滑轨", "蝶番"],
+}
+
+
+@pytest.mark.parametrize(("label", "name"), [(label, name) for label, names in COMPOUNDS.items() for name in names])
+def test_the_head_noun_counts(label, name):
+    assert label_of(name) is label
+
+
+@pytest.mark.parametrize(("label", "name"), [(label, name) for label, names in LANGUAGES.items() for name in names])
+def test_eight_languages_give_labels(label, name):
+    assert label_of(name) is label
+
+
+def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
+    assert sense_of("drawer_sprocket").is_blurred
+    assert not sense_of("drawer_2_main").is_blurred
+    assert not sense_of("frieze_drawer").is_blurred
+    assert not is_whole_mover("drawer_sprocket")
+    assert sense_of("CabinetBody").is_container

@@ -8,14 +8,18 @@ import re
 from dataclasses import dataclass, replace
 from typing import final
 
-from grafu.asset.labels import is_piece, label_of
+import numpy as np
+
+from grafu.asset.labels import is_piece, is_whole_mover, label_of
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
-# The beginning of a piece's name up to its number: `drawer_1` of `drawer_1_front`, `Door02` of `Door02Panel`.
-_NUMBERED = re.compile(r"^(.*?(?:door|drawer)s?[ _.-]*\d+)[ _.-]*[A-Za-z]", re.IGNORECASE)
+# Where a numbered beginning may end: after `drawer_1` in `drawer_1_front`, after `Door02` in `Door02Panel`.
+_NUMBERED = re.compile(r"\d+(?=[ _.-]*[^\W\d_])")
+_SPARE = 0.01  # of a group's largest side: how far what lies within it may stand out
 
 
 @final
@@ -72,18 +76,40 @@ def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:
 
 
 def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
-    """Returns the drafts with groups added where numbered names share a beginning and one of them is a piece."""
+    """Returns the drafts with groups added where numbered names share a beginning and one of them is a piece.
+
+    What shares the beginning, but is named otherwise (`drawer_0_divider`), belongs to the group if it lies within it.
+    """
     beginnings: dict[str, list[int]] = {}
     for index, draft in enumerate(drafts):
-        match = _NUMBERED.match(draft.name)
-        if match and not draft.group and (is_piece(draft.name) or label_of(draft.name) is PartLabel.HANDLE):
-            beginnings.setdefault(match[1], []).append(index)
+        beginning = "" if draft.group else _beginning(draft.name)
+        if beginning:
+            beginnings.setdefault(beginning, []).append(index)
     out = list(drafts)
-    for beginning, members in beginnings.items():
-        pieces = [i for i in members if label_of(drafts[i].name) is not PartLabel.HANDLE]
+    for beginning, named in beginnings.items():
+        pieces = [i for i in named if is_piece(drafts[i].name)]
+        members = [i for i in named if i in pieces or label_of(drafts[i].name) is PartLabel.HANDLE]
         if len(members) < 2 or not pieces:
             continue
-        for i in members:
-            d = drafts[i]
-            out[i] = replace(d, group=f"name {beginning}", group_name=beginning)
+        around = _box([drafts[i] for i in pieces])
+        within = [i for i in named if i not in members and around is not None and _lies_in(drafts[i], around)]
+        for i in (*members, *within):
+            out[i] = replace(drafts[i], group=f"name {beginning}", group_name=beginning)
     return out
+
+
+def _beginning(name: str) -> str:
+    """Returns the longest beginning of a name, up to a number, that names one door or drawer; empty where none does."""
+    ends = [match.end() for match in _NUMBERED.finditer(name)]
+    return next((name[:end] for end in reversed(ends) if is_whole_mover(name[:end])), "")
+
+
+def _box(drafts: list[PartDraft]) -> Box | None:
+    boxes = [s.mesh.box for d in drafts for s in d.surfaces if not s.is_empty]
+    return Box.enclosing(boxes) if boxes else None
+
+
+def _lies_in(draft: PartDraft, around: Box) -> bool:
+    box = _box([draft])
+    spare = _SPARE * float(around.size.max())
+    return box is not None and bool(np.all(box.low >= around.low - spare) and np.all(box.high <= around.high + spare))

@@ -1,96 +1,204 @@
-"""Part labels from names, by a table of keywords. It looks at words only, never at geometry.
+"""Part labels from names, by a table of phrases and a little grammar. It looks at words only, never at geometry.
 
 The words cover PartNet's and PartNet-Mobility's part names (storage furniture, tables, desks), the authors'
-`<category>_<n>`, plain English, Blender's `.001` and camelCase. The first row of the table that matches decides.
+`<category>_<n>`, Blender's `.001`, camelCase, and eight languages (`grafu.asset.languages`).
+
+The head noun is what a part is: the last one of a name, or of what stands before a preposition. `drawer_0_left_rail` is
+a rail, `door_handle` a handle, `opening_on_hinge_1_door` a door. Words that mean a piece of a door or drawer
+(`drawer_left_side`) leave it what it is.
 """
 
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final
+from typing import Final, final
 
-from grafu.asset.names import words
+from grafu.asset.languages import word_set
+from grafu.asset.speech import OF, singular, spoken
 from grafu.vocabulary import PartLabel
 
 # Each row: a label and the phrases that give it. A phrase is words that adjoin (`drawer rail` also matches plurals);
-# `=top` matches only where it is the whole name. Order matters: hardware and handles outweigh the part that they sit
-# on (`door_hinge`, `drawer_handle`), pieces of a drawer outweigh the panels that they resemble (`drawer_back`), and
-# nouns outweigh adjectives (`back_leg`, `top_shelf`).
+# `=top` matches only where it is the whole name. The phrase that ends last counts, the longest of several.
 TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
-    (PartLabel.DRAWER, "pull out, pullout, slide out tray"),
+    (PartLabel.DRAWER, "drawer, pull out, pullout, slide out tray, keyboard tray, tray surface, =tray, sliding tray"),
+    (PartLabel.DOOR, "door, door leaf, cabinetdoor, flap, lid, shutter, hatch, tambour"),
     (PartLabel.HANDLE, "handle, doorhandle, knob, nob, doorknob, grip, handgrip, pull, grasp"),
     (PartLabel.MISC, "tabletop connector, drawer rail, drawer slider, drawer slide, drawer runner, hinge, lock"),
     (PartLabel.MISC, "keyhole, screw, nail, bolt, wheel, caster, castor, button, switch, lever, dial, faucet, tap"),
-    (PartLabel.DRAWER, "drawer, keyboard tray, tray surface, =tray, sliding tray"),
-    (PartLabel.FACE_FRAME, "face frame, faceframe, front frame, stile, mullion, top rail, bottom rail, mid rail"),
-    (PartLabel.DOOR, "door, cabinetdoor, flap, lid, shutter, hatch, tambour"),
+    (
+        PartLabel.MISC,
+        "hinge leaf, hinge plate, hinge arm, knuckle, bearing, bearer, bracket, hanger, standoff, bushing",
+    ),
+    (PartLabel.MISC, "bumper, gasket, seal, spring, piston, damper, latch, catch, magnet, stopper, stop, spacer"),
+    (PartLabel.FACE_FRAME, "face frame, faceframe, front frame, stile, mullion, top rail, bottom rail, mid rail, jamb"),
+    (PartLabel.FACE_FRAME, "lintel, fascia, front panel, fixed front, false front, cabinet frame, =frame, =front"),
     (PartLabel.LEG, "leg, foot, feet, pedestal"),
-    (PartLabel.SHELF, "shelf, shelve, shelves, bookshelf, plank, rack"),
+    (PartLabel.SHELF, "shelf, shelve, shelves, shelving, bookshelf, plank, rack"),
     (PartLabel.DIVIDER, "divider, partition, separator, middle panel, mid panel, centre panel, center panel"),
-    (PartLabel.BAR, "bar, stretcher, rod, crossbar, beam, rung, slat, apron, strut, brace, batten, crosspiece"),
-    (PartLabel.BACK_PANEL, "back panel, backpanel, backboard, back board, back plate, rear panel, back side"),
+    (PartLabel.BAR, "bar, stretcher, rod, crossbar, beam, rung, slat, apron, strut, brace, batten, crosspiece, post"),
+    (
+        PartLabel.BACK_PANEL,
+        "back panel, backpanel, backboard, back board, back plate, rear panel, back side, back wall",
+    ),
+    (PartLabel.BACK_PANEL, "rear wall, back skin, rear skin, cabinet back, carcass back, case back, =back, =rear"),
     (PartLabel.TOP_PANEL, "top panel, toppanel, tabletop, table top, countertop, counter top, counter, worktop"),
     (PartLabel.TOP_PANEL, "desktop, desk top, top board, top plate, top surface, board top, bench top, =board"),
+    (PartLabel.TOP_PANEL, "cabinet top, carcass top, case top, body top, top slab, top skin, top deck, =top"),
     (PartLabel.BOTTOM_PANEL, "bottom panel, bottompanel, bottom board, bottom plate, base panel, floor panel"),
-    (PartLabel.BOTTOM_PANEL, "base plate, cabinet bottom, carcass bottom, =bottom"),
-    (PartLabel.SIDE_PANEL, "side panel, sidepanel, side board, side plate, side wall, gable, toe kick, plinth"),
-    (PartLabel.SIDE_PANEL, "kickboard, baseboard, skirting, end panel, left panel, right panel"),
-    (PartLabel.SIDE_PANEL, "left side, right side, cabinet side, carcass side, =side, =left, =right"),
-    (PartLabel.FACE_FRAME, "front panel, fixed front, false front, cabinet frame, =frame, =front"),
-    (PartLabel.BACK_PANEL, "cabinet back, carcass back, =back, =rear"),
-    (PartLabel.TOP_PANEL, "cabinet top, carcass top, =top"),
+    (PartLabel.BOTTOM_PANEL, "base plate, cabinet bottom, carcass bottom, case bottom, bottom skin, =bottom"),
+    (PartLabel.SIDE_PANEL, "side panel, sidepanel, side board, side plate, side wall, gable, toe kick, plinth, cheek"),
+    (
+        PartLabel.SIDE_PANEL,
+        "kickboard, baseboard, skirting, end panel, left panel, right panel, outer side, inner side",
+    ),
+    (PartLabel.SIDE_PANEL, "lateral panel, =lateral"),
+    (PartLabel.SIDE_PANEL, "left side, right side, cabinet side, carcass side, case side, side skin, left wall"),
+    (PartLabel.SIDE_PANEL, "right wall, wall left, wall right, =side, =left, =right"),
     (PartLabel.MISC, "misc, connector, glass, mirror, lamp, light, led, sink, basin, cushion, pillow, book, clock"),
-    (PartLabel.MISC, "decoration, cord, cable, hook, key, vase, rail, runner, slider, cloth"),
+    (PartLabel.MISC, "decoration, cord, cable, hook, key, vase, rail, runner, slider, cloth, mattress, grille, vent"),
+    (PartLabel.MISC, "gap, shadow, reveal, recess, cavity, slot, groove, trim, molding, moulding, bead, band"),
+    (PartLabel.MISC, "control panel, display, fixed slide, moving slide"),
 )
 
 # Things that furniture annotations give joints to although no hinge or rail carries them.
 _CONTROLS = frozenset({"wheel", "caster", "castor", "knob", "nob", "button", "switch", "lever", "dial", "lock", "key"})
+_PLACES = word_set(
+    "left right upper lower top bottom middle center centre mid front back rear side inner outer lateral vertical "
+    "horizontal first second third sliding fixed"
+)
 # Words that make a name a piece of a door or drawer rather than the whole.
-_PIECES = frozenset({"front", "back", "side", "bottom", "base", "face", "panel", "surface", "frame", "glass", "board"})
+_PIECES = word_set(
+    "front back side bottom base face panel surface frame glass board box container body pane window floor wall skin "
+    "mirror plate facade"
+)
+_LEAF_PIECES = word_set("stile rail mullion molding moulding trim bead slat")
+_VOIDS = word_set("recess shadow gap cavity slot groove cutout hole pocket")
+_HARDWARE = frozenset({"hinge", "lock", "latch", "knuckle"})
 _PLURALS = frozenset({"doors", "drawers"})
-_CONTAINERS = frozenset({"unit", "set", "group", "stack", "chest", "cabinet", "collection", "compartment", "section"})
+_CONTAINERS = word_set(
+    "unit set group stack chest cabinet collection compartment section case carcass body cupboard wardrobe "
+    "dresser desk table bench bookcase sideboard kitchen fridge refrigerator freezer oven stove microwave dishwasher "
+    "bed stair nightstand shell housing"
+)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Sense:
+    """What a name says: the label, whether it is a piece of a door or drawer, and whether nothing blurs it.
+
+    A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
+    `is_container` says that it is the name of a whole piece of furniture or of its body.
+    """
+
+    label: PartLabel
+    is_piece: bool = False
+    is_blurred: bool = False
+    is_container: bool = False
 
 
 @lru_cache(maxsize=20_000)
+def sense_of(name: str) -> Sense:
+    """Returns what a name says; where it says nothing, the label is `unknown`."""
+    for phrase in _phrases(spoken(name)):
+        found = _sense(tuple(singular(w) for w in phrase))
+        if found.label is not PartLabel.UNKNOWN or found.is_container:
+            return found
+    return Sense(PartLabel.UNKNOWN)
+
+
 def label_of(name: str) -> PartLabel:
     """Returns the label that a name gives, `unknown` where it gives none."""
-    spoken = tuple(_singular(w) for w in words(name))
-    for label, phrases in _PHRASES:
-        if any(_matches(spoken, phrase, whole) for phrase, whole in phrases):
-            return label
-    return PartLabel.UNKNOWN
+    return sense_of(name).label
 
 
 def is_control(name: str) -> bool:
     """Whether the name is that of a wheel, caster, knob, button or the like: it may turn, but on no hinge or rail."""
-    spoken = {_singular(w) for w in words(name)}
-    return bool(spoken & _CONTROLS) and not spoken & {"door", "drawer"}
+    said = {singular(w) for w in spoken(name)}
+    return bool(said & _CONTROLS) and not said & {"door", "drawer"}
 
 
 def is_piece(name: str) -> bool:
-    """Whether a door's or drawer's name is that of one of its pieces (`drawer_front`, `cabinet_door_surface`)."""
-    return any(_singular(w) in _PIECES for w in words(name))
+    """Whether the name is that of a door's or drawer's piece (`drawer_front`, `cabinet_door_surface`)."""
+    return sense_of(name).is_piece
 
 
 def is_whole_mover(name: str) -> bool:
     """Whether the name is that of one whole door or drawer: no piece, no plural, no container (`drawer_unit`)."""
-    spoken = words(name)
-    label = label_of(name)
-    return label.is_movable and not is_piece(name) and not set(spoken) & (_PLURALS | (_CONTAINERS - {"cabinet"}))
+    sense = sense_of(name)
+    whole = sense.label.is_movable and not sense.is_piece and not sense.is_blurred
+    return whole and not set(spoken(name)) & (_PLURALS | {"unit", "set", "group", "stack", "collection"})
 
 
-def _singular(word: str) -> str:
-    return word[:-1] if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us")) else word
+def _phrases(said: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Returns the name in the order in which its phrases count: what stands before a preposition, then what after."""
+    found: list[list[str]] = [[]]
+    for word in said:
+        if word == OF:
+            found.append([])
+        else:
+            found[-1].append(word)
+    return [tuple(phrase) for phrase in found if phrase]
 
 
-def _matches(spoken: tuple[str, ...], phrase: tuple[str, ...], whole: bool) -> bool:
+def _sense(said: tuple[str, ...]) -> Sense:
+    handle = _last(said, _OF_HANDLES)
+    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVERS))):
+        return Sense(PartLabel.HANDLE)
+    mover = _last(said, _OF_MOVERS)
+    if mover is not None:
+        found = _as_mover(said, mover)
+        if found is not None:
+            return found
+    head = _last(said, _OF_OTHERS)
+    container = max((i for i, w in enumerate(said) if w in _CONTAINERS), default=-1)
+    if head is None or container >= head[1]:
+        return Sense(PartLabel.UNKNOWN, is_container=container >= 0)
+    return Sense(head[2])
+
+
+def _as_mover(said: tuple[str, ...], mover: tuple[int, int, PartLabel]) -> Sense | None:
+    """Returns what a name with a door or drawer in it says, None where another noun is its head."""
+    start, end, label = mover
+    tail = said[end:]
+    if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:
+        return None  # `hinge_door_leaf`: the leaf of the hinge that is on the door
+    own = _PIECES | (_LEAF_PIECES if label is PartLabel.DOOR else frozenset())
+    if all(w in own or w in _PLACES for w in tail):
+        pieces = set(tail) & own | ({"surface"} & set(said[start:end]))
+        return Sense(label, is_piece=bool(pieces))
+    after = _last(said, _OF_OTHERS)
+    later = after is not None and after[1] > end
+    if later or any(w in _CONTAINERS for w in tail):
+        return None
+    return Sense(label, is_piece=bool(set(tail) & own), is_blurred=True)
+
+
+def _overlaps(first: tuple[int, int, PartLabel], second: tuple[int, int, PartLabel] | None) -> bool:
+    return second is not None and first[0] < second[1] and second[0] < first[1]
+
+
+def _last(said: tuple[str, ...], rows: "_Rows") -> tuple[int, int, PartLabel] | None:
+    """Returns where the phrase that ends last begins and ends, and its label; the longest of several."""
+    found = [(i, i + len(phrase), label) for label, phrase, whole in rows for i in _places_of(said, phrase, whole)]
+    return max(found, key=lambda f: (f[1], f[1] - f[0]), default=None)
+
+
+def _places_of(said: tuple[str, ...], phrase: tuple[str, ...], whole: bool) -> list[int]:
     if whole:
-        return spoken == phrase
+        return [0] if said == phrase else []
     n = len(phrase)
-    return any(spoken[i : i + n] == phrase for i in range(len(spoken) - n + 1))
+    return [i for i in range(len(said) - n + 1) if said[i : i + n] == phrase]
 
 
-def _parse(row: str) -> tuple[tuple[tuple[str, ...], bool], ...]:
-    phrases = (p.strip() for p in row.split(","))
-    return tuple((tuple(_singular(w) for w in p.lstrip("=").split()), p.startswith("=")) for p in phrases)
+_Rows = tuple[tuple[PartLabel, tuple[str, ...], bool], ...]
 
 
-_PHRASES: Final = tuple((label, _parse(row)) for label, row in TABLE)
+def _rows(labels: frozenset[PartLabel]) -> _Rows:
+    phrases = ((label, p.strip()) for label, row in TABLE if label in labels for p in row.split(","))
+    return tuple((label, tuple(singular(w) for w in p.lstrip("=").split()), p.startswith("=")) for label, p in phrases)
+
+
+_MOVERS = frozenset({PartLabel.DOOR, PartLabel.DRAWER})
+_OF_MOVERS: Final = _rows(_MOVERS)
+_OF_HANDLES: Final = _rows(frozenset({PartLabel.HANDLE}))
+_OF_OTHERS: Final = _rows(frozenset(PartLabel) - _MOVERS - {PartLabel.HANDLE})
