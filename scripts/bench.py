@@ -137,7 +137,7 @@ def time_wall(parts: str, repeats: int) -> Timing:
     from grafu.export.formats import export
     from grafu.pipeline.functionalize import functionalize
     from grafu.pipeline.motion_source import MotionSource
-    from grafu.synth.scaling import furniture_of
+    from grafu.synth.samples import furniture_of
     from grafu.templates.gallery import builtin_gallery
 
     asset = furniture_of(int(parts))

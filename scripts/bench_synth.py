@@ -59,7 +59,7 @@ def time_making(count: int, repeats: int) -> Making:
 def time_stages(count: int) -> dict[str, float]:
     """Returns the milliseconds of each stage of one model."""
     from grafu.geometry.sampling import sample_surfaces
-    from grafu.synth.blueprint import draw_made, make_furniture
+    from grafu.synth.families.table import draw_made, make_furniture
     from grafu.synth.noise.habits import draw_untidiness
     from grafu.synth.noise.untidiness import apply_untidiness
     from grafu.synth.truth.check import faults_of

@@ -12,8 +12,7 @@ from grafu.synth.families.table import FAMILIES
 from grafu.synth.noise import cutting, habits, naming
 from grafu.synth.noise.habits import HABITS
 from grafu.synth.sampling import carpentry, style
-from grafu.synth.sampling.tradition import Tradition
-from grafu.synth.sampling.traditions import TRADITIONS
+from grafu.synth.sampling.traditions import TRADITIONS, Tradition
 
 SYNTH = "../src/grafu/synth"
 HEAD = """\

@@ -25,12 +25,11 @@ from grafu.realization.grip.config import GripConfig, GripKind
 from grafu.realization.handle.config import HandleConfig
 from grafu.realization.interior.request import parse_interior
 from grafu.realization.top.config import TopConfig, TopShape
-from grafu.synth.blueprint import draw_made
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
-from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
-from grafu.synth.cabinets.inner_corner import InnerCorner, make_inner_corner
+from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_cabinet, make_inner_corner
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, Top
+from grafu.synth.families.table import draw_made
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
 from grafu.synth.noise.untidy import without_parts
 from grafu.synth.pieces.finish import textured_finish

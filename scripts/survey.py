@@ -98,7 +98,7 @@ def read(path: Path) -> list[Finding]:
 
 def survey_one(seed: int, index: int, points: int) -> Finding:
     """Returns what one specimen is like; an exception is a fault of its own."""
-    from grafu.synth.blueprint import draw_made
+    from grafu.synth.families.table import draw_made
     from grafu.synth.generate import make_specimen
     from grafu.synth.repair import repaired
     from grafu.synth.truth.check import faults_in, faults_of

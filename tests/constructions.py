@@ -3,8 +3,7 @@
 from grafu.synth.cabinets.bureau import Bureau
 from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.chest import Chest
-from grafu.synth.cabinets.corner import CornerCabinet
-from grafu.synth.cabinets.inner_corner import InnerCorner
+from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
 from grafu.synth.cabinets.rack import Rack
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Sides, Top

@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from grafu.data import stream, write_furfun, write_plan, write_shards
+from grafu.data import stream, write, write_plan
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
@@ -17,5 +17,5 @@ def specimen(seed: int, index: int, points: int) -> Specimen:
 
 def remember(patch: pytest.MonkeyPatch) -> None:
     """Lets streams and writers of this process take their specimens from here; other processes still make theirs."""
-    for module in (stream, write_furfun, write_plan, write_shards):
+    for module in (stream, write, write_plan):
         patch.setattr(module, "make_specimen", specimen)

@@ -13,8 +13,8 @@ from grafu.completion.features import FeatureConfig
 from grafu.completion.selection import SOME_CHANCE
 from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.data.corruption.config import PAPER as CORRUPTION
-from grafu.data.furfun import anchoring
-from grafu.data.shards_points import STEPS
+from grafu.data.furfun import folder
+from grafu.data.shards_arrays import STEPS
 from grafu.evaluation import bootstrap, distribution, masking, measures, moving_parts, plausible, twins
 from grafu.metrics.collision import TOLERANT
 from grafu.metrics.connectivity import ConnectivityConfig
@@ -116,7 +116,7 @@ def learning() -> Iterator[Sentence]:
     yield "training.md", "each of {} models as it was found", (SMALL.validation.models,)
     yield "dataset.md", "masked with a chance of {:g} %", (per_cent(CORRUPTION.label_masking),)
     yield "dataset.md", "a grid of {} steps", (STEPS,)
-    yield "dataset.md", "lie within {} units", (anchoring.SAME_PLACE,)
+    yield "dataset.md", "lie within {} units", (folder.SAME_PLACE,)
     yield "graph.md", "of the edge ({} more)", (SOME_CHANCE,)
 
 

@@ -13,7 +13,7 @@ import pytest
 from folders import contents
 from grafu.cli import synth_run
 from grafu.cli.main import main
-from grafu.data import write_shards
+from grafu.data import write
 from grafu.data.write import models_written
 
 FEW = ["synth", "--points", "8", "--models-per-shard", "10"]
@@ -106,7 +106,7 @@ def test_another_seed_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Capt
 
 def test_faults_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     command = [*FEW, "--count", "2", "--jobs", "1", "--out", str(tmp_path)]
-    monkeypatch.setattr(write_shards, "faults_said", lambda specimen: ("collision of door, shelf",))
+    monkeypatch.setattr(write, "faults_said", lambda specimen: ("collision of door, shelf",))
     assert main(command) == 0
     assert "faults beyond" not in capsys.readouterr().out
     assert main([*command, "--check", "--overwrite"]) == 1

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from record_strategies import records
 
 from grafu.data.shards import SCHEMA, ShardReader, write_shard
-from grafu.data.shards_arrays import arrays_to_record, record_to_arrays
-from grafu.data.shards_points import LARGEST_ERROR, codes_to_points, points_to_codes
+from grafu.data.shards_arrays import LARGEST_ERROR, arrays_to_record, codes_to_points, points_to_codes, record_to_arrays
 from grafu.data.shards_record import Record, record_of, record_pair
 from grafu.errors import ExportError, GraphError, UnreadableAsset
 from grafu.geometry.arrays import vec3

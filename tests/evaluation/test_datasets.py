@@ -10,7 +10,7 @@ import pytest
 
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.data.furfun.ply import read_ply
+from grafu.data.furfun.points import read_ply
 from grafu.data.furfun.write import write_furfun
 from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.evaluation.dataset import TEST_SEED, ModelRef, category_of, find_models, load_model

@@ -9,7 +9,7 @@ from grafu.graph.touching import touching_pairs
 from grafu.synth.cabinets.bureau import Bureau, make_bureau
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.cabinets.chest import make_chest
-from grafu.synth.cabinets.inner_corner import InnerCorner, make_inner_corner
+from grafu.synth.cabinets.corner import InnerCorner, make_inner_corner
 from grafu.synth.cabinets.rack import Rack, make_rack
 from grafu.synth.case.bases import base_pieces
 from grafu.synth.case.case import Case

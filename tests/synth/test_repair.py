@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from grafu.synth.blueprint import Blueprint, make_furniture
 from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.chest import Chest
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Top
+from grafu.synth.families.table import Blueprint, make_furniture
 from grafu.synth.fronts.hold import Hold
 from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
 from grafu.synth.repair import repaired, with_bare_fronts_held

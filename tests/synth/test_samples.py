@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 from grafu.asset.load import load_asset
-from grafu.synth.samples import SAMPLES
-from grafu.synth.scaling import furniture_of
+from grafu.synth.samples import SAMPLES, furniture_of
 
 ROOT = Path(__file__).parent.parent.parent
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from grafu.data.corruption.config import PAPER, CorruptionConfig
-from grafu.data.fold import fold
+from grafu.data.corruption.corrupt import fold
 from grafu.data.pair import GraphPair
 from grafu.graph.edit import as_contacts, relabelled
 from grafu.vocabulary import PartLabel

@@ -15,7 +15,7 @@ from typing import Any, Literal, final
 import numpy as np
 
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
-from grafu.data.furfun.split_files import SPLIT_NAMES
+from grafu.data.furfun.split import SPLIT_NAMES
 from grafu.data.shards import MODELS_PER_SHARD
 from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
 from grafu.data.shards_record import record_of

@@ -20,7 +20,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.data.furfun.graph_files import load_graph_json, read_graph_file
 from grafu.data.furfun.layout import FUNCTIONAL, UNFUNCTIONAL, UNFUNCTIONAL_HSSD, LayoutKind, find_layout
-from grafu.data.furfun.ply import read_ply
+from grafu.data.furfun.points import read_ply
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4

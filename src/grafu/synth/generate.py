@@ -11,7 +11,7 @@ from grafu.graph.edit import without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.graph.touching import touching_pairs
-from grafu.synth.blueprint import draw_made
+from grafu.synth.families.table import draw_made
 from grafu.synth.noise.habits import draw_untidiness
 from grafu.synth.noise.tessellation import CUT, STEPS, tessellated
 from grafu.synth.noise.untidiness import Untidiness, apply_untidiness, as_given

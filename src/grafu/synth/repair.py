@@ -16,7 +16,7 @@ from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.synth.blueprint import Blueprint, make_furniture
+from grafu.synth.families.table import Blueprint, make_furniture
 from grafu.synth.fronts.hold import HandleStyle, Hold
 from grafu.synth.noise.habits import is_storage
 from grafu.synth.noise.segmentation import fresh_ids

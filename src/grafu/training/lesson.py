@@ -15,7 +15,7 @@ from jaxtyping import Float32, Float64, Int64
 from grafu.completion.features import FeatureConfig, graph_features, object_frame
 from grafu.data.asked import masked_pair
 from grafu.data.corruption.config import CorruptionConfig
-from grafu.data.fold import fold
+from grafu.data.corruption.corrupt import fold
 from grafu.data.pair import GraphPair
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import graph_arrays

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from releases import HALVES, functional, put, put_model, unfunctional
 
-from grafu.data.fold import folded
+from grafu.data.corruption.corrupt import folded
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.errors import AssetError, GraphError, UnreadableAsset
 from grafu.graph.edges import Attached, Contact, Hinge, Rail

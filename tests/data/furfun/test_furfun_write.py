@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from grafu.data.furfun.folder import FurFunFolder
-from grafu.data.furfun.ply import read_ply
+from grafu.data.furfun.points import read_ply
 from grafu.data.furfun.write import furfun_files, split_files, write_furfun
 from grafu.errors import ExportError
 from grafu.graph.official_json import graph_from_official

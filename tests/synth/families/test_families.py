@@ -5,8 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from grafu.synth.blueprint import draw_made
-from grafu.synth.families.table import FAMILIES
+from grafu.synth.families.table import FAMILIES, draw_made
 from grafu.synth.truth.check import faults_of
 from grafu.vocabulary import JointType, PartLabel
 from sweeping import collisions

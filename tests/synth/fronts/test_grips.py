@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from grafu.synth.fronts.grips import gripped_slab
 from grafu.synth.fronts.handles import gripped_side
 from grafu.synth.fronts.hold import Hold
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Rect
-from grafu.synth.fronts.leaves import LeafShape, leaf_surfaces
+from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaves import gripped_slab, leaf_surfaces
 from grafu.synth.pieces.finish import PLAIN
 
 FRONT = Rect(0.0, 0.5, 0.0, 0.3)

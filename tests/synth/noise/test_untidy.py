@@ -1,10 +1,13 @@
 import numpy as np
 import pytest
 
+from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Row
 from grafu.synth.noise import untidy
+from grafu.synth.noise.untidy import with_anchored_sheets
 from grafu.vocabulary import PartLabel
+from sketches import board, sketch
 from sweeping import collisions
 
 TIDY = make_cabinet(Cabinet(layout=Row((Door(), Drawer()))))
@@ -109,3 +112,37 @@ def test_defects_can_be_combined():
 def test_at_least_one_board_is_needed():
     with pytest.raises(ValueError, match="at least 1"):
         untidy.with_many_shells(TIDY, 0)
+
+
+# A back let in between two sides, which ends flush with them: its outer face touches them, its inner one, too
+SIDES = (
+    board("left", PartLabel.SIDE_PANEL, (-0.5, -0.3, 0.0), (-0.48, 0.3, 0.8)),
+    board("right", PartLabel.SIDE_PANEL, (0.48, -0.3, 0.0), (0.5, 0.3, 0.8)),
+    board("bottom", PartLabel.BOTTOM_PANEL, (-0.48, -0.3, 0.0), (0.48, 0.3, 0.02)),
+)
+PLANTED = board("back", PartLabel.BACK_PANEL, (-0.5, 0.3, 0.0), (0.5, 0.32, 0.8))
+
+
+def test_a_sheet_lies_on_the_outer_face_where_nothing_comes_loose() -> None:
+    made = with_anchored_sheets(sketch(*SIDES, PLANTED), ("left",))
+
+    box = made.part("left").box
+    assert box.size[0] == 0.0
+    assert box.low[0] == -0.5
+
+
+def test_a_planted_back_as_a_sheet_stays_with_its_case() -> None:
+    made = with_anchored_sheets(sketch(*SIDES, PLANTED), ("back",))
+
+    assert made.part("back").box.low[1] == made.part("back").box.high[1] == 0.3
+    assert len(parse_graph(made).neighbours["back"]) == 3
+
+
+def test_what_would_come_loose_either_way_stays_a_board() -> None:
+    post = board("post", PartLabel.BAR, (-0.01, -0.3, 0.02), (0.01, -0.28, 0.5))
+    top = board("top", PartLabel.TOP_PANEL, (-0.1, -0.3, 0.5), (0.1, 0.3, 0.53))
+    lamp = board("lamp", PartLabel.MISC, (-0.02, 0.0, 0.53), (0.02, 0.05, 0.6))
+
+    made = with_anchored_sheets(sketch(*SIDES, post, top, lamp), ("top",))
+
+    assert made.part("top").box.size[2] > 0.02

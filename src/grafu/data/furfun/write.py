@@ -16,9 +16,8 @@ import numpy as np
 
 from grafu.data.furfun.graph_files import MADE_BY
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
-from grafu.data.furfun.ply import mesh_to_ply
-from grafu.data.furfun.split_files import SPLIT_NAMES, split_to_json
-from grafu.data.split import split_models
+from grafu.data.furfun.points import mesh_to_ply
+from grafu.data.furfun.split import SPLIT_NAMES, split_models, split_to_json
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
 from grafu.geometry.arrays import Points

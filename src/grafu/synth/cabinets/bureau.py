@@ -14,8 +14,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Cell, Door, Drawer, Edges, Rect, Stack
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Piece, assemble
-from grafu.synth.pieces.planks import plank, solid
+from grafu.synth.pieces.assembly import Piece, assemble, plank, solid
 from grafu.synth.pieces.shapes import prism_along_x
 from grafu.vocabulary import PartLabel
 

@@ -15,9 +15,8 @@ from grafu.synth.fronts.front import front_pieces, partition_pieces
 from grafu.synth.fronts.layout import Layout, Pair, Partition, Rect, divide
 from grafu.synth.fronts.leaf_relief import swept_depth
 from grafu.synth.fronts.setting import Mount, Setting
-from grafu.synth.pieces.assembly import Piece, assemble
+from grafu.synth.pieces.assembly import Piece, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish
-from grafu.synth.pieces.planks import plank
 from grafu.vocabulary import PartLabel
 
 BOX = Case()

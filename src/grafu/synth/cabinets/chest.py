@@ -16,9 +16,8 @@ from grafu.synth.case.tops import top_meshes
 from grafu.synth.fronts.front import front_pieces, partition_pieces
 from grafu.synth.fronts.layout import Cell, Edges, Layout, Rect, divide
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Motion, Piece, assemble
+from grafu.synth.pieces.assembly import Motion, Piece, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
-from grafu.synth.pieces.planks import plank
 from grafu.synth.pieces.shapes import domed_board
 from grafu.vocabulary import JointType, PartLabel
 

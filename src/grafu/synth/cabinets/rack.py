@@ -9,8 +9,7 @@ from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import translation
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
-from grafu.synth.pieces.assembly import Piece, assemble
-from grafu.synth.pieces.planks import Span, both_sides, plank
+from grafu.synth.pieces.assembly import Piece, Span, assemble, both_sides, plank
 from grafu.vocabulary import PartLabel
 
 LOW_UNIT = Cabinet()

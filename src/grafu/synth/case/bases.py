@@ -7,9 +7,8 @@ from grafu.geometry.box import Box
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Stretcher
 from grafu.synth.case.legs import Leg, lean, leg_meshes
-from grafu.synth.pieces.assembly import Piece
+from grafu.synth.pieces.assembly import Piece, Span, both_sides, plank, solid
 from grafu.synth.pieces.finish import Finish
-from grafu.synth.pieces.planks import Span, both_sides, plank, solid
 from grafu.synth.pieces.shapes import arched_rail, board
 from grafu.vocabulary import PartLabel
 

@@ -7,9 +7,8 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Sides
-from grafu.synth.pieces.assembly import Piece
+from grafu.synth.pieces.assembly import Corner, Piece, Span, both_sides, plank, solid
 from grafu.synth.pieces.finish import Finish
-from grafu.synth.pieces.planks import Corner, Span, both_sides, plank, solid
 from grafu.synth.pieces.shapes import bow_fronted_board
 from grafu.vocabulary import PartLabel
 

@@ -9,9 +9,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Top
 from grafu.synth.case.panels import level_spans
-from grafu.synth.pieces.assembly import Piece
+from grafu.synth.pieces.assembly import Piece, Span, both_sides, plank, solid
 from grafu.synth.pieces.finish import Finish
-from grafu.synth.pieces.planks import Span, both_sides, plank, solid
 from grafu.synth.pieces.shapes import board, bow_fronted_board, table_board
 from grafu.vocabulary import PartLabel
 

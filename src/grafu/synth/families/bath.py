@@ -14,7 +14,7 @@ from grafu.synth.sampling.carpentry import Site
 from grafu.synth.sampling.casework import Build, draw_case
 from grafu.synth.sampling.chance import between, chance, pick
 from grafu.synth.sampling.style import draw_style
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 BATH: Mapping[TraditionName, float] = {"frameless": 0.62, "minimal": 0.15, "flat-pack": 0.15, "shaker": 0.08}
 HUNG = Build(

@@ -16,7 +16,7 @@ from grafu.synth.sampling.carpentry import Site, fitted
 from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import chunky, draw_style, pushed
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 BEDROOM: Mapping[TraditionName, float] = {
     "shaker": 0.24, "mid-century": 0.18, "flat-pack": 0.22, "minimal": 0.18, "ornate": 0.14, "frameless": 0.04

@@ -13,7 +13,7 @@ from grafu.synth.sampling.carpentry import Site, fitted
 from grafu.synth.sampling.casework import Build
 from grafu.synth.sampling.chance import between, chance, count
 from grafu.synth.sampling.style import draw_style
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 HOME: Mapping[TraditionName, float] = {"ornate": 0.35, "shaker": 0.35, "mid-century": 0.3}
 STAND = Site(hand=0.9)

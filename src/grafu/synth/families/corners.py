@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from grafu.synth.cabinets.corner import CornerCabinet
-from grafu.synth.cabinets.inner_corner import InnerCorner
+from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
 from grafu.synth.families.kitchen import KITCHEN
 from grafu.synth.fronts.layout import Door, Rect, Side
 from grafu.synth.sampling.carpentry import fitted, needed_gap

@@ -17,7 +17,7 @@ from grafu.synth.sampling.carpentry import FREE, Site
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import Style, chunky, draw_style, pushed
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 KITCHEN: Mapping[TraditionName, float] = {
     "frameless": 0.42,

@@ -13,7 +13,7 @@ from grafu.synth.sampling.carpentry import Site
 from grafu.synth.sampling.casework import Build
 from grafu.synth.sampling.chance import between, chance, count, pick, weights
 from grafu.synth.sampling.style import Style, draw_style
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 LIVING: Mapping[TraditionName, float] = {
     "shaker": 0.22, "mid-century": 0.26, "minimal": 0.2, "ornate": 0.14, "flat-pack": 0.14, "frameless": 0.04

@@ -12,7 +12,7 @@ from grafu.synth.sampling.carpentry import Site
 from grafu.synth.sampling.casework import Build
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import draw_style, pushed
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 OFFICE: Mapping[TraditionName, float] = {"office": 0.5, "minimal": 0.2, "flat-pack": 0.2, "shaker": 0.1}
 STAND = Site(hand=0.9)

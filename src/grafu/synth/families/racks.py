@@ -15,7 +15,7 @@ from grafu.synth.sampling.carpentry import Site
 from grafu.synth.sampling.casework import Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import Style, draw_style
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 
 RACKS: Mapping[TraditionName, float] = {"minimal": 0.6, "flat-pack": 0.4}
 PLAIN = Build(

@@ -1,24 +1,28 @@
-"""All families of furniture: a table from name to weight and drawing function.
+"""All families of furniture: a table from name to weight and drawing function; and a drawn piece before it is made.
 
 The weights follow what PartNet-Mobility's StorageFurniture and Table hold: kitchen base and wall units about a third,
 sideboards, dressers and nightstands a quarter, wardrobes and tall units one in eight, TV furniture and shelves one in
-twelve each; tables and desks with drawers one in eight; the rest is there for variety.
+twelve each; tables and desks with drawers one in eight; the rest is there for variety. All chance lies in the drawing
+(`draw_blueprint`); a second table, from spec type to maker, makes what was drawn, deterministically.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
 
-from grafu.synth.cabinets.bureau import Bureau
-from grafu.synth.cabinets.cabinet import Cabinet
-from grafu.synth.cabinets.chest import Chest
-from grafu.synth.cabinets.corner import CornerCabinet
-from grafu.synth.cabinets.ensemble import Ensemble
-from grafu.synth.cabinets.inner_corner import InnerCorner
-from grafu.synth.cabinets.rack import Rack
+from grafu.asset.part import Asset
+from grafu.synth.cabinets.bureau import Bureau, make_bureau
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.chest import Chest, make_chest
+from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_cabinet, make_inner_corner
+from grafu.synth.cabinets.ensemble import Ensemble, make_ensemble
+from grafu.synth.cabinets.rack import Rack, make_rack
 from grafu.synth.families import bath, bedroom, bureaus, composed, corners, kitchen, living, office, racks, tables
-from grafu.synth.tables.desk import Desk
-from grafu.synth.tables.table import Table
+from grafu.synth.sampling.chance import pick
+from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.table import Table, make_table
 
 Spec = Cabinet | Table | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble | Bureau
 Draw = Callable[[np.random.Generator], Spec]
@@ -57,3 +61,60 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "fridge": (0.6, office.fridge),
     "oven": (0.8, office.oven),
 }
+
+
+ATTEMPTS = 50  # draws of one family before giving up: at a rejection rate of 20 % this never happens
+
+MAKERS: dict[type, Callable[[Any], Asset]] = {
+    Cabinet: make_cabinet,
+    Table: make_table,
+    Desk: make_desk,
+    Chest: make_chest,
+    CornerCabinet: make_corner_cabinet,
+    InnerCorner: make_inner_corner,
+    Rack: make_rack,
+    Ensemble: make_ensemble,
+    Bureau: make_bureau,
+}
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Blueprint:
+    """What one piece of furniture is to be."""
+
+    family: str
+    spec: Spec
+
+
+def draw_blueprint(rng: np.random.Generator, family: str | None = None) -> Blueprint:
+    """Returns a blueprint of a family drawn by its weight, or of the given one. Same generator state, same blueprint.
+
+    Raises:
+        ValueError: if there is no such family.
+    """
+    return draw_made(rng, family)[0]
+
+
+def draw_made(rng: np.random.Generator, family: str | None = None) -> tuple[Blueprint, Asset]:
+    """Returns a drawn blueprint and the asset made from it: draws that leave some part no room are drawn again."""
+    if family is not None and family not in FAMILIES:
+        raise ValueError(f"`family` must be one of {', '.join(FAMILIES)}: got {family!r}")
+    name = family or pick(rng, {key: weight for key, (weight, _) in FAMILIES.items()})
+    reason = ""
+    for _ in range(ATTEMPTS):
+        try:
+            blueprint = Blueprint(name, FAMILIES[name][1](rng))
+            return blueprint, make_furniture(blueprint)
+        except ValueError as error:
+            reason = str(error)
+    raise ValueError(f"`{name}` found no room in {ATTEMPTS} draws: {reason}")
+
+
+def make_furniture(blueprint: Blueprint) -> Asset:
+    """Returns the furniture, tidy, with true labels and true joints.
+
+    Raises:
+        ValueError: if the spec leaves some part no room.
+    """
+    return MAKERS[type(blueprint.spec)](blueprint.spec)

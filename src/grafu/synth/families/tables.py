@@ -15,7 +15,7 @@ from grafu.synth.sampling.carpentry import Site, fitted, needed_gap
 from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base, draw_leg
 from grafu.synth.sampling.chance import Span, between, chance, count, only, pick, spread, weights
 from grafu.synth.sampling.style import Style, draw_style, pushed
-from grafu.synth.sampling.tradition import TraditionName
+from grafu.synth.sampling.traditions import TraditionName
 from grafu.synth.tables.desk import Desk
 from grafu.synth.tables.table import Table
 

@@ -1,6 +1,11 @@
-"""The boxes behind drawer fronts: whole, of four walls, bottomless, shells, floating, trays, none. No cabinets here."""
+"""The boxes behind drawer fronts: whole, of four walls, bottomless, shells, floating, trays, none. No cabinets here.
+
+The tray behind a tilting front, as in shoe cabinets, is lifted as the front tilts about its lower front edge. Whatever
+stays within a circle about that pin that reaches the opening's top clears it at every angle.
+"""
 
 from dataclasses import replace
+from math import sqrt
 
 import numpy as np
 
@@ -8,7 +13,34 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.fronts.layout import DrawerBox, Rect
-from grafu.synth.pieces.shapes import board
+from grafu.synth.pieces.shapes import board, prism_along_x
+
+WALL = 0.006  # metres
+REACH = 0.28  # metres: as deep as a shoe needs
+CLEARANCE = 0.008  # metres below the opening's top
+
+
+def tray_meshes(inner: Rect, pin: tuple[float, float], behind: float, back: float) -> tuple[TriangleMesh, ...]:
+    """Returns two cheeks and an inclined floor between them.
+
+    `inner` is the clear opening in x and z; `pin` the (y, z) that the front turns about; the tray begins at the y
+    `behind` the front and stays before `back`.
+    """
+    low = inner.z0 + 0.01
+    radius = inner.z1 - CLEARANCE - pin[1]
+    high = low + 0.7 * (inner.z1 - low)
+    rise = 0.3 * (high - low)
+    reach = min(sqrt(max(radius**2 - (low + rise + WALL - pin[1]) ** 2, 0.0)), REACH)
+    end = min(pin[0] + reach, back - 0.01)
+    high = min(high, pin[1] + sqrt(max(radius**2 - (behind - pin[0]) ** 2, 0.0)))
+    cheek = ((behind, low), (end, low + rise), (end, low + rise + WALL), (behind, high))
+    floor = ((behind, low), (end, low + rise), (end, low + rise + WALL), (behind, low + WALL))
+    return (
+        prism_along_x(cheek, inner.x0, inner.x0 + WALL),
+        prism_along_x(cheek, inner.x1 - WALL, inner.x1),
+        prism_along_x(floor, inner.x0 + WALL, inner.x1 - WALL),
+    )
+
 
 _SHELL_FACES = np.array([0, 1, 6, 7, 8, 9, 10, 11])  # of a box mesh: bottom, back, left and right
 TRAY_RIM = 0.02  # metres that a tray's rim stands above its board

@@ -10,7 +10,7 @@ from math import pi
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.synth.fronts.drawer_box import drawer_box, tray_level
+from grafu.synth.fronts.drawer_box import drawer_box, tray_level, tray_meshes
 from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.fronts.interior import RUNNER, interior_pieces, runner_pieces
 from grafu.synth.fronts.layout import (
@@ -31,12 +31,11 @@ from grafu.synth.fronts.layout import (
     divide,
 )
 from grafu.synth.fronts.leaf_relief import bend_at_hinge
-from grafu.synth.fronts.leaves import LeafShape, leaf_surfaces
+from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.fronts.setting import Setting, front_rect, inner_span
-from grafu.synth.fronts.tilt import tray_meshes
-from grafu.synth.pieces.assembly import Motion, Piece
+from grafu.synth.pieces.assembly import Motion, Piece, plank
 from grafu.synth.pieces.finish import surface_of
-from grafu.synth.pieces.planks import plank
 from grafu.synth.pieces.shapes import board
 from grafu.vocabulary import JointType, PartLabel
 

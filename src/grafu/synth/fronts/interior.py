@@ -7,8 +7,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.synth.fronts.inside import Inside
 from grafu.synth.fronts.layout import Cell, Edge
 from grafu.synth.fronts.setting import Setting, inner_span
-from grafu.synth.pieces.assembly import Piece
-from grafu.synth.pieces.planks import Span, plank, solid
+from grafu.synth.pieces.assembly import Piece, Span, plank, solid
 from grafu.synth.pieces.shapes import rod
 from grafu.vocabulary import PartLabel
 

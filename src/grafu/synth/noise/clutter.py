@@ -18,8 +18,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
-from grafu.synth.noise.addition import Addition, block, sheet_of
-from grafu.synth.noise.runners import runners
+from grafu.synth.noise.addition import Addition, block, runners, sheet_of
 from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import BIRCH, STEEL
 from grafu.synth.pieces.shapes import turned

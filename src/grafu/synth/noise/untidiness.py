@@ -26,8 +26,8 @@ from grafu.synth.noise.segmentation import (
     with_joined,
     with_riders_joined,
 )
-from grafu.synth.noise.sheets import with_anchored_sheets
 from grafu.synth.noise.tessellation import Density
+from grafu.synth.noise.untidy import with_anchored_sheets
 from grafu.synth.specimen import Defect
 from grafu.vocabulary import PartLabel
 

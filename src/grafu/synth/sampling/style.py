@@ -1,7 +1,7 @@
-"""What one maker keeps the same over one piece of furniture: thicknesses, mount, leaves, handles. It places nothing.
+"""What one maker keeps the same over one piece of furniture: thicknesses, mount, leaves, handles, colours.
 
 `draw_style` draws a style within a tradition (`traditions`): choices that go together in real furniture are drawn
-together, once for the whole piece, so that all its doors look alike.
+together, once for the whole piece, so that all its doors look alike. It places nothing.
 """
 
 from collections.abc import Mapping
@@ -11,15 +11,44 @@ from typing import Literal, final
 
 import numpy as np
 
+from grafu.geometry.appearance import Material
 from grafu.synth.fronts.hold import Grip, HandleStyle
 from grafu.synth.fronts.layout import CURVED, Between, DrawerBox, LeafStyle
 from grafu.synth.fronts.setting import Mount
-from grafu.synth.pieces.finish import Finish
+from grafu.synth.pieces.finish import BEECH, BIRCH, GLASS, OAK, STEEL, Finish
 from grafu.synth.sampling.assortment import KNOBS
 from grafu.synth.sampling.chance import Span, between, chance, only, pick, spread
-from grafu.synth.sampling.finishes import draw_finish
-from grafu.synth.sampling.tradition import Tradition, TraditionName
-from grafu.synth.sampling.traditions import TRADITIONS
+from grafu.synth.sampling.traditions import TRADITIONS, Tradition, TraditionName
+
+WOODS = (
+    BEECH,
+    OAK,
+    BIRCH,
+    Material("walnut", (0.30, 0.19, 0.12, 1.0), roughness=0.6),
+    Material("mahogany", (0.36, 0.14, 0.09, 1.0), roughness=0.5),
+    Material("pine", (0.78, 0.60, 0.38, 1.0), roughness=0.75),
+)
+PAINTS = (
+    Material("white paint", (0.90, 0.90, 0.88, 1.0), roughness=0.5),
+    Material("grey paint", (0.55, 0.57, 0.58, 1.0), roughness=0.5),
+    Material("black paint", (0.10, 0.10, 0.11, 1.0), roughness=0.5),
+    Material("blue paint", (0.24, 0.34, 0.44, 1.0), roughness=0.5),
+    Material("green paint", (0.38, 0.46, 0.38, 1.0), roughness=0.5),
+)
+METALS = (
+    STEEL,
+    Material("brass", (0.71, 0.58, 0.30, 1.0), metallic=1.0, roughness=0.4),
+    Material("black metal", (0.08, 0.08, 0.08, 1.0), metallic=0.5, roughness=0.5),
+)
+
+
+def draw_finish(rng: np.random.Generator) -> Finish:
+    """Returns a finish: the case in one material, the fronts in the same (two in three) or another."""
+    materials = dict.fromkeys(WOODS + PAINTS, 1.0)
+    case = pick(rng, materials)
+    front = case if chance(rng, 0.65) else pick(rng, materials)
+    return Finish(case, front, case if chance(rng, 0.5) else BIRCH, pick(rng, dict.fromkeys(METALS, 1.0)), GLASS)
+
 
 Carry = Literal["reach", "middle", "corner", "top line", "middle line"]
 

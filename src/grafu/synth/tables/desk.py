@@ -15,9 +15,8 @@ from grafu.synth.case.legs import Leg
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Stack, divide
 from grafu.synth.fronts.setting import Mount, Setting
-from grafu.synth.pieces.assembly import Piece, assemble
+from grafu.synth.pieces.assembly import Piece, assemble, plank, solid
 from grafu.synth.pieces.finish import PLAIN, Finish
-from grafu.synth.pieces.planks import plank, solid
 from grafu.synth.tables.table_parts import on_top, table_leg, table_top
 from grafu.vocabulary import PartLabel
 

@@ -16,9 +16,8 @@ from grafu.synth.case.legs import Leg, LegShape, lean
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Row, divide
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Piece, assemble
+from grafu.synth.pieces.assembly import Piece, Span, assemble, both_sides, plank, solid
 from grafu.synth.pieces.finish import PLAIN, Finish
-from grafu.synth.pieces.planks import Span, both_sides, plank, solid
 from grafu.synth.pieces.shapes import arched_rail
 from grafu.synth.tables.table_parts import WITHIN_ROUND, Outline, mirror_pieces, on_top, table_legs, table_top
 from grafu.vocabulary import PartLabel

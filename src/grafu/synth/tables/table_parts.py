@@ -14,9 +14,8 @@ from grafu.synth.case.bases import CORNERS, METAL
 from grafu.synth.case.construction import Top, TopEdge
 from grafu.synth.case.legs import Leg, leg_meshes
 from grafu.synth.case.tops import top_meshes
-from grafu.synth.pieces.assembly import Piece
+from grafu.synth.pieces.assembly import Piece, plank, solid
 from grafu.synth.pieces.finish import Finish
-from grafu.synth.pieces.planks import plank, solid
 from grafu.synth.pieces.shapes import board, prism
 from grafu.vocabulary import PartLabel
 

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from grafu.synth.blueprint import Blueprint, draw_blueprint, draw_made, make_furniture
-from grafu.synth.families.table import FAMILIES
+from grafu.synth.families.table import FAMILIES, Blueprint, draw_blueprint, draw_made, make_furniture
 
 
 def test_the_same_generator_state_draws_the_same_blueprint():

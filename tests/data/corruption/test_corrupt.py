@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.data.corruption.config import PAPER, CorruptionConfig
-from grafu.data.fold import FOLDS, fold, folded
+from grafu.data.corruption.corrupt import FOLDS, fold, folded
+from grafu.data.furfun.split import Split, split_models, split_of
 from grafu.data.pair import GraphPair, natural_pair
-from grafu.data.split import Split, split_models, split_of
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import as_contacts, without_contacts
 from small_graphs import cabinet

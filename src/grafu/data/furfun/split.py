@@ -1,11 +1,21 @@
-"""Which models are learned from, chosen by and judged on: always by model, never by pair. It reads no files."""
+"""Which models are learned from, chosen by and judged on: always by model, never by pair.
+
+And the split files of a release, in and out (official.md 2.4).
+"""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from hashlib import blake2b
+from pathlib import Path
 from typing import Literal, final
 
 import numpy as np
+
+from grafu.asset.folders import is_within
+from grafu.data.furfun.graph_files import load_graph_json
+from grafu.errors import AssetError, GraphError
+from grafu.graph.json_values import Json, read_list
+from grafu.graph.serialize import dump_json
 
 SplitName = Literal["train", "val", "test"]
 SEED = 42  # the authors' (official.md 2.4)
@@ -52,3 +62,34 @@ def split_of(model_id: str, seed: int = SEED) -> SplitName:
     digest = blake2b(f"{seed}/{model_id}".encode(), digest_size=8).digest()
     place = int.from_bytes(digest, "little") / 2**64
     return "train" if place < _TRAIN else "val" if place < _TRAIN + _VAL else "test"
+
+
+SPLIT_NAMES = ("full_split", "subset_split")
+_KEYS = ("train_mids", "val_mids", "test_mids")
+
+
+def read_split(folder: Path, name: str) -> Split:
+    """Returns the split in `<name>.json`.
+
+    Raises:
+        AssetError: if there is none, or it names a model twice.
+        GraphError: if it is no JSON object of lists.
+    """
+    path = folder / f"{name}.json"
+    if Path(name).name != name or not path.is_file() or not is_within(path, folder):
+        there = ", ".join(sorted(file.stem for file in folder.glob("*.json"))) or "none"
+        raise AssetError(f"{folder} holds no split `{name}`: it has {there}")
+    data = load_graph_json(path)
+    try:
+        return Split(*(_ids(data, key) for key in _KEYS))
+    except (GraphError, ValueError) as error:
+        raise AssetError(f"{path}: {error}") from error
+
+
+def split_to_json(split: Split) -> str:
+    """Returns the text of a split file."""
+    return dump_json(dict(zip(_KEYS, (list(split.train), list(split.val), list(split.test)), strict=True)))
+
+
+def _ids(data: Json, key: str) -> tuple[str, ...]:
+    return tuple(str(model_id) for model_id in read_list(data, key, "a split"))
