@@ -132,6 +132,6 @@ def test_the_command_writes_a_blender_file(interpreter, tmp_path):
     arguments = ["functionalize", str(sample), "--out", str(tmp_path), "--formats", "blend", "--no-page"]
 
     assert main(arguments) == 0
-    written = ["graph.json", "model.blend", "report.json", "settings.json"]
+    written = [".grafu.json", "graph.json", "model.blend", "report.json", "settings.json"]
     assert sorted(os.listdir(tmp_path / "sideboard")) == written
     assert (tmp_path / "sideboard" / "model.blend").read_bytes()[:4] in (b"BLEN", b"\x28\xb5\x2f\xfd")  # plain or zstd
