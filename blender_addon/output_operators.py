@@ -13,16 +13,6 @@ from .state import session_of, settings_of, shown_slot, slots_in
 
 BLEND = "blend"
 USUAL = {"glb", "urdf", BLEND}
-_ABOUT = {
-    "glb": ("GLB", "Animated, with its materials: any glTF viewer"),
-    "urdf": ("URDF", "Joints, masses and collision shapes: any robot simulator"),
-    "mjcf": ("MJCF", "The same for MuJoCo"),
-    "usd": ("USD", "Physics and materials for OpenUSD: Isaac, Omniverse"),
-    "usdz": ("USDZ", "The same in one file"),
-    BLEND: ("Blend", "A file of its own with every joint on one property"),
-    "particulate": ("Particulate", "The files that Particulate reads"),
-    "singapo": ("SINGAPO", "The files that SINGAPO reads"),
-}
 _items: list = []
 
 
@@ -31,8 +21,8 @@ def format_items(_, __):
     if not _items:
         from grafu.export.formats import FORMATS
 
-        named = ((name, *_ABOUT.get(name, (name, ""))) for name in FORMATS)
-        _items.extend((*about, "NONE", 1 << number) for number, about in enumerate(named))
+        formats = enumerate(FORMATS.values())
+        _items.extend((one.name, one.title, one.about, "NONE", 1 << number) for number, one in formats)
     return _items
 
 

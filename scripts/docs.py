@@ -28,6 +28,7 @@ from stated.store import load_store
 
 from grafu import errors
 from grafu.asset import options
+from grafu.export.formats import FORMATS
 from grafu.pipeline import inspection, report_schema
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -124,6 +125,7 @@ def drawn_pages() -> dict[str, str]:
     within = {
         ("synthetic.md", "families"): families_table(),
         ("inputs.md", "limits"): limits_table(),
+        ("exports.md", "formats"): formats_table(),
         ("dataset.md", "strategies"): strategies_table(),
         ("training.md", "configurations"): training_configs(),
         ("training.md", "loss choices"): loss_choices(),
@@ -152,6 +154,16 @@ def with_tables(page: Path, tables: Mapping[str, str]) -> str:
 def between(table: str, found: re.Match[str]) -> str:
     """Returns a table between its marks."""
     return f"{found[1]}\n{table}\n\n{found[2]}" if not table.endswith("\n") else f"{found[1]}\n{table}\n{found[2]}"
+
+
+def formats_table() -> str:
+    """Returns the table of the formats that are written."""
+    rows = ["| `--formats` | files | what it is | needs |", "|---|---|---|---|"]
+    for one in FORMATS.values():
+        needs = f"`pip install 'grafu[{one.extra}]'`" if one.extra else "nothing more"
+        files = ", ".join(f"`{name}`" for name in one.files)
+        rows.append(f"| `{one.name}` | {files} | {one.title}: {one.about[0].lower()}{one.about[1:]} | {needs} |")
+    return "\n".join(rows) + "\n"
 
 
 def limits_table() -> str:

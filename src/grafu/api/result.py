@@ -115,7 +115,7 @@ class Result:
 
         Args:
             folder: the folder of this one result; missing parents are made.
-            formats: names of formats: glb, urdf, mjcf, usd, usdz, blend, particulate, singapo.
+            formats: names of formats; `grafu.export.formats.FORMATS` holds all.
             page: whether `report.html` is drawn.
             overwrite: whether an earlier result in the folder is replaced.
 

@@ -14,6 +14,7 @@ from grafu.cli.motion_option import motion_choice
 from grafu.cli.move_option import part_move, with_moves
 from grafu.cli.reading_limits import add_limit_option, with_limits
 from grafu.cli.settings_option import read_settings
+from grafu.export.formats import known_formats
 from grafu.pipeline.motion_source import MotionChoice
 from grafu.templates.available import open_gallery, open_handles
 
@@ -64,7 +65,10 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "or slides, or not; once for each part",
     )
     parser.add_argument(
-        "--formats", default="glb,urdf", metavar="LIST", help="what to write, separated by commas (default: glb,urdf)"
+        "--formats",
+        default="glb,urdf",
+        metavar="LIST",
+        help=f"what to write, separated by commas: {known_formats()} (default: glb,urdf)",
     )
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")

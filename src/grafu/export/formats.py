@@ -1,36 +1,113 @@
-"""One table from format names to exporters, each imported when it is used."""
+"""The one table of the formats that are written: command, `--resume`, library, pages and Blender extension read it.
+
+It imports nothing heavy: an exporter is imported when it is used. It writes no file: exporters return names and bytes.
+"""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from importlib import import_module
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias, final
 
-from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.errors import ExportError
-from grafu.export.files import ExportFiles
 
-Exporter = Callable[[ArticulatedObject], ExportFiles]
+if TYPE_CHECKING:
+    from grafu.articulation.articulated_object import ArticulatedObject
+    from grafu.export.files import ExportFiles
 
-FORMATS = MappingProxyType(
-    {
-        "glb": ("grafu.export.glb", "export_glb"),
-        "urdf": ("grafu.export.urdf", "export_urdf"),
-        "mjcf": ("grafu.export.mjcf", "export_mjcf"),
-        "usd": ("grafu.export.usd.exporter", "export_usd"),
-        "usdz": ("grafu.export.usd.exporter", "export_usdz"),
-        "particulate": ("grafu.export.particulate", "export_particulate"),
-        "singapo": ("grafu.export.singapo", "export_singapo"),
-        "blend": ("grafu.export.blend.exporter", "export_blend"),
-    }
+Exporter: TypeAlias = "Callable[[ArticulatedObject], ExportFiles]"
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A format that is written.
+
+    `name` is what `--formats` takes, `title` what people call it, `about` what is in it and for whom. `files` are the
+    names that it writes; a folder ends with `/`. `exporter` and `requirement` are `module:function`; `requirement`
+    raises `ExportError` where what the format needs besides is not installed, and `extra` is the extra of the package
+    that brings it (`pip install 'grafu[EXTRA]'`); both are empty where nothing more is needed.
+    """
+
+    name: str
+    title: str
+    about: str
+    files: tuple[str, ...]
+    exporter: str
+    extra: str = ""
+    requirement: str = ""
+
+
+_ALL = (
+    Format(
+        "glb",
+        "GLB",
+        "Animated, with its materials: any glTF viewer",
+        ("model.glb",),
+        "grafu.export.glb:export_glb",
+    ),
+    Format(
+        "urdf",
+        "URDF",
+        "Joints, masses and collision shapes: any robot simulator",
+        ("model.urdf", "meshes/"),
+        "grafu.export.urdf:export_urdf",
+    ),
+    Format(
+        "mjcf",
+        "MJCF",
+        "The same for MuJoCo",
+        ("model.xml", "meshes/"),
+        "grafu.export.mjcf:export_mjcf",
+    ),
+    Format(
+        "usd",
+        "USD",
+        "Physics and materials for OpenUSD: Isaac Sim, Omniverse",
+        ("model.usdc", "textures/"),
+        "grafu.export.usd.exporter:export_usd",
+        "usd",
+        "grafu.export.usd.exporter:require_pxr",
+    ),
+    Format(
+        "usdz",
+        "USDZ",
+        "The same in one file",
+        ("model.usdz",),
+        "grafu.export.usd.exporter:export_usdz",
+        "usd",
+        "grafu.export.usd.exporter:require_pxr",
+    ),
+    Format(
+        "particulate",
+        "Particulate",
+        "The files that Particulate reads",
+        ("eval/",),
+        "grafu.export.particulate:export_particulate",
+    ),
+    Format(
+        "singapo",
+        "SINGAPO",
+        "The files that SINGAPO reads",
+        ("object.json", "objs/"),
+        "grafu.export.singapo:export_singapo",
+    ),
+    Format(
+        "blend",
+        "Blend",
+        "A Blender file with every joint on one property",
+        ("model.blend",),
+        "grafu.export.blend.exporter:export_blend",
+        "blender",
+        "grafu.export.blend.exporter:find_interpreter",
+    ),
 )
-_NEEDS = MappingProxyType(
-    {
-        "blend": ("grafu.export.blend.exporter", "find_interpreter"),
-        "usd": ("grafu.export.usd.exporter", "require_pxr"),
-        "usdz": ("grafu.export.usd.exporter", "require_pxr"),
-    }
-)
-"""What finds, or else refuses, what an optional format cannot do without."""
+FORMATS = MappingProxyType({one.name: one for one in _ALL})
+
+
+def known_formats() -> str:
+    """Returns the names of all formats, for people: `glb, urdf, ...`."""
+    return ", ".join(FORMATS)
 
 
 def exporter_for(name: str) -> Exporter:
@@ -40,19 +117,22 @@ def exporter_for(name: str) -> Exporter:
         ExportError: if the format is not in the table, or what it needs is not installed.
     """
     if name.lower() not in FORMATS:
-        raise ExportError(f"unknown format `{name}`: known formats are {', '.join(FORMATS)}")
-    if name.lower() in _NEEDS:
-        _found(*_NEEDS[name.lower()])()
-    exporter: Exporter = _found(*FORMATS[name.lower()])
+        raise ExportError(f"unknown format `{name}`: known formats are {known_formats()}")
+    found = FORMATS[name.lower()]
+    if found.requirement:
+        _found(found.requirement)()
+    exporter: Exporter = _found(found.exporter)
     return exporter
 
 
-def export(articulated: ArticulatedObject, formats: Sequence[str]) -> ExportFiles:
+def export(articulated: "ArticulatedObject", formats: Sequence[str]) -> "ExportFiles":
     """Returns the files of all the formats named, together; their `formats` say which are whose.
 
     Raises:
         ExportError: if a format is unknown or cannot say what the object holds.
     """
+    from grafu.export.files import ExportFiles
+
     exporters = [exporter_for(name) for name in formats]
     files = ExportFiles({})
     for name, exporter in zip(formats, exporters, strict=True):
@@ -61,6 +141,7 @@ def export(articulated: ArticulatedObject, formats: Sequence[str]) -> ExportFile
     return files
 
 
-def _found(module: str, function: str) -> Callable[..., Any]:
+def _found(place: str) -> Callable[..., Any]:
+    module, function = place.split(":")
     found: Callable[..., Any] = getattr(import_module(module), function)
     return found
