@@ -162,7 +162,7 @@ def formats_table() -> str:
     for one in FORMATS.values():
         needs = f"`pip install 'grafu[{one.extra}]'`" if one.extra else "nothing more"
         files = ", ".join(f"`{name}`" for name in one.files)
-        rows.append(f"| `{one.name}` | {files} | {one.title}: {one.about[0].lower()}{one.about[1:]} | {needs} |")
+        rows.append(f"| `{one.name}` | {files} | {one.about} | {needs} |")
     return "\n".join(rows) + "\n"
 
 

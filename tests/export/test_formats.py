@@ -15,7 +15,7 @@ def test_every_format_of_the_table_exports(cabinet):
             assert one.extra
         else:
             written = exporter_for(name)(cabinet).names
-            assert {_top(file) for file in written} == {file for file in one.files}
+            assert {_top(file) for file in written} == set(one.files)
 
 
 def _top(file: str) -> str:

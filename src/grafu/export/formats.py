@@ -56,14 +56,14 @@ _ALL = (
     Format(
         "mjcf",
         "MJCF",
-        "The same for MuJoCo",
+        "Joints, masses, contacts and keyframes: MuJoCo",
         ("model.xml", "meshes/"),
         "grafu.export.mjcf:export_mjcf",
     ),
     Format(
         "usd",
         "USD",
-        "Physics and materials for OpenUSD: Isaac Sim, Omniverse",
+        "OpenUSD with physics and materials: Isaac Sim, Omniverse",
         ("model.usdc", "textures/"),
         "grafu.export.usd.exporter:export_usd",
         "usd",
@@ -72,7 +72,7 @@ _ALL = (
     Format(
         "usdz",
         "USDZ",
-        "The same in one file",
+        "The USD scene in one file: viewers",
         ("model.usdz",),
         "grafu.export.usd.exporter:export_usdz",
         "usd",
@@ -81,14 +81,14 @@ _ALL = (
     Format(
         "particulate",
         "Particulate",
-        "The files that Particulate reads",
+        "Prediction files in the form of Particulate",
         ("eval/",),
         "grafu.export.particulate:export_particulate",
     ),
     Format(
         "singapo",
         "SINGAPO",
-        "The files that SINGAPO reads",
+        "Object folder in the form of SINGAPO",
         ("object.json", "objs/"),
         "grafu.export.singapo:export_singapo",
     ),
