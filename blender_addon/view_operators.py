@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from . import objects
 from .state import session_of
 
-# Set apart by hue, movers strongest; linear RGB.
+# Set apart by hue, moving bodies strongest; linear RGB.
 COLOURS = {
     "door": (0.80, 0.25, 0.10),
     "drawer": (0.10, 0.35, 0.80),

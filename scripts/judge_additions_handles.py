@@ -1,4 +1,4 @@
-"""What is wrong with how movers are grasped: sweeps of handles with fcl over an object, for `judge_additions.py`."""
+"""Faults of how moving bodies can be grasped: sweeps of handles with fcl over an object, for `judge_additions.py`."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -22,7 +22,7 @@ MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 
 
 def grasp_faults(result: Functionalized) -> Iterator[str]:
-    """Yields movers that nothing can be grasped of, and those with more handles than they need."""
+    """Yields moving bodies that nothing can be grasped of, and those with more handles than they need."""
     grasps = {joint.part: joint.grasp for joint in report_of(result).joints}
     factor = size_factor(largest_side(result.object))
     for joint in result.object.joints:
@@ -39,7 +39,7 @@ def grasp_faults(result: Functionalized) -> Iterator[str]:
 
 
 def handle_faults(result: Functionalized) -> Iterator[str]:
-    """Yields added handles that cut into anything on their way, or that other movers run into on theirs.
+    """Yields added handles that cut into anything on their way, or that other moving bodies run into on theirs.
 
     What a joint waits for is open as far as it goes; all else rests.
     """
@@ -87,18 +87,18 @@ def _met(handle: TriangleMesh, joint: Joint, around: Any, skin: float) -> list[s
     return sorted(found)
 
 
-def _strikes(mover: Joint, handle: Visual, result: Functionalized) -> bool:
-    """Whether a mover runs into a handle that rests; seen from the mover, the handle takes the way backwards."""
+def _strikes(moving: Joint, handle: Visual, result: Functionalized) -> bool:
+    """Whether a moving body hits a handle at rest; in the frame of the body, the handle moves backwards."""
     articulated = result.object
     own = next(joint for joint in articulated.joints if handle in articulated.link(joint.child).visuals)
-    values = values_before(articulated, mover.id)
-    if values[own.id] != own.limits.lower or not len(articulated.link(mover.child).mesh.faces):
+    values = values_before(articulated, moving.id)
+    if values[own.id] != own.limits.lower or not len(articulated.link(moving.child).mesh.faces):
         return False  # the handle is out of the way by then
     manager = MANAGER()
-    manager.add_object(mover.child, articulated.link(mover.child).mesh.to_trimesh())
+    manager.add_object(moving.child, articulated.link(moving.child).mesh.to_trimesh())
     body, skin = handle.mesh.to_trimesh(), SKIN * largest_side(articulated)
-    for value in np.linspace(mover.limits.lower, mover.limits.upper, POSES):
-        T = np.linalg.inv(mover.motion(float(value)))
+    for value in np.linspace(moving.limits.lower, moving.limits.upper, POSES):
+        T = np.linalg.inv(moving.motion(float(value)))
         hit, contacts = manager.in_collision_single(body, transform=T, return_data=True)
         if hit and any(contact.depth > skin for contact in contacts):
             return True

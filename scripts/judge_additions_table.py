@@ -22,7 +22,7 @@ class Verdict:
     tops: int  # added
     covered: float | None  # share of the plan under the top that replaces its own; None: it has none to take away
     top_faults: list[str]
-    movers: int
+    moving_bodies: int
     handles: int
     grips: int
     grasp_faults: list[str]  # not graspable, or several handles where one is enough
@@ -49,19 +49,19 @@ def crashed(name: str, error: BaseException) -> Verdict:
     why = f"{type(error).__name__}: {error}"
     nothing: dict[str, Any] = {"top_faults": [], "grasp_faults": [], "handle_faults": [], "joint_faults": []}
     inside: dict[str, Any] = {"panels": [0] * len(INTERIORS), "refusals": [], "rooms": [], "interior_faults": []}
-    counts: dict[str, Any] = {"tops": 0, "movers": 0, "handles": 0, "grips": 0, "boards": 0, "waiting": 0}
+    counts: dict[str, Any] = {"tops": 0, "moving bodies": 0, "handles": 0, "grips": 0, "boards": 0, "waiting": 0}
     return Verdict(name, [], covered=None, seconds=0.0, crash=why, **counts, **nothing, **inside)
 
 
 def table(found: Sequence[Verdict], whole: bool) -> str:
     """Returns the figures as a table, and summed up; `whole`: also those without a fault."""
-    head = "| piece | tops | cover | movers | handles | grips | panels | boards | s | faults |"
+    head = "| piece | tops | cover | moving bodies | handles | grips | panels | boards | s | faults |"
     lines = [head, "|---" * 10 + "|"]
     for one in found:
         if whole or one.faults:
             cover = "" if one.covered is None else f"{one.covered:.1%}"
             counts = " / ".join(map(str, one.panels))
-            cells = [one.name, one.tops, cover, one.movers, one.handles, one.grips, counts, one.boards]
+            cells = [one.name, one.tops, cover, one.moving_bodies, one.handles, one.grips, counts, one.boards]
             lines.append(f"| {' | '.join(map(str, cells))} | {one.seconds:.2f} | {'; '.join(one.faults)} |")
     topped = [one.covered for one in found if one.covered is not None]
     seconds = [one.seconds for one in found]
@@ -69,15 +69,15 @@ def table(found: Sequence[Verdict], whole: bool) -> str:
     looked_into = [one for one in found if "interior" in one.kinds]
     empty = [one for one in looked_into if not any(one.panels)]
     refusals = Counter(_kind_of(why) for one in found for why in one.refusals)
-    movers, tops = sum(one.movers for one in found), sum(one.tops for one in found)
+    moving_bodies, tops = sum(one.moving_bodies for one in found), sum(one.tops for one in found)
     lines += [
         "",
         f"- {sum(bool(one.crash) for one in found)} could not be judged.",
-        f"- {len(found)} pieces, {movers} movers, {tops} tops added.",
+        f"- {len(found)} pieces, {moving_bodies} moving bodies, {tops} tops added.",
         f"- Without their own tops: {sum(c >= COVERED for c in topped)} of {len(topped)} get one that covers "
         f"{COVERED:.0%} (least {min(topped, default=1.0):.1%}).",
         f"- Panels for {', '.join(INTERIORS)}: {', '.join(map(str, panels))}.",
-        f"- {sum(one.waiting for one in found)} movers with a new handle wait for another to open.",
+        f"- {sum(one.waiting for one in found)} moving bodies with a new handle wait for another to open.",
         f"- {len(looked_into) - len(empty)} pieces get panels, {len(empty)} none; rays find an empty room in "
         f"{sum(bool(one.rooms) for one in empty)} of those:",
         *(

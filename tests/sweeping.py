@@ -15,7 +15,7 @@ def joint_motion(joint: AnnotatedJoint, value: float) -> Mat4:
     return joint.axis.rotation(value) if joint.type is JointType.REVOLUTE else joint.axis.shift(value)
 
 
-def movers(asset: Asset, part_id: str) -> list[Part]:
+def moving_bodies(asset: Asset, part_id: str) -> list[Part]:
     return [p for p in asset.parts if p.id == part_id or p.rides_on == part_id]
 
 
@@ -23,7 +23,7 @@ def collisions(asset: Asset, part_id: str, values=None, ignored: frozenset[str] 
     """Returns the parts hit and the deepest penetration in metres, over joint values (default 12 from 3 % to full)."""
     joint = next(j for j in asset.joints if j.part == part_id)
     values = np.linspace(0.03, 1.0, 12) * joint.upper if values is None else values
-    moving = movers(asset, part_id)
+    moving = moving_bodies(asset, part_id)
     still = trimesh.collision.CollisionManager()
     for part in asset.parts:
         if part not in moving and part.id not in ignored:

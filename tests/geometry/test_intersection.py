@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from grafu.geometry import intersection
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, MovingBody, share_shape, shrunk
+from grafu.geometry.intersection import MeshCollider, SweptBody, share_shape, shrunk
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 
@@ -27,9 +27,9 @@ WALL_MESH = box_mesh((1.0, -5.0, -5.0), (2.0, 5.0, 5.0))
 WALL = MeshCollider(WALL_MESH)
 
 
-def cube_body(reach: float, depth: float = DEPTH) -> MovingBody:
+def cube_body(reach: float, depth: float = DEPTH) -> SweptBody:
     """A cube whose +X face lies `reach` metres inside the wall."""
-    body = MovingBody(box_mesh((0.0, 0.0, 0.0), (1.0 + reach, 1.0, 1.0)), depth)
+    body = SweptBody(box_mesh((0.0, 0.0, 0.0), (1.0 + reach, 1.0, 1.0)), depth)
     body.place(HOME)
     return body
 
@@ -118,7 +118,7 @@ def test_within_reach_is_what_is_no_farther(gap, reach):
 def test_a_body_of_pieces_is_what_it_is_as_one(reach):
     pieces = [box_mesh((0.0, 0.0, 0.0), (0.4, 1.0, 1.0)), box_mesh((0.3, 0.0, 0.0), (1.0 + reach, 1.0, 1.0))]
     whole = merge_meshes(pieces)
-    bodies = [MovingBody(whole, DEPTH), MovingBody(whole, DEPTH, pieces=pieces)]
+    bodies = [SweptBody(whole, DEPTH), SweptBody(whole, DEPTH, pieces=pieces)]
     for body in bodies:
         body.place(HOME)
     assert bodies[0].touches(WALL) == bodies[1].touches(WALL)
@@ -134,7 +134,7 @@ def test_a_cut_deeper_than_the_depth_is_more_than_a_touch(reach, cuts):
 
 
 def test_gliding_along_a_wall_is_a_touch_all_the_way():
-    body = MovingBody(CUBE, DEPTH)
+    body = SweptBody(CUBE, DEPTH)
     for shift in np.linspace(0.0, 3.0, 13):
         body.place(translation(vec3(0.0, shift, 0.0)))
         assert body.touches(WALL)
@@ -146,7 +146,7 @@ def test_a_body_wedged_between_two_walls_penetrates_though_each_alone_would_let_
     near, far = MeshCollider(box_mesh((-1.0, -5.0, -5.0), (0.15, 5.0, 5.0))), WALL
     assert not body.penetrates(far)
     assert body.penetrated([far, near]) == [1]  # the near wall is cut deep
-    tight = MovingBody(box_mesh((-1.5 * DEPTH, 0.0, 0.0), (1.0 + 1.5 * DEPTH, 1.0, 1.0)), DEPTH)
+    tight = SweptBody(box_mesh((-1.5 * DEPTH, 0.0, 0.0), (1.0 + 1.5 * DEPTH, 1.0, 1.0)), DEPTH)
     tight.place(HOME)
     left = MeshCollider(box_mesh((-1.0, -5.0, -5.0), (0.0, 5.0, 5.0)))
     assert not tight.penetrates(left)
@@ -159,7 +159,7 @@ def test_the_axes_of_a_turned_body_decide_what_is_flush():
     T = from_rotation(R)
     wall = MeshCollider(box_mesh((1.0, -5.0, -5.0), (2.0, 5.0, 5.0)).transformed(T))
     turned = box_mesh((0.0, 0.0, 0.0), (1.0 + 1e-4, 1.0, 1.0)).transformed(T)
-    body = MovingBody(turned, DEPTH, R)
+    body = SweptBody(turned, DEPTH, R)
     body.place(HOME)
     assert body.touches(wall)
     assert not body.penetrates(wall)

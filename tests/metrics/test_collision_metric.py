@@ -74,7 +74,7 @@ def test_a_thin_body_wedged_between_two_obstacles_collides(sides, collides):
     links = [Link(name, (visual(name, *boxes[name]),)) for name in sides]
     joints = [Joint(f"j_{name}", JointType.PRISMATIC, "case", name, OUT, JointLimits(0.0, 0.05)) for name in sides]
     clamped = ArticulatedObject("box", "case", (*sheet.links, *links), (*sheet.joints, *joints))
-    assert collision_shares(clamped, CollisionConfig(tolerance=0.001, movers=True))["slide"] == collides
+    assert collision_shares(clamped, CollisionConfig(tolerance=0.001, moving_bodies=True))["slide"] == collides
 
 
 def test_hardware_counts_where_asked():
@@ -84,14 +84,14 @@ def test_hardware_counts_where_asked():
     assert mean_collision(free, CollisionConfig(hardware=True)) == 1.0
 
 
-def test_other_movers_count_where_asked():
+def test_other_bodies_count_where_asked():
     free = slider([0.3, 0.1, 0.3], [0.6, 0.9, 0.6], [0, -1, 0], 0.5)
     other = Link("other", (visual("other", [0.3, -0.2, 0.3], [0.6, -0.1, 0.6]),))
     axis = Axis(np.zeros(3), np.array([1.0, 0.0, 0.0]))
     joint = Joint("aside", JointType.PRISMATIC, "case", "other", axis, JointLimits(0.0, 0.5))
     both = ArticulatedObject("box", "case", (*free.links, other), (*free.joints, joint))
     assert collision_shares(both)["slide"] == 0.0
-    assert collision_shares(both, CollisionConfig(movers=True))["slide"] > 0.3
+    assert collision_shares(both, CollisionConfig(moving_bodies=True))["slide"] > 0.3
 
 
 def test_a_joint_that_waits_starts_where_the_other_is_open():
@@ -102,7 +102,7 @@ def test_a_joint_that_waits_starts_where_the_other_is_open():
     slide = free.joints[0]
     waiting = Joint(slide.id, slide.type, "case", "block", slide.axis, slide.limits, ("aside",))
     both = ArticulatedObject("box", "case", (*free.links, other), (waiting, joint))
-    assert collision_shares(both, CollisionConfig(movers=True))["slide"] == 0.0
+    assert collision_shares(both, CollisionConfig(moving_bodies=True))["slide"] == 0.0
 
 
 def test_a_handle_fixed_to_a_drawer_moves_with_it():

@@ -79,7 +79,7 @@ def test_when_time_is_up_before_joints_the_piece_is_still_delivered(asset: Asset
 
 
 @pytest.mark.parametrize("asks", [1.0, 40.0, 600.0, 1500.0])
-def test_whenever_time_is_up_every_mover_is_built_or_answered_for(asset: Asset, asks: float) -> None:
+def test_whenever_time_is_up_every_moving_body_is_built_or_answered_for(asset: Asset, asks: float) -> None:
     found = run(asset, Budget.lasting(asks, clock=Clock(step=1.0)))
     moving = {joint.child for joint in found.object.joints}
     assert moving | {skip.request for skip in report_of(found).skipped} >= {DOOR, DRAWER}

@@ -121,12 +121,12 @@ def added(result: Functionalized) -> dict[str, str]:
     return {a.part.id: a.style for a in result.additions}
 
 
-def movers(result: Functionalized) -> dict[str, str]:
+def moving_bodies(result: Functionalized) -> dict[str, str]:
     return {made.type.value: made.moving for made in result.report.installed}
 
 
 def test_joints_are_built_as_chosen(asset):
-    door = movers(run(asset, BASE))["revolute"]
+    door = moving_bodies(run(asset, BASE))["revolute"]
     made = {
         m.moving: m
         for m in run(asset, BASE.with_joint(door, JointChoice(template="piano", opening=1.0))).report.installed
@@ -137,7 +137,7 @@ def test_joints_are_built_as_chosen(asset):
 @pytest.mark.parametrize("count", [1, 2, 3])
 @pytest.mark.parametrize("style", ["knob-round", "bar-strip"])
 def test_a_drawer_gets_the_handles_that_are_chosen_instead_of_its_own(asset, style, count):
-    drawer = movers(run(asset, BASE))["prismatic"]
+    drawer = moving_bodies(run(asset, BASE))["prismatic"]
     own = [p.id for p in asset.parts if p.rides_on == drawer and p.label is PartLabel.HANDLE]
     result = run(asset, BASE.with_front(drawer, HandleChoice(style, count)))
     names = {visual.name for visual in result.object.link(drawer).visuals}
@@ -152,7 +152,7 @@ def test_a_drawer_gets_the_handles_that_are_chosen_instead_of_its_own(asset, sty
 
 
 def test_offsets_move_a_handle_and_never_off_its_front(asset):
-    door = movers(run(asset, BASE))["revolute"]
+    door = moving_bodies(run(asset, BASE))["revolute"]
     box = asset.part(door).box
     places = {}
     for up in (0.0, -0.1, -9.0):
@@ -167,7 +167,7 @@ def test_offsets_move_a_handle_and_never_off_its_front(asset):
 
 
 def test_a_front_can_be_left_without_or_be_carved(asset):
-    door = movers(run(asset, BASE))["revolute"]
+    door = moving_bodies(run(asset, BASE))["revolute"]
     bare = run(asset, BASE.with_front(door, HandleChoice("none")))
     assert not [a for a in bare.additions if a.part.rides_on == door]
     assert {j.part: j.grasp for j in report_of(bare).joints}[door] == "none"
@@ -222,7 +222,7 @@ def test_corrected_labels_change_what_is_built_and_say_who_said_so(asset):
 
 
 def test_a_chosen_opening_is_no_wider_than_what_is_free(asset):
-    door = movers(run(asset, BASE))["revolute"]
+    door = moving_bodies(run(asset, BASE))["revolute"]
     made = run(asset, BASE.with_joint(door, JointChoice(opening=radians(170), mechanism=MechanismClass.F)))
     joint = made.object.joint_of.get(door)
     assert joint is None or joint.limits.upper <= radians(170)

@@ -9,7 +9,7 @@ import numpy as np
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.box import Box
-from grafu.realization.scene import Mover, Scene, Way
+from grafu.realization.scene import MovingBody, Scene, Way
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Layout
@@ -18,9 +18,9 @@ from grafu.vocabulary import JointType, PartLabel
 
 def scene_of(asset: Asset) -> Scene:
     riders = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
-    movers = {part: Mover(part, (part, *ids)) for part, ids in riders.items()}
+    moving_bodies = {part: MovingBody(part, (part, *ids)) for part, ids in riders.items()}
     ways = {j.part: Way(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
-    return Scene({p.id: p for p in asset.parts}, movers, asset.unit, ways=ways)
+    return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.unit, ways=ways)
 
 
 def doors_before(asset: Asset, joint: AnnotatedJoint) -> tuple[str, ...]:

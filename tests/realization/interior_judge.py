@@ -18,22 +18,22 @@ def faults_of_panels(additions: Sequence[Addition], scene: Scene, skin: float | 
 
 
 def _standing(additions: Sequence[Addition], scene: Scene) -> ArticulatedObject:
-    """The scene with what was added, its movers on joints."""
+    """The scene with what was added, its moving bodies on joints."""
     parts = {**{p.id: p for p in scene.static_parts}, **{a.part.id: a.part for a in additions}}
     still = [Visual(p.id, p.surfaces, VisualRole.PART, p.label) for p in parts.values()]
     links = [Link("static body", (*still, *(visual for owner, visual in scene.hardware if not owner)))]
     joints = []
-    for mover in scene.movers.values():
-        members = (scene.parts[member] for member in mover.members)
+    for moving in scene.moving_bodies.values():
+        members = (scene.parts[member] for member in moving.members)
         riding = [Visual(p.id, p.surfaces, VisualRole.PART, p.label) for p in members]
-        links.append(Link(mover.id, (*riding, *scene.hardware_of(mover.id))))
-        joints.append(_joint(mover.id, scene))
+        links.append(Link(moving.id, (*riding, *scene.hardware_of(moving.id))))
+        joints.append(_joint(moving.id, scene))
     return ArticulatedObject("scene", "static body", tuple(links), tuple(joints))
 
 
-def _joint(mover: str, scene: Scene) -> Joint:
-    way = scene.ways.get(mover)
+def _joint(moving: str, scene: Scene) -> Joint:
+    way = scene.ways.get(moving)
     if way is None:
         anywhere = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
-        return Joint(mover, JointType.FIXED, "static body", mover, anywhere, JointLimits(0.0, 0.0))
-    return Joint(mover, way.type, "static body", mover, way.axis, JointLimits(0.0, way.upper))
+        return Joint(moving, JointType.FIXED, "static body", moving, anywhere, JointLimits(0.0, 0.0))
+    return Joint(moving, way.type, "static body", moving, way.axis, JointLimits(0.0, way.upper))

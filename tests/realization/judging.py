@@ -46,12 +46,12 @@ def true_joints(asset: Asset) -> dict[str, AnnotatedJoint]:
     return {joint.part: joint for joint in asset.joints}
 
 
-def hardware(result: Realized, mover: str) -> tuple[list[Visual], list[Visual]]:
-    """The hardware of one mover: what moves with it, and what stands still."""
+def hardware(result: Realized, moving_id: str) -> tuple[list[Visual], list[Visual]]:
+    """The hardware of one moving body: what moves with it, and what stands still."""
     obj = result.object
-    moving = [v for v in obj.link(mover).visuals if v.role is VisualRole.HARDWARE]
-    # static pieces are found by the mover's name, whole words only: door_1 is not door_10
-    still = [v for v in obj.link(obj.root).visuals if v.role is VisualRole.HARDWARE and f"_{mover}_" in v.name]
+    moving = [v for v in obj.link(moving_id).visuals if v.role is VisualRole.HARDWARE]
+    # static pieces are found by the moving body's name, whole words only: door_1 is not door_10
+    still = [v for v in obj.link(obj.root).visuals if v.role is VisualRole.HARDWARE and f"_{moving_id}_" in v.name]
     return moving, still
 
 
@@ -60,7 +60,7 @@ def swept_collisions(obj: ArticulatedObject, joint: Joint, poses: int = 50) -> d
     asset = _without_hardware(obj)
     others = frozenset(
         v.name for link in obj.links if link.id not in (obj.root, joint.child) for v in link.visuals
-    )  # other movers: `after` says when they are out of the way
+    )  # other moving bodies: `after` says when they are out of the way
     return collisions(asset, joint.child, np.linspace(0.0, joint.limits.upper, poses), others)
 
 
@@ -82,11 +82,11 @@ def _carrier(obj: ArticulatedObject, link: str, part: str) -> str | None:
 def deepest_cut(moving: list[Visual], still: list[Visual], joint: Joint, poses: int = 9) -> float:
     """How deep solids of the one side cut into those of the other, metres: the thin side of the largest overlap."""
     bodies = [(s.mesh, solid(s.mesh)) for v in still for s in v.surfaces]
-    movers = [(s.mesh, solid(s.mesh)) for v in moving for s in v.surfaces]
+    solids = [(s.mesh, solid(s.mesh)) for v in moving for s in v.surfaces]
     deepest = 0.0
     for value in np.linspace(0.0, joint.limits.upper, poses):
         T = joint.motion(float(value))
-        for mesh, body in movers:
+        for mesh, body in solids:
             box = mesh.transformed(T).box
             near = [other for still_mesh, other in bodies if still_mesh.box.overlaps(box)]
             turned = body.transform(T[:3])

@@ -10,7 +10,7 @@ from small_scenes import box, hinged, scene, sliding
 
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.realization.carcass.complete import complete_carcass
 from grafu.realization.carcass.lacks import carcass_lacks
 from grafu.realization.motion_source import plan_from_annotation
@@ -66,7 +66,7 @@ def test_what_is_taken_away_is_missed_and_closed_again(label, layout, mount):
     for addition in made.additions:
         board = addition.part.mesh
         assert addition.part.rides_on is None
-        body = MovingBody(board, 5e-4)
+        body = SweptBody(board, 5e-4)
         assert [p.id for p in asset.parts if body.penetrates(MeshCollider(p.mesh))] == []
         still = [p for p in asset.parts if not p.label.is_movable and p.rides_on is None]
         assert min(MeshCollider(board).distance(MeshCollider(p.mesh)) for p in still) < 1e-3

@@ -34,7 +34,7 @@ def side_by_side(layouts: tuple[Layout, ...], mount: str) -> Asset:
 
 
 def meeting(result: Realized) -> list[tuple[str, str]]:
-    """Pairs of movers that cut into each other where everything is open."""
+    """Pairs of moving bodies that cut into each other where everything is open."""
     joints = result.object.moving_joints
     open_ = {
         j.child: MeshCollider(result.object.link(j.child).body_mesh.transformed(j.motion(j.limits.upper)))

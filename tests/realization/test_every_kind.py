@@ -28,8 +28,8 @@ def test_each_door_and_drawer_gets_a_joint_of_its_type(kind):
 def test_no_part_is_lost_and_riders_ride(kind):
     asset, obj = made_kind(kind), realized_kind(kind).object
     link_of = {v.name: link.id for link in obj.links for v in link.visuals if v.role is not VisualRole.HARDWARE}
-    movers = set(true_joints(asset))
-    assert link_of == {p.id: p.rides_on or (p.id if p.id in movers else obj.root) for p in asset.parts}
+    moving_bodies = set(true_joints(asset))
+    assert link_of == {p.id: p.rides_on or (p.id if p.id in moving_bodies else obj.root) for p in asset.parts}
 
 
 @every_kind
@@ -60,7 +60,7 @@ def test_each_axis_points_the_true_way_along_the_true_border(kind):
 
 
 @every_kind
-def test_every_mover_stays_connected_through_anchored_hardware(kind):
+def test_every_moving_body_stays_connected_through_anchored_hardware(kind):
     obj = realized_kind(kind).object
     gaps = largest_gaps(obj, ConnectivityConfig(poses=4))
     assert max(gaps.values()) <= 0.001 * made_kind(kind).unit

@@ -8,7 +8,7 @@ from small_scenes import DOOR, SIDE, box, hinged, scene
 def test_the_final_scene_says_how_every_joint_opens() -> None:
     result = realized_kind("drawers behind a pair")
     final = result.scene
-    assert set(final.movers) == set(final.ways) == {joint.child for joint in result.object.joints}
+    assert set(final.moving_bodies) == set(final.ways) == {joint.child for joint in result.object.joints}
     for joint in result.object.joints:
         way = final.ways[joint.child]
         assert way.is_built
@@ -29,5 +29,5 @@ def test_what_got_no_joint_stands_still_in_the_final_scene() -> None:
     joints = (hinged(), hinged("door_far", axis=hinged().axis.through(np.array([3.0, 0.0, 0.0]))))
     result = realized(scene(DOOR, SIDE, far, joints=joints))
     assert {skip.request for skip in result.report.skipped} == {"door_far"}
-    assert set(result.scene.movers) == {"door"}
+    assert set(result.scene.moving_bodies) == {"door"}
     assert "door_far" in {part.id for part in result.scene.static_parts}

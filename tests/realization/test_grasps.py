@@ -148,7 +148,7 @@ def test_what_is_near_the_hinge_opens_no_door():
 def test_a_closed_door_hides_no_handle_of_the_drawers_behind_it():
     asset = with_handles_in_their_fronts(KINDS["drawers behind a pair"]())
     grasps = find_grasps(scene_of(asset))
-    assert {g.kind for mover, g in grasps.items() if mover.startswith("drawer")} == {"edge"}
+    assert {g.kind for moving, g in grasps.items() if moving.startswith("drawer")} == {"edge"}
 
 
 @given(angle=st.floats(-175, 175), grip=st.sampled_from(["finger hole", "lip", "none"]))

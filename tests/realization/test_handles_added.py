@@ -14,7 +14,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.intersection import MeshCollider
 from grafu.realization.handle.config import HandleConfig
 from grafu.realization.handle.grasp import find_grasps
-from grafu.realization.handle.place import Handles, NoHandle, add_handles, movers_without
+from grafu.realization.handle.place import Handles, NoHandle, add_handles, bodies_without
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
 from grafu.synth.kinds import KINDS
 from grafu.templates.handles import HANDLES
@@ -33,8 +33,8 @@ def completed(asset: Asset, handles: Handles) -> Asset:
     return with_parts(asset, *(a.part for a in handles.additions))
 
 
-def handle_of(handles: Handles, mover: str):
-    (part,) = [a.part for a in handles.additions if a.part.rides_on == mover]
+def handle_of(handles: Handles, moving: str):
+    (part,) = [a.part for a in handles.additions if a.part.rides_on == moving]
     return part
 
 
@@ -132,7 +132,7 @@ def test_every_kind_of_furniture_that_lost_its_handles_can_be_grasped_again(kind
     assert_sits_and_stays_clear(asset, handles)
     again = find_grasps(handles.scene)
     assert "none" not in {g.kind for g in again.values()}
-    assert movers_without(handles.scene, again) == ()
+    assert bodies_without(handles.scene, again) == ()
 
 
 def test_behind_a_door_a_handle_is_flat_enough():
@@ -172,7 +172,7 @@ def test_a_door_too_small_for_anything_is_refused():
     sliver = box("door", (0.0, -0.02, 0.0), (0.012, 0.0, 0.6))
     found = scene_of(scene(sliver, box("side", (-0.02, 0.0, 0.0), (0.0, 0.6, 1.0)), joints=(hinged("door"),)))
     refused = add_handles(found, {m: replace(g, kind="none") for m, g in find_grasps(found).items()}).refused
-    assert [(r.mover, r.reason) for r in refused] == [("door", NoHandle.TOO_SMALL)]
+    assert [(r.moving, r.reason) for r in refused] == [("door", NoHandle.TOO_SMALL)]
 
 
 def test_a_door_right_behind_something_is_refused_and_says_what_is_in_the_way():
@@ -182,7 +182,7 @@ def test_a_door_right_behind_something_is_refused_and_says_what_is_in_the_way():
     screen = box("screen", (around.low[0], y - 0.02, around.low[2]), (around.high[0], y - 0.004, around.high[2]))
     found = scene_of(with_parts(asset, screen))
     handles = add_handles(found, find_grasps(found))
-    assert [(r.mover, r.reason) for r in handles.refused] == [("door", NoHandle.BLOCKED)]
+    assert [(r.moving, r.reason) for r in handles.refused] == [("door", NoHandle.BLOCKED)]
     assert "screen" in handles.refused[0].why
 
 
@@ -192,7 +192,7 @@ def test_a_pane_alone_carries_no_handle():
     pane = next(s for s in door.surfaces if s.material.base_color[3] < 0.95)
     glass = replace(door, surfaces=tuple(replace(s, material=pane.material) for s in door.surfaces))
     handles = added(replace(asset, parts=tuple(glass if p is door else p for p in asset.parts)))
-    assert [(r.mover, r.reason) for r in handles.refused] == [("door", NoHandle.NO_GROUND)]
+    assert [(r.moving, r.reason) for r in handles.refused] == [("door", NoHandle.NO_GROUND)]
 
 
 @pytest.mark.parametrize("factor", [0.1, 10.0])
@@ -202,7 +202,7 @@ def test_models_of_another_scale_get_handles_that_fit(factor):
     for part in (a.part for a in handles.additions):
         share = part.box.size.max() / asset.part(part.rides_on).box.size.max()
         assert 0.02 < share < 0.5
-    assert len(handles.additions) + len(movers_without(handles.scene, {})) == 2 or factor > 1
+    assert len(handles.additions) + len(bodies_without(handles.scene, {})) == 2 or factor > 1
 
 
 def test_an_unknown_style_is_an_error_in_one_line():

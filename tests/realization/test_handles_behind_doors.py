@@ -1,4 +1,4 @@
-"""Handles where one mover waits for another: doors that must be open before the drawers behind them can move."""
+"""Handles where one moving body waits for another: doors that must be open before the drawers behind them can move."""
 
 from dataclasses import replace
 from math import radians
@@ -28,8 +28,8 @@ def behind_a_door() -> Scene:
     return scene_of(without_handles(KINDS["drawers behind an inset door"]()))
 
 
-def with_way(scene: Scene, mover: str, **changes) -> Scene:
-    return replace(scene, ways={**scene.ways, mover: replace(scene.ways[mover], **changes)})
+def with_way(scene: Scene, moving: str, **changes) -> Scene:
+    return replace(scene, ways={**scene.ways, moving: replace(scene.ways[moving], **changes)})
 
 
 def at(way: Way, value: float) -> np.ndarray:
@@ -43,23 +43,23 @@ def posed(meshes, T: np.ndarray) -> trimesh.collision.CollisionManager:
     return manager
 
 
-def meshes_of(scene: Scene, mover: str):
-    return [scene.parts[member].mesh for member in scene.movers[mover].members]
+def meshes_of(scene: Scene, moving: str):
+    return [scene.parts[member].mesh for member in scene.moving_bodies[moving].members]
 
 
-def meets(scene: Scene, mover: str, other: str, value: float) -> bool:
-    """Whether anything on a mover meets another mover, fixed at a joint value, on its whole way."""
+def meets(scene: Scene, moving: str, other: str, value: float) -> bool:
+    """Whether anything on a moving body meets another moving body, fixed at a joint value, on its whole way."""
     fixed = posed(meshes_of(scene, other), at(scene.ways[other], value))
-    way = scene.ways[mover]
+    way = scene.ways[moving]
     poses = [at(way, v) for v in np.linspace(0.0, way.upper, POSES)]
-    return any(fixed.in_collision_single(m.to_trimesh(), transform=T) for m in meshes_of(scene, mover) for T in poses)
+    return any(fixed.in_collision_single(m.to_trimesh(), transform=T) for m in meshes_of(scene, moving) for T in poses)
 
 
-def free_travel(scene: Scene, mover: str, other: str, value: float) -> float:
-    """How far a bare mover comes before it meets another one that is fixed at a joint value."""
-    steps = np.linspace(0.0, scene.ways[mover].upper, 120)
-    ways = [with_way(scene, mover, upper=float(v)) for v in steps]
-    return next((float(steps[k - 1]) for k, s in enumerate(ways) if k and meets(s, mover, other, value)), steps[-1])
+def free_travel(scene: Scene, moving: str, other: str, value: float) -> float:
+    """How far a bare moving body comes before it meets another one that is fixed at a joint value."""
+    steps = np.linspace(0.0, scene.ways[moving].upper, 120)
+    ways = [with_way(scene, moving, upper=float(v)) for v in steps]
+    return next((float(steps[k - 1]) for k, s in enumerate(ways) if k and meets(s, moving, other, value)), steps[-1])
 
 
 def test_a_drawers_handle_is_clear_of_a_door_that_opens_little():
@@ -69,7 +69,7 @@ def test_a_drawers_handle_is_clear_of_a_door_that_opens_little():
     scene = with_way(with_way(scene, "drawer_1", upper=travel), "drawer_2", upper=travel)
     handles = add_handles(scene, find_grasps(scene))
     assert all(not meets(handles.scene, drawer, "door", radians(55)) for drawer in ("drawer_1", "drawer_2"))
-    held = {a.part.rides_on for a in handles.additions} | {refused.mover for refused in handles.refused}
+    held = {a.part.rides_on for a in handles.additions} | {refused.moving for refused in handles.refused}
     assert {"drawer_1", "drawer_2"} <= held
 
 
@@ -100,19 +100,19 @@ def test_a_doors_handle_sits_as_if_nothing_were_behind_the_door(layout):
 def test_whole_furniture_opens_in_order_with_its_new_handles(kind):
     made = functionalize(without_handles(KINDS[kind]()), MotionSource.ANNOTATION, builtin_gallery())
     scene = made.fittings.scene
-    waiting = {mover: way.after for mover, way in scene.ways.items() if way.after}
+    waiting = {moving: way.after for moving, way in scene.ways.items() if way.after}
     assert waiting
     assert waiting.keys() <= {a.part.rides_on for a in made.additions} | {c.part.id for c in made.fittings.carved}
     assert "none" not in {g.kind for g in find_grasps(scene).values()}
-    for mover, before in waiting.items():
+    for moving, before in waiting.items():
         for door in before:
-            assert not meets(scene, mover, door, scene.ways[door].upper)
-            handles = [a.part.mesh for a in made.additions if a.part.rides_on == mover]
+            assert not meets(scene, moving, door, scene.ways[door].upper)
+            handles = [a.part.mesh for a in made.additions if a.part.rides_on == moving]
             closed = [MeshCollider(mesh) for mesh in meshes_of(scene, door)]
             assert all(MeshCollider(h).distance(c) > 0 for h in handles for c in closed)
 
 
 def test_the_final_scene_says_what_opens_first():
     made = functionalize(KINDS["drawers behind a pair"](), MotionSource.ANNOTATION, builtin_gallery())
-    found = {mover: {f"{name}_joint" for name in way.after} for mover, way in made.fittings.scene.ways.items()}
+    found = {moving: {f"{name}_joint" for name in way.after} for moving, way in made.fittings.scene.ways.items()}
     assert found == {joint.child: set(joint.after) for joint in made.object.joints}

@@ -16,7 +16,7 @@ from grafu.realization.interior.compartments import Compartment, find_compartmen
 from grafu.realization.interior.config import InteriorConfig
 from grafu.realization.interior.furnish import Furnished, furnish
 from grafu.realization.interior.request import AUTO, NOTHING, PREDICTED, PanelHint, parse_interior
-from grafu.realization.scene import Mover, Scene, Way
+from grafu.realization.scene import MovingBody, Scene, Way
 from grafu.vocabulary import JointType, PartLabel
 
 LEFT, RIGHT = box("left", (-0.4, -0.2, 0.0), (-0.38, 0.2, 1.0)), box("right", (0.38, -0.2, 0.0), (0.4, 0.2, 1.0))
@@ -33,7 +33,7 @@ def scene_of(*parts: Part, ways: dict[str, Way] | None = None) -> Scene:
     boxes = [part.box for part in parts]
     size = np.max([b.high for b in boxes], axis=0) - np.min([b.low for b in boxes], axis=0)
     ways = ways or {}
-    return Scene({p.id: p for p in parts}, {m: Mover(m, (m,)) for m in ways}, float(size.max()), ways=ways)
+    return Scene({p.id: p for p in parts}, {m: MovingBody(m, (m,)) for m in ways}, float(size.max()), ways=ways)
 
 
 def swinging(x: float, y: float, upper: float = radians(110), direction: float = -1.0) -> Way:
@@ -145,7 +145,7 @@ def test_what_a_door_carries_inside_is_kept_clear() -> None:
     rack = box("rack", (-0.3, -0.18, 0.3), (0.3, -0.08, 0.8), rides_on="door")
     way = {"door": swinging(-0.378, -0.2)}
     scene = scene_of(*CASE, INSET_DOOR, rack)
-    scene = Scene(scene.parts, {"door": Mover("door", ("door", "rack"))}, scene.unit, ways=way)
+    scene = Scene(scene.parts, {"door": MovingBody("door", ("door", "rack"))}, scene.unit, ways=way)
 
     result = furnish(find_compartments(scene), TWO_SHELVES, scene)
 

@@ -39,7 +39,7 @@ def test_nothing_waits_where_nothing_is_in_the_way(kind):
 @pytest.mark.parametrize("kind", BEHIND)
 def test_once_the_doors_are_open_nothing_collides_with_them(kind):
     obj = realized_kind(kind).object
-    tolerance = CollisionConfig(poses=12, tolerance=0.0008, movers=True, hardware=False)
+    tolerance = CollisionConfig(poses=12, tolerance=0.0008, moving_bodies=True, hardware=False)
     assert collision_shares(obj, tolerance) == {joint.id: 0.0 for joint in obj.joints}
 
 

@@ -19,7 +19,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.grip.carve import carve_grip
 from grafu.realization.grip.config import GripConfig, GripKind
 from grafu.realization.grip.outcome import Carved, GripRefusal, Refused
-from grafu.realization.scene import Mover, Scene, Way
+from grafu.realization.scene import MovingBody, Scene, Way
 from grafu.vocabulary import JointType
 
 DOOR_WAY = Way(LEFT_EDGE, JointType.REVOLUTE, radians(100))
@@ -29,23 +29,23 @@ KINDS = tuple(GripKind)
 PLATE = Visual("hinge_1", box("plate", (0.0, -0.03, 0.0), (0.4, -0.021, 0.6)).surfaces)
 
 
-def scene_of(mover: Part, way: Way, *others: Part, members: tuple[str, ...] = (), **fields) -> Scene:
-    parts = {part.id: part for part in (mover, *others)}
-    return Scene(parts, {mover.id: Mover(mover.id, (mover.id, *members))}, 1.0, ways={mover.id: way}, **fields)
+def scene_of(moving: Part, way: Way, *others: Part, members: tuple[str, ...] = (), **fields) -> Scene:
+    parts = {part.id: part for part in (moving, *others)}
+    return Scene(parts, {moving.id: MovingBody(moving.id, (moving.id, *members))}, 1.0, ways={moving.id: way}, **fields)
 
 
 def of_kind(kind: GripKind, **fields) -> GripConfig:
     return GripConfig(kind=kind, **fields)
 
 
-def carved(scene: Scene, mover: str, config: GripConfig, spot=None) -> Carved:
-    result = carve_grip(scene, mover, config, spot)
+def carved(scene: Scene, moving: str, config: GripConfig, spot=None) -> Carved:
+    result = carve_grip(scene, moving, config, spot)
     assert isinstance(result, Carved), result
     return result
 
 
-def reason(scene: Scene, mover: str, config: GripConfig) -> GripRefusal:
-    result = carve_grip(scene, mover, config)
+def reason(scene: Scene, moving: str, config: GripConfig) -> GripRefusal:
+    result = carve_grip(scene, moving, config)
     assert isinstance(result, Refused), result.kind
     return result.reason
 
@@ -203,8 +203,8 @@ REFUSALS = {
 @pytest.mark.parametrize("name", REFUSALS)
 def test_refusals_have_their_reasons(name):
     scene, kind, expected = REFUSALS[name]
-    (mover,) = scene().movers
-    assert reason(scene(), mover, GripConfig(kind=kind)) is expected
+    (moving,) = scene().moving_bodies
+    assert reason(scene(), moving, GripConfig(kind=kind)) is expected
 
 
 def test_auto_falls_back_to_what_a_front_bears():
@@ -251,8 +251,8 @@ MADE = (
 @pytest.mark.parametrize("kind", KINDS)
 def test_made_furniture_is_carved_soundly_or_not_at_all(name, kind):
     scene = final_scene(name)
-    for mover in scene.ways:
-        result = carve_grip(scene, mover, of_kind(kind))
+    for moving in scene.ways:
+        result = carve_grip(scene, moving, of_kind(kind))
         if isinstance(result, Carved):
             assert_sound(scene.parts[result.part.id], result)
 
@@ -260,7 +260,7 @@ def test_made_furniture_is_carved_soundly_or_not_at_all(name, kind):
 @pytest.mark.parametrize("name", MADE)
 def test_every_front_of_made_furniture_takes_some_grip(name):
     scene = final_scene(name)
-    bare = replace(scene, movers={m.id: Mover(m.id, (m.id,)) for m in scene.movers.values()})
+    bare = replace(scene, moving_bodies={m.id: MovingBody(m.id, (m.id,)) for m in scene.moving_bodies.values()})
     refused = [r for m in bare.ways if isinstance(r := carve_grip(bare, m, GripConfig()), Refused)]
     assert refused == []
 
@@ -268,11 +268,11 @@ def test_every_front_of_made_furniture_takes_some_grip(name):
 def test_glass_and_louvres_are_carved_on_their_frames_only():
     for name in ("glass door", "inset louvred pair"):
         scene = final_scene(name)
-        for mover in scene.ways:
-            result = carved(scene, mover, of_kind(GripKind.GROOVE))
-            assert_sound(scene.parts[mover], result)
-            middle = scene.parts[mover].box.center
-            assert abs(result.centre[0] - middle[0]) > 0.3 * scene.parts[mover].box.size[0]
+        for moving in scene.ways:
+            result = carved(scene, moving, of_kind(GripKind.GROOVE))
+            assert_sound(scene.parts[moving], result)
+            middle = scene.parts[moving].box.center
+            assert abs(result.centre[0] - middle[0]) > 0.3 * scene.parts[moving].box.size[0]
 
 
 def test_motions_stay_as_free_as_they_were():

@@ -43,7 +43,7 @@ def test_a_door_alone_in_the_air_finds_no_hold(others):
     assert skipped(scene(DOOR, *others, joints=(hinged(),)))["door"] in NOWHERE
 
 
-def test_movers_cannot_carry_one_another():
+def test_moving_bodies_cannot_carry_one_another():
     found = skipped(scene(DOOR, SECOND, joints=(hinged(), hinged("door_2", RIGHT_EDGE))))
     assert found.keys() == {"door", "door_2"}
     assert set(found.values()) <= NOWHERE

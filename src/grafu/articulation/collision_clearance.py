@@ -120,17 +120,17 @@ def _conflicts(
     still = [body for body in bodies if body.link not in motion.Ts_object_carried]
     met: dict[tuple[ShapeBody, ShapeBody], list[Mat4]] = {}
     for pose, a, b in _near(motion, moving, still):
-        mover, other = moving[a], still[b]
-        if mover in settled and other in settled:
+        body, other = moving[a], still[b]
+        if body in settled and other in settled:
             continue
-        T_object_mover = motion.Ts_object_carried[mover.link][pose]
+        T_object_body = motion.Ts_object_carried[body.link][pose]
         T_object_other = motion.T_object_still.get(other.link, _REST)
-        mover.place(T_object_mover)
+        body.place(T_object_body)
         other.place(T_object_other)
-        if mover.meets(other):
-            met.setdefault((mover, other), []).append(invert(T_object_mover) @ T_object_other)
-    for (mover, other), Ts in met.items():
-        yield _Conflict(mover, other, other.link != root, tuple(Ts))
+        if body.meets(other):
+            met.setdefault((body, other), []).append(invert(T_object_body) @ T_object_other)
+    for (body, other), Ts in met.items():
+        yield _Conflict(body, other, other.link != root, tuple(Ts))
 
 
 def _near(motion: _Motion, moving: list[ShapeBody], still: list[ShapeBody]) -> np.ndarray:

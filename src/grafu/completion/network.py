@@ -21,7 +21,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
 
 _ACROSS = 0  # furniture is alike on its left and right, not in front and behind
-_MOVERS_PER_ROUND = 4  # handles that one pass can add: the paper's free slots
+_BODIES_PER_ROUND = 4  # handles that one pass can add: the paper's free slots
 _PAIR_BYTES = 4_500  # for each pair of parts, during a forward pass
 _ADDING = 0.6  # of the time: adding what is missing
 
@@ -49,7 +49,7 @@ def complete_by_network(
         inputs, probabilities = forward(seen, network, features)
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
         reading = read_graph(seen, probabilities, given, parents, config)
-        most = config.rounds + len(reading.view.movers) // _MOVERS_PER_ROUND
+        most = config.rounds + len(reading.view.moving_bodies) // _BODIES_PER_ROUND
         goes_on = rounds < most and adding.left > 0 and fits(len(seen.nodes) ** 2, _PAIR_BYTES)
         found = new_parts(reading.view, reading.held) if goes_on else ()
         if not found:

@@ -31,9 +31,9 @@ _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, o
 
 def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | RefusedMotion:
     """Returns the door or drawer that a handle is fixed to, or why there is none."""
-    if not len(view.movers):
+    if not len(view.moving_bodies):
         return RefusedMotion(handle.id, _NO_PARENT)
-    slots = view.within_reach(handle, view.movers)
+    slots = view.within_reach(handle, view.moving_bodies)
     shares, none = parent_shares(view.place[handle.id], slots, view)
     attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
     if none >= view.config.no_parent and attached.max() < 0.5:

@@ -95,7 +95,7 @@ def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | N
 
 
 def _parent_of(slot: int, handle: PartNode, view: View) -> str | None:
-    near = view.movers[view.gaps(handle, view.movers) <= view.config.reach * view.unit]
+    near = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.reach * view.unit]
     if not len(near):
         return None
     shares, _ = parent_shares(slot, near, view)

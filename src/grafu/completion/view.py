@@ -43,7 +43,7 @@ class View:
         return np.array(found, dtype=np.int64)
 
     @cached_property
-    def movers(self) -> Indices:
+    def moving_bodies(self) -> Indices:
         """The slots of the doors and drawers."""
         return np.array([k for k, n in enumerate(self.graph.nodes) if n.label.is_movable], dtype=np.int64)
 

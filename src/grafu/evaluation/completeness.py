@@ -17,7 +17,7 @@ _ONE_PANEL = (InteriorRequest(InteriorKind.COUNTED, shelves=1), InteriorRequest(
 @final
 @dataclass(frozen=True)
 class GraspChange:
-    """How a mover can be grasped before and after, as the same search finds it: handle, recess, edge or none."""
+    """How a moving body can be grasped before and after, as the same search finds it: handle, recess, edge or none."""
 
     part: str
     before: str
@@ -50,11 +50,11 @@ def completeness_of(result: Functionalized) -> Completeness:
 
 
 def _grasps(result: Functionalized) -> tuple[GraspChange, ...]:
-    """Returns the change of each mover; only where nothing was found before is looked at again."""
+    """Returns the change of each moving body; only where nothing was found before is looked at again."""
     found = []
-    for mover, grasp in result.fittings.grasps.items():
-        after = grasp.kind if grasp.kind != "none" else find_grasp(result.fittings.scene, mover).kind
-        found.append(GraspChange(mover, grasp.kind, after))
+    for moving, grasp in result.fittings.grasps.items():
+        after = grasp.kind if grasp.kind != "none" else find_grasp(result.fittings.scene, moving).kind
+        found.append(GraspChange(moving, grasp.kind, after))
     return tuple(found)
 
 

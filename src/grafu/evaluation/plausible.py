@@ -16,7 +16,7 @@ from grafu.evaluation.moving_parts import MovingPart, usual_opening
 from grafu.evaluation.surface_distance import distances_up_to
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import transform_points
@@ -112,7 +112,7 @@ class _Case:
 
     def not_free(self) -> str:
         """Returns why it does not open: it cuts into the body on the way."""
-        body, obstacle = MovingBody(self._moving, TOLERANT.tolerance * self._asset.unit), MeshCollider(self._static)
+        body, obstacle = SweptBody(self._moving, TOLERANT.tolerance * self._asset.unit), MeshCollider(self._static)
         for value in np.linspace(0.0, self._reach, _POSES):
             body.place(self._joint.motion(float(value)))
             if body.penetrates(obstacle):

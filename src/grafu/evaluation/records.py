@@ -85,7 +85,7 @@ class PartRecord(Record):
 
 
 class GraspRecord(Record):
-    """How a mover can be grasped before and after."""
+    """How a moving body can be grasped before and after."""
 
     part: str
     before: str

@@ -17,8 +17,8 @@ _COLUMNS = (
 )
 _NOTES = (
     "Tops: of the models that the coverage test finds open from above, the share in which it finds a top afterwards.",
-    "Parts that can be grasped: share of movers with a handle, a recess or an edge to take hold of, found by one "
-    "search before and after; models: those in which every mover can be grasped.",
+    "Parts that can be grasped: fraction of moving bodies with a handle, a recess or a free edge, found by one "
+    "search before and after; models: those in which every moving body can be grasped.",
     "Interiors: of the compartments large enough for panels, the share that takes a shelf or a divider; models: of "
     "those with such a compartment, the share in which every one does.",
     "Brackets hold the 95 % interval of a bootstrap over objects.",
@@ -33,12 +33,12 @@ def static_table(results: Results) -> Table:
 
 def _rows(method: str, found: list[CompletenessRecord]) -> list[tuple[Cell, ...]]:
     topless = [record for record in found if record.topless]
-    with_movers = [record for record in found if record.grasps]
+    with_moving = [record for record in found if record.grasps]
     with_rooms = [record for record in found if record.compartments]
-    movers = sum(len(record.grasps) for record in found)
+    moving_bodies = sum(len(record.grasps) for record in found)
     rooms = sum(record.compartments for record in found)
-    before, after = (_of_movers(with_movers, name) for name in ("before", "after"))
-    whole = [_mean(_all_grasped(record, name) for record in with_movers) for name in ("before", "after")]
+    before, after = (_of_bodies(with_moving, name) for name in ("before", "after"))
+    whole = [_mean(_all_grasped(record, name) for record in with_moving) for name in ("before", "after")]
     filled = ratio_of([float(r.filled) for r in with_rooms], [float(r.compartments) for r in with_rooms])
     return [
         (
@@ -48,8 +48,8 @@ def _rows(method: str, found: list[CompletenessRecord]) -> list[tuple[Cell, ...]
             _mean(False for _ in topless),
             _mean(r.topped for r in topless),
         ),
-        (method, "parts that can be grasped", movers, before, after),
-        (method, "models whose every mover can be grasped", len(with_movers), *whole),
+        (method, "parts that can be grasped", moving_bodies, before, after),
+        (method, "models whose every moving body can be grasped", len(with_moving), *whole),
         (method, "compartments that take panels", rooms, None, filled),
         (
             method,
@@ -61,7 +61,7 @@ def _rows(method: str, found: list[CompletenessRecord]) -> list[tuple[Cell, ...]
     ]
 
 
-def _of_movers(found: list[CompletenessRecord], name: str) -> Figure | None:
+def _of_bodies(found: list[CompletenessRecord], name: str) -> Figure | None:
     held = [float(sum(getattr(grasp, name) != "none" for grasp in record.grasps)) for record in found]
     return ratio_of(held, [float(len(record.grasps)) for record in found])
 

@@ -216,7 +216,7 @@ def shrunk(mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> Tr
 
 
 @final
-class MovingBody:
+class SweptBody:
     """A rigid moving mesh that tells a touch from a penetration deeper than `depth` metres.
 
     It penetrates an obstacle when it still intersects it after it was shrunk by `depth` on each side, and still does so

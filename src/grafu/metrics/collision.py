@@ -15,7 +15,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import rest_to_full
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.metrics.bodies import largest_side, parts_mesh, rigid_body
 
@@ -26,8 +26,8 @@ class CollisionConfig:
     """How a collision is counted.
 
     `tolerance` is a share of the object's largest side (0: strict). `hardware` counts hinges and rails on both sides;
-    `movers` also counts the other moving bodies, at rest or where they must be open first. `unit` is the side in metres
-    to use instead of the object's own: that of the input, where parts were added to it.
+    `moving_bodies` also counts the other moving bodies, at rest or where they must be open first. `unit` is the side in
+    metres to use instead of the object's own: that of the input, where parts were added to it.
 
     Raises:
         ValueError: if there is no pose, the tolerance is negative or the unit is not positive.
@@ -36,7 +36,7 @@ class CollisionConfig:
     poses: int = 50  # the paper's number
     tolerance: float = 0.0
     hardware: bool = False
-    movers: bool = False
+    moving_bodies: bool = False
     unit: float | None = None
 
     def __post_init__(self) -> None:
@@ -66,13 +66,13 @@ def mean_collision(articulated: ArticulatedObject, config: CollisionConfig = STR
 
 @final
 class _Scene:
-    """An object prepared for many queries: its static body, and the movers that count as obstacles."""
+    """An object prepared for many queries: its static body, and the moving bodies that count as obstacles."""
 
     def __init__(self, articulated: ArticulatedObject, config: CollisionConfig) -> None:
         self._articulated, self._config = articulated, config
         self._depth = config.tolerance * (config.unit or largest_side(articulated))
-        movers = [joint.child for joint in articulated.moving_joints] if config.movers else []
-        meshes = {link: self._mesh(link) for link in (articulated.root, *movers)}
+        moving_bodies = [joint.child for joint in articulated.moving_joints] if config.moving_bodies else []
+        meshes = {link: self._mesh(link) for link in (articulated.root, *moving_bodies)}
         self._obstacles = {link: MeshCollider(mesh) for link, mesh in meshes.items() if len(mesh.faces)}
 
     def share(self, joint: Joint) -> float:
@@ -80,7 +80,7 @@ class _Scene:
         mesh = self._mesh(joint.child)
         if not len(mesh.faces):
             return 0.0
-        body = MovingBody(mesh, self._depth)
+        body = SweptBody(mesh, self._depth)
         frames = rest_to_full(self._articulated, joint.id, self._config.poses)
         hits = [self._collides(link_poses(self._articulated, frame), joint.child, body) for frame in frames]
         return float(np.mean(hits))
@@ -89,7 +89,7 @@ class _Scene:
         links = rigid_body(self._articulated, link_id)
         return merge_meshes([link.mesh for link in links]) if self._config.hardware else parts_mesh(links)
 
-    def _collides(self, poses: dict[str, Mat4], child: str, body: MovingBody) -> bool:
+    def _collides(self, poses: dict[str, Mat4], child: str, body: SweptBody) -> bool:
         body.place(poses[child])
         others = [link for link in self._obstacles if link != child]
         for link in others:

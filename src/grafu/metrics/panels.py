@@ -106,9 +106,9 @@ def _is_blocked(panel: TriangleMesh, joint: Joint, body: TriangleMesh, skin: flo
         return False
     shrunk = _shrunk(panel, skin)
     manager = _MANAGER()
-    manager.add_object("mover", body.to_trimesh())
+    manager.add_object("moving body", body.to_trimesh())
     for value in np.linspace(joint.limits.lower, joint.limits.upper, POSES):
-        manager.set_transform("mover", joint.motion(float(value)))
+        manager.set_transform("moving body", joint.motion(float(value)))
         if manager.in_collision_single(shrunk):
             return True
     return False

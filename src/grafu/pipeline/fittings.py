@@ -16,7 +16,7 @@ from grafu.realization.grip.carve import carve_grip
 from grafu.realization.grip.config import GripConfig
 from grafu.realization.grip.outcome import Carved
 from grafu.realization.handle.grasp import Grasp, find_grasps
-from grafu.realization.handle.place import Handles, add_handles, movers_without
+from grafu.realization.handle.place import Handles, add_handles, bodies_without
 from grafu.realization.handle.relief import Reliefs
 from grafu.realization.interior.furnish import Furnished, Unfurnished
 from grafu.realization.interior.request import InteriorKind, PanelHint
@@ -30,10 +30,10 @@ from grafu.vocabulary import PartLabel
 @final
 @dataclass(frozen=True)
 class Fittings:
-    """What was added, which parts were carved, and how each mover can be grasped now.
+    """What was added, which parts were carved, and how each moving body can be grasped now.
 
-    `grasps` holds for each mover what was found before anything was added to it. `removed` names the handles of the
-    input that were replaced. `unfurnished` is the scene before shelves and dividers (None: as it is).
+    `grasps` holds for each moving body what was found before anything was added to it. `removed` names the handles of
+    the input that were replaced. `unfurnished` is the scene before shelves and dividers (None: as it is).
     """
 
     scene: Scene
@@ -61,7 +61,7 @@ def add_fittings(
     scene, removed = without_replaced(scene, config.fronts)
     reliefs = Reliefs(scene)
     grasps = find_grasps(scene, config.grasp, reliefs)
-    free = {mover: grasp for mover, grasp in grasps.items() if mover not in config.fronts}
+    free = {moving: grasp for moving, grasp in grasps.items() if moving not in config.fronts}
     handles, wanting = _handles(scene, free, completion, config, own, reliefs)
     scene, kept = _accepted(handles, config)
     carved, failed = _grips(scene, wanting, config.grips)
@@ -114,28 +114,28 @@ def _handles(
     own: Mapping[str, HandleTemplate],
     reliefs: Reliefs,
 ) -> tuple[Handles, dict[str, str]]:
-    """Returns the handles, and the movers that still need a grip, with the reason."""
+    """Returns the handles, and the moving bodies that still need a grip, with the reason."""
     if config.handles is None:
-        wanting = movers_without(scene, grasps) if config.grips is not None else ()
+        wanting = bodies_without(scene, grasps) if config.grips is not None else ()
         return Handles((), (), scene), dict.fromkeys(wanting, "")
     found = add_handles(scene, grasps, config.handles, _handle_hints(completion), own, reliefs)
-    return found, {refused.mover: refused.why for refused in found.refused}
+    return found, {refused.moving: refused.why for refused in found.refused}
 
 
 def _grips(
     scene: Scene, wanting: Mapping[str, str], config: GripConfig | None
 ) -> tuple[tuple[Carved, ...], dict[str, str]]:
-    """Returns what was carved, and the movers that cannot be grasped yet, with all reasons."""
+    """Returns what was carved, and the moving bodies that cannot be grasped yet, with all reasons."""
     if config is None:
         return (), dict(wanting)
     carved: list[Carved] = []
     failed: dict[str, str] = {}
-    for mover, why in wanting.items():
-        made = carve_grip(scene, mover, config)
+    for moving, why in wanting.items():
+        made = carve_grip(scene, moving, config)
         if isinstance(made, Carved):
             carved.append(made)
         else:
-            failed[mover] = "; ".join(text for text in (why, f"no grip: {made.reason} ({made.detail})") if text)
+            failed[moving] = "; ".join(text for text in (why, f"no grip: {made.reason} ({made.detail})") if text)
     return tuple(carved), failed
 
 

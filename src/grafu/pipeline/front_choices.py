@@ -37,10 +37,10 @@ def without_replaced(scene: Scene, fronts: Mapping[str, HandleChoice]) -> tuple[
     """Returns the scene without the handles that are replaced by what was chosen, and their ids."""
     gone = frozenset(
         member
-        for mover, choice in fronts.items()
-        if choice.replaces and mover in scene.movers
-        for member in scene.movers[mover].members
-        if member != mover and scene.parts[member].label is PartLabel.HANDLE
+        for moving, choice in fronts.items()
+        if choice.replaces and moving in scene.moving_bodies
+        for member in scene.moving_bodies[moving].members
+        if member != moving and scene.parts[member].label is PartLabel.HANDLE
     )
     return scene.without_riders(gone), gone
 
@@ -54,43 +54,43 @@ def fit_fronts(
         TemplateError: if a choice names a handle that there is not.
     """
     done = Fronts(scene)
-    for mover, choice in config.fronts.items():
-        if mover in scene.movers and choice.style != NO_HANDLE:
-            done = _fitted(done, mover, choice, config, hints, own)
+    for moving, choice in config.fronts.items():
+        if moving in scene.moving_bodies and choice.style != NO_HANDLE:
+            done = _fitted(done, moving, choice, config, hints, own)
     return done
 
 
 def _fitted(
     done: Fronts,
-    mover: str,
+    moving: str,
     choice: HandleChoice,
     config: AdditionConfig,
     hints: Mapping[str, Vec3],
     own: Mapping[str, HandleTemplate],
 ) -> Fronts:
     if choice.style == ANY_GRIP or choice.style in tuple(GripKind):
-        return _carved(done, mover, choice, config.grips or GripConfig())
+        return _carved(done, moving, choice, config.grips or GripConfig())
     general = config.handles or HandleConfig()
     sizes = replace(general, count=choice.count, offset=choice.offset, length=choice.length or general.length)
     wanted = replace(sizes, style=choice.style or general.style)
-    missing = {mover: Grasp(mover, "none", 1.0, "a handle was chosen")}
+    missing = {moving: Grasp(moving, "none", 1.0, "a handle was chosen")}
     found = add_handles(done.scene, missing, wanted, hints, own)
     chosen = tuple(replace(addition, why="it was chosen") for addition in found.additions)
-    skipped = tuple(_skipped(mover, refused.why) for refused in found.refused)
+    skipped = tuple(_skipped(moving, refused.why) for refused in found.refused)
     others = sorted({addition.style for addition in chosen} - {choice.style})
     if choice.style and others:
-        skipped += (_skipped(mover, f"`{choice.style}` finds no room; it got `{'`, `'.join(others)}`"),)
+        skipped += (_skipped(moving, f"`{choice.style}` finds no room; it got `{'`, `'.join(others)}`"),)
     return Fronts(found.scene, (*done.additions, *chosen), done.carved, (*done.skipped, *skipped))
 
 
-def _carved(done: Fronts, mover: str, choice: HandleChoice, config: GripConfig) -> Fronts:
+def _carved(done: Fronts, moving: str, choice: HandleChoice, config: GripConfig) -> Fronts:
     if choice.style != ANY_GRIP:
         config = replace(config, kind=GripKind(choice.style))
-    made = carve_grip(done.scene, mover, config)
+    made = carve_grip(done.scene, moving, config)
     if isinstance(made, Carved):
         return replace(done, scene=done.scene.replaced([made.part]), carved=(*done.carved, made))
-    return replace(done, skipped=(*done.skipped, _skipped(mover, f"no grip: {made.reason} ({made.detail})")))
+    return replace(done, skipped=(*done.skipped, _skipped(moving, f"no grip: {made.reason} ({made.detail})")))
 
 
-def _skipped(mover: str, why: str) -> Skipped:
-    return Skipped(mover, SkipReason.NOT_ADDED, f"what it was to be grasped by: {why}")
+def _skipped(moving: str, why: str) -> Skipped:
+    return Skipped(moving, SkipReason.NOT_ADDED, f"what it was to be grasped by: {why}")

@@ -23,7 +23,7 @@ from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.built_graph import as_built, without_removed
 from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
 from grafu.pipeline.learned import complete_by_weights
-from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_movers
+from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.simpler import bare_body, bare_fittings, by_contacts, without_joints, without_network
 from grafu.pipeline.stages import Stages
@@ -175,7 +175,7 @@ def functionalize(
     stages = Stages(on_stage, budget)
     stated = len(asset.stated_joints)
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
-    asset = with_movers(corrected(asset, config.labels), config.motions, config.labels)
+    asset = with_moving(corrected(asset, config.labels), config.motions, config.labels)
     if isinstance(source, ForeignMotions):
         foreign = source
         asset = stages.timed("match", lambda: attach_motions(asset, foreign))

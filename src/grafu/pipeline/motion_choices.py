@@ -35,12 +35,12 @@ def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
     parts = [v for link in made.links for v in link.visuals if v.role is VisualRole.PART]
     whole = Box.enclosing([visual.mesh.box for visual in parts])
     joints = {joint.child: joint for joint in made.moving_joints}
-    movers = [(visual.mesh, joints[visual.name]) for visual in parts if visual.name in joints]
-    found = {joint.child: motion_as_choice(mesh, joint.type, joint.axis, whole) for mesh, joint in movers}
+    moving_bodies = [(visual.mesh, joints[visual.name]) for visual in parts if visual.name in joints]
+    found = {joint.child: motion_as_choice(mesh, joint.type, joint.axis, whole) for mesh, joint in moving_bodies}
     return {part: choice for part, choice in found.items() if choice is not None}
 
 
-def with_movers(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel]) -> Asset:
+def with_moving(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel]) -> Asset:
     """Returns the asset whose parts are called what their stated motions make of them, and ride on nothing then.
 
     `labels` are the categories that were corrected already.
@@ -148,16 +148,16 @@ def plan_with_motions(
     stated = [part for part, choice in motions.items() if choice.moves is not Moves.NOT]
     kept = tuple(_without_riders(r, stated) for r in plan.joints if r.moving not in motions)
     requests = [_request(asset.part(p), motions[p], riders.get(p, ()), completion, asset) for p in stated]
-    movers = {request.moving for request in (*kept, *requests)}
-    requests = [_without_riders(request, sorted(movers - {request.moving})) for request in requests]
+    moving_bodies = {request.moving for request in (*kept, *requests)}
+    requests = [_without_riders(request, sorted(moving_bodies - {request.moving})) for request in requests]
     refused = tuple(r for r in plan.refused if r.part not in motions)
     still = (p for p, c in motions.items() if c.moves is Moves.NOT and (p in moved or asset.part(p).label.is_movable))
     rejected = tuple(Refusal(part, REJECTED, SkipReason.REJECTED) for part in still)
     return RealizationPlan((*kept, *requests), (*refused, *rejected))
 
 
-def _without_riders(request: JointRequest, movers: Sequence[str]) -> JointRequest:
-    return replace(request, riders=tuple(rider for rider in request.riders if rider not in movers))
+def _without_riders(request: JointRequest, moving_bodies: Sequence[str]) -> JointRequest:
+    return replace(request, riders=tuple(rider for rider in request.riders if rider not in moving_bodies))
 
 
 def _request(

@@ -63,7 +63,7 @@ def without_joints(plan: RealizationPlan, asset: Asset, why: str) -> Realized:
 
 def bare_fittings(scene: Scene, why: str) -> Fittings:
     """Returns the scene as it is, nothing added; what can be grasped is known of what has a handle by name alone."""
-    found = {mover: held_by_label(scene, mover) for mover in scene.movers}
-    grasps = {mover: grasp for mover, grasp in found.items() if grasp is not None}
+    found = {moving: held_by_label(scene, moving) for moving in scene.moving_bodies}
+    grasps = {moving: grasp for moving, grasp in found.items() if grasp is not None}
     skipped = (Skipped("handles, grips and interiors", SkipReason.TOO_COMPLEX, why),)
     return Fittings(scene, grasps=grasps, skipped=skipped)

@@ -1,4 +1,4 @@
-"""How movers may be expected to move before their joints are built, so that hardware keeps out of their way.
+"""How moving bodies may be expected to move before their joints are built, so that hardware keeps out of their way.
 
 A door is expected to turn about the first pin of a hinge class that leaves it free, else about the axis that was asked
 for; a drawer slides. What is built later may differ.
@@ -15,7 +15,7 @@ from grafu.vocabulary import JointType
 
 
 def expected_ways(requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig) -> dict[str, Way]:
-    """Returns the expected way of every mover that a joint is asked for; none for drawers that no rails can carry."""
+    """Returns the expected motion of each requested joint, by moving body; none for drawers that no rails can carry."""
     return dict(_ways(requests, scene, config))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from grafu.geometry.arrays import Mat4, Scalars, frozen_array
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MovingBody
+from grafu.geometry.intersection import SweptBody
 from grafu.geometry.transform import transform_points
 from grafu.realization.scene import Obstacle
 from grafu.vocabulary import JointType
@@ -57,7 +57,7 @@ def in_the_way(obstacles: Sequence[Obstacle], box: Box) -> list[Obstacle]:
     return [o for o in obstacles if o.collider.box.overlaps(box)]
 
 
-def sweep(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> SweepVerdict:
+def sweep(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> SweepVerdict:
     """Returns the verdict over evenly spaced poses from 0 to `reach`; the first blocked pose ends the free opening.
 
     A part that already collides at rest has a free opening of 0, and `share` tells whether that passes.
@@ -71,7 +71,7 @@ def sweep(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Ob
 
 
 def free_opening(
-    body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+    body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[float, float]:
     """Returns the opening before the first blocked pose, and for a body blocked at rest the share of such poses.
 
@@ -86,18 +86,18 @@ def free_opening(
 
 
 def all_blockers(
-    body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+    body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[str, ...]:
     """Returns the ids of the obstacles that the body cuts into anywhere from 0 to `reach`, sorted."""
     return sweep(body, motion, reach, obstacles, poses).blockers
 
 
-def is_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
+def is_free(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
     """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
     return not any(_blockers(body, motion(v), obstacles) for v in opening_values(reach, poses)[::-1])
 
 
-def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
+def widest_free(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
     """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection.
 
     A collision at rest does not count: it cannot be avoided by opening less.
@@ -116,7 +116,7 @@ def widest_free(body: MovingBody, motion: Motion, reach: float, obstacles: Seque
     return float(reach)
 
 
-def _blockers(body: MovingBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
+def _blockers(body: SweptBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
     """Returns the ids of what the body, posed at T, cuts into."""
     body.place(T)
     return [obstacles[k].id for k in body.penetrated([o.collider for o in obstacles])]

@@ -37,7 +37,7 @@ Figures = tuple[float, float]
 @final
 @dataclass(frozen=True)
 class Measured:
-    """The joints that stand and could be measured, their figures and order by mover, and the scene without the rest."""
+    """The joints that were built and measured, their figures and order by moving body, and a scene of these alone."""
 
     built: tuple[Built, ...]
     figures: Mapping[str, Figures]
@@ -70,7 +70,7 @@ def _too_complex(name: str, why: str) -> Figures | Skipped:
 
 
 def _without(gone: set[str], measured: Measured) -> Measured:
-    """Returns what is left when the joints of some movers are taken out, with their hardware."""
+    """Returns what is left when the joints of some moving bodies are taken out, with their hardware."""
     if not gone:
         return measured
     removed = [one for one in measured.built if one.request.moving in gone]
@@ -86,15 +86,15 @@ def _without(gone: set[str], measured: Measured) -> Measured:
 
 def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Skipped:
     """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
-    mover = built.request.moving
+    moving = built.request.moving
     motion = motion_about(built.placement.axis, built.request.type)
-    near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(mover).box, motion, upper))
-    names = {*scene.movers[mover].members, *(obstacle.id for obstacle in near)}
+    near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(moving).box, motion, upper))
+    names = {*scene.moving_bodies[moving].members, *(obstacle.id for obstacle in near)}
     around = replace(
         scene,
         parts={name: part for name, part in scene.parts.items() if name in names},
-        movers={mover: scene.movers[mover]},
-        hardware=tuple((mover, visual) for visual in scene.hardware_of(mover)),
+        moving_bodies={moving: scene.moving_bodies[moving]},
+        hardware=tuple((moving, visual) for visual in scene.hardware_of(moving)),
         ways={},
     )
     return cache.value("measure", _measure, built.request, built.placement, upper, around, config)
@@ -103,13 +103,13 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
 def _measure(
     request: JointRequest, placement: Placement, upper: float, scene: Scene, config: RealizationConfig
 ) -> Figures:
-    """Returns the same in a scene that holds only what is on the mover's way."""
-    mover = request.moving
+    """Returns the same in a scene that holds only what is near the path of the moving body."""
+    moving = request.moving
     motion = motion_about(placement.axis, request.type)
     near = list(scene.static_obstacles)
-    body = scene.moving_body(mover, config.depth * scene.unit, part_axes(scene.parts[mover].mesh))
+    body = scene.swept_body(moving, config.depth * scene.unit, part_axes(scene.parts[moving].mesh))
     share = sweep(body, motion, upper, near, _MEASURED_POSES).share
-    ends = [MeshCollider(v.mesh) for v in scene.hardware_of(mover)]
+    ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)]
     held = [MeshCollider(v.mesh) for v in placement.static]
     return share, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
 

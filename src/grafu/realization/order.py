@@ -12,7 +12,7 @@ from typing import final
 from grafu.articulation.waiting import all_before
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
@@ -24,13 +24,13 @@ _SHARES = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, 
 
 @final
 @dataclass(frozen=True, eq=False)
-class Moving:
-    """A joint as built so far: the mover, its motion, its opening, and the movers that it meets at rest.
+class BuiltJoint:
+    """A joint as built so far: the moving body, its motion, its opening, and the moving bodies that it meets at rest.
 
     `least` is the opening that it keeps, whoever it stands in the way of.
     """
 
-    mover: str
+    moving: str
     motion: Motion
     upper: float
     least: float
@@ -47,45 +47,45 @@ class Order:
     note: str = ""
 
 
-def order_joints(movings: Sequence[Moving], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
-    """Returns for each mover the movers that must be open first, and its opening."""
-    by_id = {moving.mover: moving for moving in movings}
+def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
+    """Returns for each moving body the moving bodies that must be open first, and its opening."""
+    by_id = {joint.moving: joint for joint in joints}
     orders: dict[str, Order] = {}
     waits: dict[str, set[str]] = {}
-    for moving in sorted(movings, key=lambda m: len(m.in_way)):
-        after, upper = [], moving.upper
-        for name in moving.in_way:
+    for joint in sorted(joints, key=lambda m: len(m.in_way)):
+        after, upper = [], joint.upper
+        for name in joint.in_way:
             other = by_id.get(name)
-            waits_for_us = moving.mover in all_before(name, waits)
+            waits_for_us = joint.moving in all_before(name, waits)
             if (
                 other is not None
                 and not waits_for_us
-                and _is_free_of(moving, moving.upper, _open(other, other.upper, scene), scene, config)
+                and _is_free_of(joint, joint.upper, _open(other, other.upper, scene), scene, config)
             ):
                 after.append(name)
             else:
-                upper = min(upper, _until(moving, scene.moving_mesh(name), scene, config))
-        waits[moving.mover] = set(after)
-        orders[moving.mover] = Order(tuple(after), upper)
+                upper = min(upper, _until(joint, scene.moving_mesh(name), scene, config))
+        waits[joint.moving] = set(after)
+        orders[joint.moving] = Order(tuple(after), upper)
     return orders
 
 
 def stand_aside(
-    orders: Mapping[str, Order], movings: Sequence[Moving], scene: Scene, config: RealizationConfig
+    orders: Mapping[str, Order], joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig
 ) -> dict[str, Order]:
     """Returns the orders in which doors open no wider than leaves their open neighbours free, if they must.
 
     A door that stands in somebody's way however little it opens, down to its `least`, opens as wide as before.
     """
     ways = _Ways(scene)
-    settled = {m.mover: orders[m.mover].upper for m in movings}
-    reaches = settled | {m.mover: min(settled[m.mover], m.least) for m in movings}  # of doors to come: what they keep
-    for door in movings:
-        widest, least = settled[door.mover], reaches[door.mover]
+    settled = {m.moving: orders[m.moving].upper for m in joints}
+    reaches = settled | {m.moving: min(settled[m.moving], m.least) for m in joints}  # of doors to come: what they keep
+    for door in joints:
+        widest, least = settled[door.moving], reaches[door.moving]
         shares = _SHARES if least < widest else ()
         uppers = (least + share * (widest - least) for share in shares)
-        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, movings, ways, config))
-        reaches[door.mover] = next(found, widest)
+        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, joints, ways, config))
+        reaches[door.moving] = next(found, widest)
     return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
 
 
@@ -97,52 +97,52 @@ class _Ways:
         self.scene = scene
         self._boxes: dict[tuple[str, float], Box] = {}
 
-    def box(self, moving: Moving, reach: float) -> Box:
+    def box(self, joint: BuiltJoint, reach: float) -> Box:
         """Returns the box around a joint's way up to `reach`."""
-        key = moving.mover, reach
+        key = joint.moving, reach
         if key not in self._boxes:
             require_time()
-            self._boxes[key] = swept_box(self.scene.moving_mesh(moving.mover).box, moving.motion, reach)
+            self._boxes[key] = swept_box(self.scene.moving_mesh(joint.moving).box, joint.motion, reach)
         return self._boxes[key]
 
 
 def _leaves_free(
-    door: Moving,
+    door: BuiltJoint,
     upper: float,
     reaches: Mapping[str, float],
-    movings: Sequence[Moving],
+    joints: Sequence[BuiltJoint],
     ways: _Ways,
     config: RealizationConfig,
 ) -> bool:
     """Whether nobody runs into a door that stands open by `upper`."""
     scene = ways.scene
     obstacle = _open(door, upper, scene)
-    others = [(other, reaches[other.mover]) for other in movings if other is not door]
+    others = [(other, reaches[other.moving]) for other in joints if other is not door]
     near = [(other, reach) for other, reach in others if in_the_way([obstacle], ways.box(other, reach))]
     return all(_is_free_of(other, reach, obstacle, scene, config) for other, reach in near)
 
 
-def _open(other: Moving, upper: float, scene: Scene) -> Obstacle:
+def _open(other: BuiltJoint, upper: float, scene: Scene) -> Obstacle:
     """Returns a neighbour as an obstacle in its open pose, its hardware counted in."""
-    meshes = [scene.moving_mesh(other.mover), *(v.mesh for v in scene.hardware_of(other.mover))]
-    return Obstacle(other.mover, MeshCollider(merge_meshes(meshes).transformed(other.motion(upper))))
+    meshes = [scene.moving_mesh(other.moving), *(v.mesh for v in scene.hardware_of(other.moving))]
+    return Obstacle(other.moving, MeshCollider(merge_meshes(meshes).transformed(other.motion(upper))))
 
 
-def _body(moving: Moving, scene: Scene, config: RealizationConfig) -> MovingBody:
-    axes = part_axes(scene.parts[moving.mover].mesh)
-    return scene.moving_body(moving.mover, config.depth * scene.unit, axes)
+def _body(joint: BuiltJoint, scene: Scene, config: RealizationConfig) -> SweptBody:
+    axes = part_axes(scene.parts[joint.moving].mesh)
+    return scene.swept_body(joint.moving, config.depth * scene.unit, axes)
 
 
-def _is_free_of(moving: Moving, upper: float, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
-    return is_free(_body(moving, scene, config), moving.motion, upper, [obstacle], config.coarse_poses)
+def _is_free_of(joint: BuiltJoint, upper: float, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
+    return is_free(_body(joint, scene, config), joint.motion, upper, [obstacle], config.coarse_poses)
 
 
-def _until(moving: Moving, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:
-    """Returns how far a mover opens before it meets a neighbour that stays closed."""
+def _until(joint: BuiltJoint, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:
+    """Returns how far a moving body opens before it meets a neighbour that stays closed."""
     obstacle = Obstacle("", MeshCollider(mesh))
-    way = swept_box(scene.moving_mesh(moving.mover).box, moving.motion, moving.upper)
+    way = swept_box(scene.moving_mesh(joint.moving).box, joint.motion, joint.upper)
     verdict = sweep(
-        _body(moving, scene, config), moving.motion, moving.upper, in_the_way([obstacle], way), config.fine_poses
+        _body(joint, scene, config), joint.motion, joint.upper, in_the_way([obstacle], way), config.fine_poses
     )
     # What overlaps at rest already cannot be avoided by opening less.
-    return verdict.free if verdict.share and verdict.free > 0 else moving.upper
+    return verdict.free if verdict.share and verdict.free > 0 else joint.upper

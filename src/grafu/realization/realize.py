@@ -27,10 +27,10 @@ from grafu.realization.hinge.border import part_axes
 from grafu.realization.joint_choice import short_of_chosen
 from grafu.realization.limits import motion_about
 from grafu.realization.measuring import Measured, measure_all
-from grafu.realization.order import Moving, Order, order_joints, stand_aside
+from grafu.realization.order import BuiltJoint, Order, order_joints, stand_aside
 from grafu.realization.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped
-from grafu.realization.scene import Mover, Scene, Way
+from grafu.realization.scene import MovingBody, Scene, Way
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
@@ -42,8 +42,8 @@ _ORDERING = 0.5  # of the time that is left when all joints stand; the rest is f
 class Realized:
     """The working object, what came of each request, and the final scene.
 
-    The scene holds the parts as they are built, at rest, all hardware, the movers that have a joint, and their ways
-    with the final opening as `upper` and the order in which they open.
+    The scene holds the parts as they are built, at rest, all hardware, the moving bodies that have a joint, and their
+    ways with the final opening as `upper` and the order in which they open.
     """
 
     object: ArticulatedObject
@@ -86,7 +86,7 @@ def _final_scene(scene: Scene, built: Sequence[Built], orders: Mapping[str, Orde
     """Returns the scene in which only those move that have a joint, each as far as it opens."""
     ids = [b.request.moving for b in built]
     ways = {b.request.moving: _final_way(b, orders[b.request.moving]) for b in built}
-    return replace(scene, movers={i: scene.movers[i] for i in ids}, ways=ways)
+    return replace(scene, moving_bodies={i: scene.moving_bodies[i] for i in ids}, ways=ways)
 
 
 def _final_way(built: Built, order: Order) -> Way:
@@ -97,8 +97,8 @@ def _closed_scene(
     asset: Asset, requests: Sequence[JointRequest], config: RealizationConfig
 ) -> tuple[Scene, dict[str, tuple[Clearance, ...]]]:
     """Returns the scene with every part that is drawn ajar closed, and what was noted about it."""
-    movers = {r.moving: Mover(r.moving, (r.moving, *r.riders)) for r in requests}
-    scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, movers, asset.unit)
+    moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *r.riders)) for r in requests}
+    scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, moving_bodies, asset.unit)
     notes: dict[str, tuple[Clearance, ...]] = {}
     for request in requests:
         if request.drawn_at <= 0:
@@ -108,7 +108,7 @@ def _closed_scene(
         path = Path(request.moving, motion, 1e-6, axes, request.type is JointType.REVOLUTE)
         scene, joined = adopt(scene, path, obstruction(scene, path, config).blockers, config)
         T = motion(-request.drawn_at)
-        members = scene.movers[request.moving].members
+        members = scene.moving_bodies[request.moving].members
         scene = scene.replaced(_moved(scene.parts[m], T) for m in members)
         note = Clearance(request.moving, "closed", request.drawn_at, 0.0, "was drawn ajar")
         notes[request.moving] = (*joined, note)
@@ -120,20 +120,20 @@ def _moved(part: Part, T: np.ndarray) -> Part:
 
 
 def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
-    movings = [_moving(b) for b in built]
+    movings = [_built_joint(b) for b in built]
     return stand_aside(order_joints(movings, scene, config), movings, scene, config)
 
 
-def _moving(built: Built) -> Moving:
+def _built_joint(built: Built) -> BuiltJoint:
     placement = built.placement
     motion = motion_about(placement.axis, built.request.type)
     turns = built.request.type is JointType.REVOLUTE
     least = radians(90) if turns and built.request.choice.opening is None else placement.upper
-    return Moving(built.request.moving, motion, placement.upper, least, placement.in_way)
+    return BuiltJoint(built.request.moving, motion, placement.upper, least, placement.in_way)
 
 
 def _without_order(built: Sequence[Built], why: str) -> dict[str, Order]:
-    """Returns for each mover that it waits for nobody; a note says that neighbours may meet, and why."""
+    """Returns for each moving body that it waits for nobody; a note says that neighbours may meet, and why."""
     note = f"whether it must wait for its neighbours was not found out: {why}"
     return {b.request.moving: Order((), b.placement.upper, note) for b in built}
 
@@ -177,21 +177,21 @@ def joint_id(moving: str) -> str:
 
 
 def _assembled(asset: Asset, scene: Scene, built: Sequence[Built], orders: Mapping[str, Order]) -> ArticulatedObject:
-    """Returns the tree: one static root, one link per mover; movers without a joint stand with the static body."""
-    moving = {b.request.moving: b for b in built}
-    at_home = {m for mover in moving for m in scene.movers[mover].members}
+    """Returns the tree: one static root, one link per moving body; those without a joint are visuals of the root."""
+    by_id = {b.request.moving: b for b in built}
+    at_home = {m for moving in by_id for m in scene.moving_bodies[moving].members}
     static = [_part_visual(p) for p in scene.parts.values() if p.id not in at_home]
     static += [visual for owner, visual in scene.hardware if not owner]
-    root = _free_name("body", {*scene.parts, *moving})
+    root = _free_name("body", {*scene.parts, *by_id})
     links = [Link(root, tuple(static))]
     joints = []
-    for mover, b in moving.items():
-        parts = [_part_visual(scene.parts[m]) for m in scene.movers[mover].members]
-        links.append(Link(mover, (*parts, *scene.hardware_of(mover))))
-        order = orders[mover]
+    for moving, b in by_id.items():
+        parts = [_part_visual(scene.parts[m]) for m in scene.moving_bodies[moving].members]
+        links.append(Link(moving, (*parts, *scene.hardware_of(moving))))
+        order = orders[moving]
         limits = JointLimits(0.0, order.upper)
         after = tuple(joint_id(name) for name in order.after)
-        joints.append(Joint(joint_id(mover), b.request.type, root, mover, b.placement.axis, limits, after))
+        joints.append(Joint(joint_id(moving), b.request.type, root, moving, b.placement.axis, limits, after))
     return ArticulatedObject(asset.name, root, tuple(links), tuple(joints))
 
 

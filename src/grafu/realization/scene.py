@@ -1,4 +1,4 @@
-"""The parts as they stand during realization: static body, movers, installed hardware, and their colliders.
+"""The parts as they stand during realization: static body, moving bodies, installed hardware, and their colliders.
 
 A scene is never changed: replacing a part or adding hardware returns a new scene, which shares whatever was worked out
 on the meshes that stayed the same.
@@ -16,14 +16,14 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.vocabulary import JointType
 
 
 @final
 @dataclass(frozen=True)
-class Mover:
+class MovingBody:
     """What moves as one: the part's id, then those that ride on it."""
 
     id: str
@@ -33,10 +33,10 @@ class Mover:
 @final
 @dataclass(frozen=True)
 class Way:
-    """How a mover moves: about or along `axis`, from rest to `upper` (radians or metres).
+    """How a moving body moves: about or along `axis`, from rest to `upper` (radians or metres).
 
     `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built. `after`
-    names the movers that must be wide open before it can move.
+    names the moving bodies that must be wide open before it can move.
     """
 
     axis: Axis
@@ -60,12 +60,12 @@ class Obstacle:
 class Scene:
     """All parts in their rest pose.
 
-    `hardware` holds installed visuals by the id of the mover, or "" for static; `ways` holds what is known of the
-    movers' motions.
+    `hardware` holds installed visuals by the id of the moving body, or "" for static; `ways` holds what is known of the
+    moving bodies' motions.
     """
 
     parts: Mapping[str, Part]
-    movers: Mapping[str, Mover]
+    moving_bodies: Mapping[str, MovingBody]
     unit: float
     hardware: tuple[tuple[str, Visual], ...] = ()
     ways: Mapping[str, Way] = field(default_factory=dict)
@@ -73,12 +73,12 @@ class Scene:
         default_factory=dict, repr=False
     )
     _way_boxes: dict[str, tuple[TriangleMesh, Way, Box]] = field(default_factory=dict, repr=False)
-    _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, MovingBody]] = field(default_factory=dict, repr=False)
+    _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = field(default_factory=dict, repr=False)
 
     @cached_property
     def moving_ids(self) -> frozenset[str]:
         """The ids of all parts that move."""
-        return frozenset(member for mover in self.movers.values() for member in mover.members)
+        return frozenset(member for moving in self.moving_bodies.values() for member in moving.members)
 
     @cached_property
     def static_parts(self) -> tuple[Part, ...]:
@@ -95,14 +95,14 @@ class Scene:
         """One obstacle per installed static piece of hardware."""
         return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for owner, v in self.hardware if not owner)
 
-    def moving_mesh(self, mover_id: str) -> TriangleMesh:
-        """Returns the mover with all that rides on it, without hardware, as one mesh."""
-        return self._as_one(tuple(self.parts[member].mesh for member in self.movers[mover_id].members))
+    def moving_mesh(self, moving_id: str) -> TriangleMesh:
+        """Returns the moving body with all that rides on it, without hardware, as one mesh."""
+        return self._as_one(tuple(self.parts[member].mesh for member in self.moving_bodies[moving_id].members))
 
-    def equipped_mesh(self, mover_id: str) -> TriangleMesh:
-        """Returns the mover with all that rides on it and the hardware that it carries so far, as one mesh."""
-        hardware = [visual.mesh for visual in self.hardware_of(mover_id)]
-        bare = self.moving_mesh(mover_id)
+    def equipped_mesh(self, moving_id: str) -> TriangleMesh:
+        """Returns the moving body with all that rides on it and the hardware that it carries so far, as one mesh."""
+        hardware = [visual.mesh for visual in self.hardware_of(moving_id)]
+        bare = self.moving_mesh(moving_id)
         return self._as_one((bare, *hardware)) if hardware else bare
 
     def _as_one(self, meshes: tuple[TriangleMesh, ...]) -> TriangleMesh:
@@ -112,24 +112,24 @@ class Scene:
             self._merged[key] = (meshes, merge_meshes(meshes))
         return self._merged[key][1]
 
-    def way_box(self, mover_id: str, mesh: TriangleMesh, way: Way, find: Callable[[], Box]) -> Box:
+    def way_box(self, moving_id: str, mesh: TriangleMesh, way: Way, find: Callable[[], Box]) -> Box:
         """Returns the box around a mesh's whole way, which `find` works out: once, as long as mesh and way stay."""
-        known = self._way_boxes.get(mover_id)
+        known = self._way_boxes.get(moving_id)
         if known is None or known[0] is not mesh or known[1] is not way:
-            known = self._way_boxes[mover_id] = (mesh, way, find())
+            known = self._way_boxes[moving_id] = (mesh, way, find())
         return known[2]
 
-    def moving_body(self, mover_id: str, depth: float, axes: Mat3) -> MovingBody:
-        """Returns the mover as a body that tells a touch from a penetration deeper than `depth` metres."""
-        mesh = self.moving_mesh(mover_id)
+    def swept_body(self, moving_id: str, depth: float, axes: Mat3) -> SweptBody:
+        """Returns the moving body as a body that tells a touch from a penetration deeper than `depth` metres."""
+        mesh = self.moving_mesh(moving_id)
         key = (id(mesh), np.append(axes, depth).tobytes())
         if key not in self._bodies:
-            self._bodies[key] = (mesh, MovingBody(mesh, depth, axes))
+            self._bodies[key] = (mesh, SweptBody(mesh, depth, axes))
         return self._bodies[key][1]
 
-    def other_movers(self, mover_id: str) -> tuple[Obstacle, ...]:
-        """Returns the other movers as obstacles, at rest, with the hardware that they carry."""
-        others = (other for other in self.movers if other != mover_id)
+    def other_bodies(self, moving_id: str) -> tuple[Obstacle, ...]:
+        """Returns the other moving bodies as obstacles, at rest, with the hardware that they carry."""
+        others = (other for other in self.moving_bodies if other != moving_id)
         return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
 
     def is_near_static(self, mesh: TriangleMesh, within: float, of: str = "") -> bool:
@@ -138,9 +138,9 @@ class Scene:
         obstacles = (obstacle for obstacle in self.static_obstacles if of in ("", obstacle.id))
         return any(collider.is_within(within, obstacle.collider) for obstacle in obstacles)
 
-    def hardware_of(self, mover_id: str) -> tuple[Visual, ...]:
-        """Returns the hardware installed on a mover."""
-        return self._hardware_by_owner.get(mover_id, ())
+    def hardware_of(self, moving_id: str) -> tuple[Visual, ...]:
+        """Returns the hardware installed on a moving body."""
+        return self._hardware_by_owner.get(moving_id, ())
 
     @cached_property
     def _hardware_by_owner(self) -> dict[str, tuple[Visual, ...]]:
@@ -158,19 +158,19 @@ class Scene:
         return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
 
     def without_riders(self, gone: Collection[str]) -> "Scene":
-        """Returns the scene without some parts that ride on movers."""
+        """Returns the scene without some parts that ride on moving bodies."""
         if not gone:
             return self
-        movers = {
-            name: Mover(mover.id, tuple(m for m in mover.members if m not in gone))
-            for name, mover in self.movers.items()
+        moving_bodies = {
+            name: MovingBody(moving.id, tuple(m for m in moving.members if m not in gone))
+            for name, moving in self.moving_bodies.items()
         }
-        return replace(self, parts={k: p for k, p in self.parts.items() if k not in gone}, movers=movers)
+        return replace(self, parts={k: p for k, p in self.parts.items() if k not in gone}, moving_bodies=moving_bodies)
 
-    def with_joint(self, mover_id: str, way: Way, dynamic: Iterable[Visual], static: Iterable[Visual]) -> "Scene":
-        """Returns the scene with a mover's way, and hardware added to it and to the static body."""
-        added = [(mover_id, v) for v in dynamic] + [("", v) for v in static]
-        return replace(self, hardware=(*self.hardware, *added), ways={**self.ways, mover_id: way})
+    def with_joint(self, moving_id: str, way: Way, dynamic: Iterable[Visual], static: Iterable[Visual]) -> "Scene":
+        """Returns the scene with a moving body's way, and hardware added to it and to the static body."""
+        added = [(moving_id, v) for v in dynamic] + [("", v) for v in static]
+        return replace(self, hardware=(*self.hardware, *added), ways={**self.ways, moving_id: way})
 
     def static_mesh_near(self, box: Box, margin: float, of: str = "") -> TriangleMesh:
         """Returns the static triangles (`of`: of that part alone) whose own boxes come within `margin` of a box."""

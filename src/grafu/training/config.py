@@ -125,7 +125,7 @@ BASE = TrainingConfig(
         masked=0.2,
         corruption=_UNMIRRORED.reweighted(
             {
-                "drop_doors": 0.0,  # a completion adds no movers
+                "drop_doors": 0.0,  # a completion adds no moving bodies
                 "drop_drawers": 0.0,
                 "fully_anonymized": 0.25,
                 "mask_materials_keep_edges": 0.04,

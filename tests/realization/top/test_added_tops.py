@@ -11,7 +11,7 @@ from topless import D, H, T, W, board, carcass, drawer, front, lift, merged, sli
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.limits import motion_about, sweep
 from grafu.realization.plan import JointRequest
@@ -38,8 +38,8 @@ def volume(mesh: TriangleMesh) -> float:
     return float(np.einsum("nd,nd->n", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6)
 
 
-def opens_freely(mover: Part, joint: JointRequest, top: Part, reach: float) -> bool:
-    body = MovingBody(mover.mesh, 4e-4, np.eye(3))
+def opens_freely(moving: Part, joint: JointRequest, top: Part, reach: float) -> bool:
+    body = SweptBody(moving.mesh, 4e-4, np.eye(3))
     motion = motion_about(joint.axis, joint.type)
     return sweep(body, motion, reach, [Obstacle("top", MeshCollider(top.mesh))], 41).share == 0.0
 
@@ -160,7 +160,7 @@ def test_posts_and_backs_that_go_through_are_left_out() -> None:
     mirror = board("mirror", (-W / 2, D / 2 - 0.01, 0.0), (W / 2, D / 2, 1.4))
     top = added([*carcass(), post, mirror])
     for part in (post, mirror):
-        body = MovingBody(part.mesh, 4e-4, np.eye(3))
+        body = SweptBody(part.mesh, 4e-4, np.eye(3))
         body.place(np.eye(4))
         assert not body.penetrates(MeshCollider(top.mesh))
 

@@ -37,13 +37,13 @@ _APART = 0.08  # share of it that parts drawers above each other at most: a rail
 @final
 @dataclass(frozen=True, eq=False)
 class View:
-    """One side to which fronts open: its axes as columns, its movers, the still body's box in it.
+    """One side to which fronts open: its axes as columns, its moving bodies, the still body's box in it.
 
-    `others` are the movers that open to other sides: a back door closes a body, too.
+    `others` are the moving bodies that open to other sides: a back door closes a body, too.
     """
 
     rotation: Mat3
-    movers: tuple[str, ...]
+    moving_bodies: tuple[str, ...]
     body: Box
     rays: RayCaster
     others: RayCaster
@@ -72,7 +72,7 @@ class Bay(ArrayValue):
     `lowest` how high the lowest of them is.
     """
 
-    movers: tuple[str, ...]
+    moving_bodies: tuple[str, ...]
     low: Vec3
     high: Vec3
     outline: np.ndarray
@@ -86,7 +86,7 @@ class Bay(ArrayValue):
         a, b = self.outline, other.outline
         outline = np.array([min(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), max(a[3], b[3])])
         return Bay(
-            (*self.movers, *other.movers),
+            (*self.moving_bodies, *other.moving_bodies),
             np.minimum(self.low, other.low),
             np.maximum(self.high, other.high),
             outline,
@@ -98,20 +98,20 @@ class Bay(ArrayValue):
 
 
 def find_views(scene: Scene, requests: Iterable[JointRequest]) -> tuple[View, ...]:
-    """Returns the sides to which upright doors and drawers open, each with its movers."""
+    """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
     ways = {r.moving: way for r in requests if (way := _outward(scene, r)) is not None}
     groups: list[tuple[Vec3, list[str]]] = []
-    for mover, way in ways.items():
+    for moving, way in ways.items():
         group = next((g for g in groups if float(g[0] @ way) > _SAME_WAY), None)
         if group is None:
-            groups.append((way, [mover]))
+            groups.append((way, [moving]))
         else:
-            group[1].append(mover)
+            group[1].append(moving)
     still = merge_meshes([_coarse(p.mesh, scene.unit) for p in scene.static_parts])
     if not groups or not len(still.faces):
         return ()
     rays = RayCaster(still)
-    return tuple(_view(scene, still, rays, way, tuple(movers)) for way, movers in groups)
+    return tuple(_view(scene, still, rays, way, tuple(moving_bodies)) for way, moving_bodies in groups)
 
 
 def _coarse(mesh: TriangleMesh, unit: float) -> TriangleMesh:
@@ -142,18 +142,20 @@ def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
     return square if float(square @ level) > _SQUARE else level
 
 
-def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, movers: tuple[str, ...]) -> View:
+def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, moving_bodies: tuple[str, ...]) -> View:
     y = -way
     rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
-    own = {member for mover in movers for member in scene.movers[mover].members}
+    own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
     others = merge_meshes([_coarse(scene.parts[i].mesh, scene.unit) for i in sorted(scene.moving_ids - own)])
-    return View(rotation, movers, Box.around(still.vertices @ rotation), rays, RayCaster(others))
+    return View(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
 
 
 def find_bays(view: View, scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[Bay, ...]:
     """Returns the bays behind the fronts of a view, those that open into one another as one."""
     doors = {r.moving for r in requests if r.type is JointType.REVOLUTE}
-    bays = [bay for mover in view.movers if (bay := _bay(view, scene, mover, mover in doors, config)) is not None]
+    bays = [
+        bay for moving in view.moving_bodies if (bay := _bay(view, scene, moving, moving in doors, config)) is not None
+    ]
     merged = True
     while merged:
         merged = False
@@ -171,9 +173,9 @@ def _one_space(a: Bay, b: Bay, unit: float) -> bool:
     return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < _APART * unit)
 
 
-def _bay(view: View, scene: Scene, mover: str, is_door: bool, config: CarcassConfig) -> Bay | None:
+def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
     """Returns the space behind one front; None where no walls stand on both sides of it."""
-    front = view.local(scene.parts[mover].mesh.vertices)
+    front = view.local(scene.parts[moving].mesh.vertices)
     low, high = front.min(axis=0), front.max(axis=0)
     depth = float(view.body.high[1] - low[1])
     if depth < config.least_depth * scene.unit:
@@ -196,7 +198,7 @@ def _bay(view: View, scene: Scene, mover: str, is_door: bool, config: CarcassCon
     outline = np.array([low[0], high[0], low[2], high[2]])
     inset = start < float(low[1]) + 0.5 * min(float(high[1] - low[1]), _FRONT)
     return Bay(
-        (mover,),
+        (moving,),
         vec3(x0, start, outline[2]),
         vec3(x1, end, outline[3]),
         outline,

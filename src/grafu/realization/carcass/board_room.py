@@ -22,7 +22,7 @@ _NEAR = 2e-3  # metres within which a board is held
 @final
 @dataclass(frozen=True, eq=False)
 class BoardRoom:
-    """The still body, boards added to it so far, and the movers, all closed, in a view."""
+    """The still body, boards added to it so far, and the moving bodies, all closed, in a view."""
 
     body: TriangleMesh
     rays: RayCaster

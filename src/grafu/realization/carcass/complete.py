@@ -60,7 +60,7 @@ def complete_carcass(
         for lack in [whole] if together else group:
             board = _board(lack, room, config)
             if board is None:
-                refused.append(Refusal(lack.movers[0], f"no {lack.what.value}: {_NO_ROOM}"))
+                refused.append(Refusal(lack.moving_bodies[0], f"no {lack.what.value}: {_NO_ROOM}"))
                 continue
             room = rooms[id(lack.view)] = room.with_board(board)
             additions.append(_addition(lack, board, around, taken))
@@ -91,7 +91,7 @@ def _whole(group: Sequence[Lack]) -> Lack:
     bay = group[0].bay
     for lack in group[1:]:
         bay = bay.joined(lack.bay)
-    return replace(group[0], bay=bay, movers=bay.movers, why="; ".join(lack.why for lack in group))
+    return replace(group[0], bay=bay, moving_bodies=bay.moving_bodies, why="; ".join(lack.why for lack in group))
 
 
 def _adjoins(a: Lack, b: Lack, unit: float) -> bool:

@@ -37,7 +37,7 @@ class Lack:
     """
 
     what: PartLabel
-    movers: tuple[str, ...]
+    moving_bodies: tuple[str, ...]
     covered: float
     why: str
     view: View
@@ -51,7 +51,7 @@ def carcass_lacks(parts: Sequence[Part], plan: RealizationPlan, config: CarcassC
 
 
 def lacks_of(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[Lack, ...]:
-    """Returns what the bodies lack, all movers closed."""
+    """Returns what the bodies lack, all moving bodies closed."""
     found: list[Lack] = []
     for view in find_views(around.scene, around.requests):
         bays = [
@@ -72,8 +72,8 @@ def lacks_of(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[Lac
 
 def _lack(what: PartLabel, bay: Bay, covered: float, view: View) -> Lack:
     side = "back" if what is PartLabel.BACK_PANEL else "bottom"
-    named = ", ".join(bay.movers[:3]) + (" and others" if len(bay.movers) > 3 else "")
-    return Lack(what, bay.movers, covered, f"the {side} behind {named} is covered to {covered:.0%}", view, bay)
+    named = ", ".join(bay.moving_bodies[:3]) + (" and others" if len(bay.moving_bodies) > 3 else "")
+    return Lack(what, bay.moving_bodies, covered, f"the {side} behind {named} is covered to {covered:.0%}", view, bay)
 
 
 def _is_carcass(bay: Bay, unit: float, view: View, config: CarcassConfig) -> bool:

@@ -11,7 +11,7 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.geometry.transform import transform_points
@@ -47,7 +47,7 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
 
 
 def _carved(name: str, area: float, loss: Loss, path: Path) -> Clearance:
-    why = f"stood in the way of {path.mover}"
+    why = f"stood in the way of {path.moving}"
     return Clearance(name, "carved", float(np.sqrt(area)), loss.share, why, loss.surface, loss.volume)
 
 
@@ -62,7 +62,7 @@ def _lost_share(part: Part, solids: Sequence[ConvexSolid], area: float, limit: f
 def _swept_solids(
     scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
 ) -> Iterator[ConvexSolid]:
-    """Yields convex solids that cover the way of whatever of the mover cuts into a blocker, with some play."""
+    """Yields convex solids that cover the way of whatever of the moving body cuts into a blocker, with some play."""
     poses = [path.motion(v) for v in np.linspace(0.0, path.reach, _steps(path) + 1)]
     boxes = [scene.parts[name].box for name in ids]
     for points in _cutting_pieces(scene, path, ids, play, config):
@@ -84,8 +84,8 @@ def _cutting_pieces(
     scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
 ) -> Iterator[Points]:
     """Yields the corners, with play, of what cuts in: a convex piece's hull, or the triangles of other pieces."""
-    mesh = scene.moving_mesh(path.mover)
-    body = scene.moving_body(path.mover, config.depth * scene.unit, path.axes)
+    mesh = scene.moving_mesh(path.moving)
+    body = scene.swept_body(path.moving, config.depth * scene.unit, path.axes)
     colliders = [MeshCollider(scene.parts[name].mesh) for name in ids]
     cutting = _cutting_faces(body, path, colliders, config.fine_poses)
     numbers = part_numbers(mesh)
@@ -99,7 +99,7 @@ def _cutting_pieces(
             yield from (_grown(triangle, play, path.axes) for triangle in mesh.triangles[faces])
 
 
-def _cutting_faces(body: MovingBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
+def _cutting_faces(body: SweptBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
     """Returns the numbers of the moving faces that cut into an obstacle somewhere on the way."""
     found: set[int] = set()
     for value in opening_values(path.reach, poses):

@@ -20,7 +20,7 @@ from grafu.realization.clearance.trim import trim
 from grafu.realization.config import RealizationConfig
 from grafu.realization.limits import SweepVerdict
 from grafu.realization.report import Clearance
-from grafu.realization.scene import Mover, Scene
+from grafu.realization.scene import MovingBody, Scene
 
 
 @final
@@ -60,14 +60,14 @@ def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
 
 def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Lets static parts that lie enclosed in the moving part move with it: the drawer's own half of its old rails."""
-    box = scene.parts[path.mover].box.grown(2 * config.depth * scene.unit)
+    box = scene.parts[path.moving].box.grown(2 * config.depth * scene.unit)
     inside = [name for name in ids if bool(box.contains(scene.parts[name].box.corners()).all())]
     if not inside:
         return scene, []
-    mover = scene.movers[path.mover]
-    movers = {**scene.movers, path.mover: Mover(mover.id, (*mover.members, *inside))}
-    why = f"lies enclosed in {path.mover} and moves with it"
-    return replace(scene, movers=movers), [Clearance(part, "joined", 0.0, 0.0, why) for part in inside]
+    moving = scene.moving_bodies[path.moving]
+    moving_bodies = {**scene.moving_bodies, path.moving: MovingBody(moving.id, (*moving.members, *inside))}
+    why = f"lies enclosed in {path.moving} and moves with it"
+    return replace(scene, moving_bodies=moving_bodies), [Clearance(part, "joined", 0.0, 0.0, why) for part in inside]
 
 
 def ease(
@@ -83,7 +83,7 @@ def ease(
         lost = float(1.0 - np.prod(np.maximum(size - 2 * play, 0.0) / size))
         if lost < config.max_carve:
             eased.append(_shrunk(part, play))
-            why = f"{path.mover} ran in it without play"
+            why = f"{path.moving} ran in it without play"
             done.append(Clearance(name, "eased", play, lost, why, volume_share=lost))
     return scene.replaced(eased), done
 

@@ -15,9 +15,9 @@ from grafu.realization.scene import Scene
 @final
 @dataclass(frozen=True, eq=False)
 class Path:
-    """A mover's motion from 0 to `reach` (radians if `is_turn`, else metres); the columns of `axes` are its box's."""
+    """A motion from 0 to `reach` (radians if `is_turn`, else metres); the columns of `axes` are those of its box."""
 
-    mover: str
+    moving: str
     motion: Motion
     reach: float
     axes: Mat3
@@ -25,9 +25,9 @@ class Path:
 
 
 def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
-    """Returns how far the static parts block the mover's way, and which of them do."""
-    mesh = scene.moving_mesh(path.mover)
-    body = scene.moving_body(path.mover, config.depth * scene.unit, path.axes)
+    """Returns how far the static parts block the moving body's way, and which of them do."""
+    mesh = scene.moving_mesh(path.moving)
+    body = scene.swept_body(path.moving, config.depth * scene.unit, path.axes)
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
     return sweep(body, path.motion, path.reach, near, config.fine_poses)
 

@@ -37,7 +37,7 @@ def trim(
 
     With `touching`, also where they merely touch: a drawer without any play leaves no room for rails.
     """
-    part = scene.parts[path.mover]
+    part = scene.parts[path.moving]
     most = config.max_trim * box_in(path.axes, part.mesh).size
     play = 2.5 * config.depth * scene.unit
     theirs = [box for name in ids for box in piece_boxes(path.axes, scene.parts[name].mesh)]
@@ -52,7 +52,7 @@ def trim(
     trimmed: Part = replace(part, surfaces=tuple(surfaces))
     share = depth / float(most.max() / config.max_trim)
     why = f"{'touched' if touching else 'cut into'} {', '.join(ids)}"
-    return scene.replaced([trimmed]), [Clearance(path.mover, "trimmed", depth, share, why)]
+    return scene.replaced([trimmed]), [Clearance(path.moving, "trimmed", depth, share, why)]
 
 
 def _pressed(

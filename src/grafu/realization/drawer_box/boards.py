@@ -1,4 +1,4 @@
-"""The boards that make a drawer's box whole, as boxes in the drawer's frame. It knows no parts and no other movers.
+"""The boards that complete a drawer box, as boxes in the drawer's frame. It knows no parts and no other bodies.
 
 A mere front gets all four within the room behind it; an incomplete box is completed from the boards that are there:
 their outer faces, their height, their length.

@@ -49,7 +49,7 @@ def find_room(
         front: the front in its own frame, with what rides behind it.
         frame: the drawer's frame.
         still: the triangles (n, 3, 3) of the still parts in that frame.
-        others: the triangles of the other movers at rest in that frame, with what was added to them.
+        others: the triangles of the other moving bodies at rest in that frame, with what was added to them.
         config: clearances and least sizes.
         limit: the y at which the box must end at the latest, metres.
     """

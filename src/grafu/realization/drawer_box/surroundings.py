@@ -1,4 +1,4 @@
-"""What stands around a drawer: all parts closed, the still ones and the other movers, as triangles in its frame."""
+"""What surrounds a drawer: static parts and other moving bodies, closed, as triangles in its frame."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -11,7 +11,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import translation
 from grafu.realization.plan import JointRequest, RealizationPlan
 from grafu.realization.rail.body_region import DrawerFrame
-from grafu.realization.scene import Mover, Scene
+from grafu.realization.scene import MovingBody, Scene
 from grafu.vocabulary import JointType
 
 _OPPOSITE = -0.9  # cosine between the ways of two drawers from which on they face away from each other
@@ -20,7 +20,7 @@ _OPPOSITE = -0.9  # cosine between the ways of two drawers from which on they fa
 @final
 @dataclass(frozen=True, eq=False)
 class Surroundings:
-    """The parts as they stand with every mover closed, and who moves how; `scene` holds no hardware."""
+    """The parts as they stand with every moving body closed, and who moves how; `scene` holds no hardware."""
 
     scene: Scene
     requests: tuple[JointRequest, ...]
@@ -31,8 +31,8 @@ class Surroundings:
         return self.scene.static_parts
 
     def triangles(self, request: JointRequest, frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the triangles (n, 3, 3) of the still parts, and of the other movers, in a drawer's frame."""
-        own = set(self.scene.movers[request.moving].members)
+        """Returns the triangles (n, 3, 3) of the still parts, and of the other moving bodies, in a drawer's frame."""
+        own = set(self.scene.moving_bodies[request.moving].members)
         moving = [self.scene.parts[i] for i in sorted(self.scene.moving_ids) if i not in own]
         return _local_triangles(self.scene.static_parts, frame), _local_triangles(moving, frame, frame.height / 2)
 
@@ -51,34 +51,34 @@ class Surroundings:
                 nearest = min(nearest, (frame.depth + max(float(low[1]), frame.depth)) / 2)
         return nearest
 
-    def with_members(self, mover_id: str, members: Iterable[str]) -> "Surroundings":
-        """Returns the surroundings in which some still parts ride on a mover."""
-        mover = self.scene.movers[mover_id]
-        movers = {**self.scene.movers, mover_id: Mover(mover_id, (*mover.members, *members))}
-        return replace(self, scene=Scene(self.scene.parts, movers, self.scene.unit))
+    def with_members(self, moving_id: str, members: Iterable[str]) -> "Surroundings":
+        """Returns the surroundings in which some still parts ride on a moving body."""
+        moving = self.scene.moving_bodies[moving_id]
+        moving_bodies = {**self.scene.moving_bodies, moving_id: MovingBody(moving_id, (*moving.members, *members))}
+        return replace(self, scene=Scene(self.scene.parts, moving_bodies, self.scene.unit))
 
     def with_parts(self, parts: tuple[Part, ...]) -> "Surroundings":
-        """Returns the surroundings with parts that ride on a mover added."""
-        movers = dict(self.scene.movers)
+        """Returns the surroundings with parts that ride on a moving body added."""
+        moving_bodies = dict(self.scene.moving_bodies)
         for part in parts:
-            if part.rides_on in movers:
-                mover = movers[part.rides_on]
-                movers[mover.id] = Mover(mover.id, (*mover.members, part.id))
-        scene = Scene({**self.scene.parts, **{p.id: p for p in parts}}, movers, self.scene.unit)
+            if part.rides_on in moving_bodies:
+                moving = moving_bodies[part.rides_on]
+                moving_bodies[moving.id] = MovingBody(moving.id, (*moving.members, part.id))
+        scene = Scene({**self.scene.parts, **{p.id: p for p in parts}}, moving_bodies, self.scene.unit)
         return replace(self, scene=scene)
 
 
 def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surroundings:
-    """Returns the parts with every mover of a plan closed that is drawn ajar; parts without faces are left out."""
+    """Returns the parts with every moving body of a plan closed; parts without faces are left out."""
     known = {part.id: part for part in parts if len(part.mesh.faces)}
     requests = tuple(r for r in plan.joints if r.moving in known)
-    movers = {r.moving: Mover(r.moving, (r.moving, *(i for i in r.riders if i in known))) for r in requests}
+    moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *(i for i in r.riders if i in known))) for r in requests}
     for request in requests:
         if request.drawn_at > 0:
-            for member in movers[request.moving].members:
+            for member in moving_bodies[request.moving].members:
                 known[member] = _closed(known[member], request)
     whole = Box.enclosing(part.box for part in known.values())
-    return Surroundings(Scene(known, movers, float(whole.size.max())), requests)
+    return Surroundings(Scene(known, moving_bodies, float(whole.size.max())), requests)
 
 
 def _closed(part: Part, request: JointRequest) -> Part:

@@ -31,29 +31,29 @@ _SAME = 1e-6  # metres
 _FULL = 0.5  # of the box around a groove: less was cut where what looked solid is not
 
 
-def carve_grip(scene: Scene, mover_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refused:
-    """Returns the mover's front with a grip, or why it takes none.
+def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refused:
+    """Returns the moving body's front with a grip, or why it takes none.
 
     Args:
-        scene: the final scene, with hardware and ways.
-        mover_id: the door or drawer.
+        scene: the final scene, with hardware and joint motions.
+        moving_id: the door or drawer.
         config: what to carve.
         spot: a point of the object frame (metres) near which the grip is wanted; others are tried where it is no good.
 
     Raises:
-        KeyError: if the scene has no such mover.
+        KeyError: if the scene has no such moving body.
     """
-    mover = scene.movers[mover_id]
-    way = scene.ways.get(mover_id)
+    moving = scene.moving_bodies[moving_id]
+    way = scene.ways.get(moving_id)
     if way is None:
-        return Refused(mover_id, GripRefusal.NO_MOTION)
+        return Refused(moving_id, GripRefusal.NO_MOTION)
     scale = min(1.0, scene.unit / _FURNITURE)
-    front = front_of(scene.parts[mover.id].mesh, way, config)
-    part = front_part(scene, mover_id, front)
-    if part.id != mover_id:
+    front = front_of(scene.parts[moving.id].mesh, way, config)
+    part = front_part(scene, moving_id, front)
+    if part.id != moving_id:
         local = Box.around(front.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
         front = replace(front, box=local)
-    site = site_of(scene, mover_id, front, part, scale)
+    site = site_of(scene, moving_id, front, part, scale)
     reasons: list[tuple[GripKind, Counter[GripRefusal]]] = []
     for kind in config.kinds:
         met: Counter[GripRefusal] = Counter()
@@ -65,7 +65,7 @@ def carve_grip(scene: Scene, mover_id: str, config: GripConfig, spot: Vec3 | Non
             met[made] += 1
         reasons.append((kind, met or Counter({GripRefusal.TOO_SMALL: 1})))
     told = "; ".join(f"{kind}: {', '.join(reason for reason, _ in met.most_common())}" for kind, met in reasons)
-    return Refused(mover_id, reasons[-1][1].most_common(1)[0][0], told)
+    return Refused(moving_id, reasons[-1][1].most_common(1)[0][0], told)
 
 
 def _carved(site: Site, cut: Cut) -> Carved | GripRefusal:

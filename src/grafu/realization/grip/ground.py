@@ -162,14 +162,14 @@ def _first_layer(
     return face, back, solid, -np.inf, is_opaque
 
 
-def site_of(scene: Scene, mover_id: str, front: Front, part: Part, scale: float) -> Site:
-    """Returns the site on one of the mover's parts."""
+def site_of(scene: Scene, moving_id: str, front: Front, part: Part, scale: float) -> Site:
+    """Returns the site on one of the moving body's parts."""
     around = Box.around(front.in_object(front.box.corners())).grown(_AROUND * scale)
-    own = [scene.parts[m].mesh for m in scene.movers[mover_id].members if m != part.id]
-    own += [v.mesh for v in scene.hardware_of(mover_id)]
+    own = [scene.parts[m].mesh for m in scene.moving_bodies[moving_id].members if m != part.id]
+    own += [v.mesh for v in scene.hardware_of(moving_id)]
     still = [scene.static_mesh_near(around, 0.0)]
     still += [v.mesh for owner, v in scene.hardware if not owner]
-    others = [scene.equipped_mesh(other) for other in scene.movers if other != mover_id]
+    others = [scene.equipped_mesh(other) for other in scene.moving_bodies if other != moving_id]
     attached, fixed, moving = (_near(front, meshes, around) for meshes in (own, still, others))
     return Site(part, front, attached, fixed, moving, scale)
 
@@ -183,10 +183,10 @@ def _near(front: Front, meshes: Sequence[TriangleMesh], around: Box) -> Triangle
     return np.asarray(front.local(corners[keep].reshape(-1, 3)).reshape(-1, 3, 3))
 
 
-def front_part(scene: Scene, mover_id: str, front: Front) -> Part:
-    """Returns the mover's part that lies outermost over most of its front; handles do not count."""
-    ids = scene.movers[mover_id].members
-    parts = [scene.parts[m] for m in ids if m == mover_id or scene.parts[m].label is not PartLabel.HANDLE]
+def front_part(scene: Scene, moving_id: str, front: Front) -> Part:
+    """Returns the moving body's part that lies outermost over most of its front; handles do not count."""
+    ids = scene.moving_bodies[moving_id].members
+    parts = [scene.parts[m] for m in ids if m == moving_id or scene.parts[m].label is not PartLabel.HANDLE]
     if len(parts) == 1:
         return parts[0]
     owner = np.repeat(np.arange(len(parts)), [len(p.mesh.faces) for p in parts])

@@ -41,7 +41,7 @@ class Hooks:
 
 
 def find_hooks(relief: Relief, config: GraspConfig, where: Cells) -> list[Hooks]:
-    """Returns the cells from which fingers reach round an edge of the mover, one of the four ways at a time."""
+    """Returns the cells from which fingers reach round an edge of the moving body, one of the four ways at a time."""
     return [_hooks_towards(relief, config, where, step) for step in STEPS]
 
 
@@ -76,8 +76,8 @@ def _hooks_towards(relief: Relief, config: GraspConfig, where: Cells, step: Step
 def _reaches(relief: Relief, cells: Int[np.ndarray, "k 2"], depths: Float[np.ndarray, "k d"], way: Vec3) -> np.ndarray:
     """Returns how far each cell sees along the front at each depth before it meets anything."""
     points = np.stack([*np.broadcast_arrays(relief.u[cells[:, :1]], depths, relief.v[cells[:, 1:]])], axis=-1)
-    mover, others = relief.cast(points.reshape(-1, 3), way)
-    return np.minimum(mover, others).reshape(depths.shape)
+    moving, others = relief.cast(points.reshape(-1, 3), way)
+    return np.minimum(moving, others).reshape(depths.shape)
 
 
 def _pulls(
@@ -89,10 +89,10 @@ def _pulls(
     hook: float,
     lip: Float[np.ndarray, " k"],
 ) -> Mask:
-    """Whether a fingertip behind the edge meets the mover, and nothing else, when it is pulled back."""
+    """Whether a fingertip behind the edge meets the moving body, and nothing else, when it is pulled back."""
     tips = _points(relief, cells, start) + (edge + 0.8 * hook)[:, None] * way
-    mover, others = relief.cast(tips, vec3(0.0, -1.0, 0.0))
-    return (mover <= others) & (mover <= start - lip + 0.015 * relief.factor)
+    moving, others = relief.cast(tips, vec3(0.0, -1.0, 0.0))
+    return (moving <= others) & (moving <= start - lip + 0.015 * relief.factor)
 
 
 def _points(relief: Relief, cells: Int[np.ndarray, "k 2"], depth: Float[np.ndarray, " k"]) -> Points:

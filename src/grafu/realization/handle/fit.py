@@ -39,19 +39,19 @@ class Ground:
         lead = points.copy()
         lead[:, 1] = -0.05 * self.relief.factor
         origins, inwards = self.relief.front.to_object(lead), self.relief.front.inwards
-        seen, solid = self.relief.mover.along(origins, inwards), self.solid.along(origins, inwards)
+        seen, solid = self.relief.moving.along(origins, inwards), self.solid.along(origins, inwards)
         good = np.isfinite(seen) & (solid <= seen + _TRUST)
         found = lead.copy()
         found[:, 1] = np.where(good, lead[:, 1] + np.where(good, seen, 0.0), np.nan)
         return found
 
 
-def ground_of(scene: Scene, mover_id: str, relief: Relief) -> Ground:
-    """Returns the ground for handles on a mover."""
-    members = [scene.parts[m] for m in scene.movers[mover_id].members]
+def ground_of(scene: Scene, moving_id: str, relief: Relief) -> Ground:
+    """Returns the ground for handles on a moving body."""
+    members = [scene.parts[m] for m in scene.moving_bodies[moving_id].members]
     solid = [s for p in members for s in p.surfaces if not _is_pane(s)]
     clear = any(_is_pane(s) for p in members for s in p.surfaces)
-    return Ground(relief, RayCaster(merge_meshes([s.mesh for s in solid])) if clear else relief.mover)
+    return Ground(relief, RayCaster(merge_meshes([s.mesh for s in solid])) if clear else relief.moving)
 
 
 def _is_pane(surface: Surface) -> bool:

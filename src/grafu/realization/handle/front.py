@@ -2,7 +2,7 @@
 
 Front coordinates, metres: u to the right, b inwards (against the way that it opens), v up, right-handed, so that a
 front that faces -Y has the object frame's axes. Lids face up: there, v points to the back. The origin is the lower left
-corner of the box around the mover in these axes, on its foremost plane.
+corner of the box around the moving body in these axes, on its foremost plane.
 """
 
 from collections.abc import Sequence
@@ -33,7 +33,8 @@ class Front(ArrayValue):
     """See the module's docstring; `rotation` has right, inwards and up as columns in the object frame.
 
     `hinge` is the side that it is hung on, None where it slides. `held` is the edge that a hand opens it at: opposite
-    the hinge, or the one that follows as a panel slides aside; None: a drawer. `depth` is the mover's extent inwards.
+    the hinge, or the one that follows as a panel slides aside; None: a drawer. `depth` is the moving body's extent
+    inwards.
     """
 
     origin: Vec3
@@ -75,29 +76,29 @@ class Front(ArrayValue):
         return Box.around(self.to_front(points))
 
 
-def front_of(scene: Scene, mover_id: str) -> Front:
-    """Returns the front of a mover of the scene, its handles left out of account.
+def front_of(scene: Scene, moving_id: str) -> Front:
+    """Returns the front of a moving body of the scene, its handles left out of account.
 
     Raises:
-        KeyError: if the scene knows no such mover, or not how it moves.
+        KeyError: if the scene knows no such moving body, or not how it moves.
     """
-    mesh = _body_mesh(scene, mover_id)
-    way = scene.ways[mover_id]
+    mesh = _body_mesh(scene, moving_id)
+    way = scene.ways[moving_id]
     if way.type is JointType.REVOLUTE:
-        return _hinged(mesh, scene.parts[mover_id].mesh, way)
-    return _sliding(mesh, scene.parts[mover_id].mesh, way, scene)
+        return _hinged(mesh, scene.parts[moving_id].mesh, way)
+    return _sliding(mesh, scene.parts[moving_id].mesh, way, scene)
 
 
-def body_members(scene: Scene, mover_id: str) -> tuple[str, ...]:
-    """Returns the ids of a mover and of all that rides on it but handles."""
-    members = scene.movers[mover_id].members
-    return tuple(m for m in members if m == mover_id or scene.parts[m].label is not PartLabel.HANDLE)
+def body_members(scene: Scene, moving_id: str) -> tuple[str, ...]:
+    """Returns the ids of a moving body and of all that rides on it but handles."""
+    members = scene.moving_bodies[moving_id].members
+    return tuple(m for m in members if m == moving_id or scene.parts[m].label is not PartLabel.HANDLE)
 
 
-def _body_mesh(scene: Scene, mover_id: str) -> TriangleMesh:
-    members = body_members(scene, mover_id)
-    if members == scene.movers[mover_id].members:
-        return scene.moving_mesh(mover_id)
+def _body_mesh(scene: Scene, moving_id: str) -> TriangleMesh:
+    members = body_members(scene, moving_id)
+    if members == scene.moving_bodies[moving_id].members:
+        return scene.moving_mesh(moving_id)
     return merge_meshes([scene.parts[m].mesh for m in members])
 
 

@@ -24,13 +24,13 @@ _LABELLED, _UNLABELLED, _UNATTACHED = 1.0, 0.8, 0.6
 @final
 @dataclass(frozen=True, eq=False)
 class Grasp(ArrayValue):
-    """How a mover can be grasped. `confidence` is in [0, 1]; of "none" it is 1.
+    """How a moving body can be grasped. `confidence` is in [0, 1]; of "none" it is 1.
 
-    `part` is the id of the handle (empty: it is geometry of the mover itself), `center` the middle of the grip in the
-    object frame (None: there is none), `length` metres of it that fingers can use, and `why` says what was found.
+    `part` is the id of the handle (empty: it is geometry of the moving body itself), `center` the middle of the grip in
+    the object frame (None: there is none), `length` metres of it that fingers can use, and `why` says what was found.
     """
 
-    mover: str
+    moving: str
     kind: GraspKind
     confidence: float
     why: str
@@ -44,55 +44,55 @@ class Grasp(ArrayValue):
 
 
 def find_grasp(
-    scene: Scene, mover_id: str, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None
+    scene: Scene, moving_id: str, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None
 ) -> Grasp:
-    """Returns how a mover of the scene can be grasped at rest.
+    """Returns how a moving body of the scene can be grasped at rest.
 
-    Handles come first; then what fingers can reach round, get into or pinch, wherever it opens the mover: on doors
-    beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, where somebody has them already.
+    Handles come first; then what fingers can reach round, get into or pinch, wherever it opens the moving body: on
+    doors beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, where somebody has them already.
 
     Raises:
-        KeyError: if the scene knows no such mover, or not how it moves.
+        KeyError: if the scene knows no such moving body, or not how it moves.
     """
-    handle = held_by_label(scene, mover_id)
-    return handle or _without_label(scene, mover_id, (reliefs or Reliefs(scene)).of(mover_id), config)
+    handle = held_by_label(scene, moving_id)
+    return handle or _without_label(scene, moving_id, (reliefs or Reliefs(scene)).of(moving_id), config)
 
 
 def find_grasps(scene: Scene, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None) -> dict[str, Grasp]:
-    """Returns the grasp of every mover of the scene."""
+    """Returns the grasp of every moving body of the scene."""
     reliefs = reliefs or Reliefs(scene)
-    return {mover: find_grasp(scene, mover, config, reliefs) for mover in scene.movers}
+    return {moving: find_grasp(scene, moving, config, reliefs) for moving in scene.moving_bodies}
 
 
-def held_by_label(scene: Scene, mover_id: str) -> Grasp | None:
-    """Returns how a mover is grasped by a part on it that is called a handle; None where there is none."""
-    members = (scene.parts[m] for m in scene.movers[mover_id].members if m != mover_id)
+def held_by_label(scene: Scene, moving_id: str) -> Grasp | None:
+    """Returns how a moving body is grasped by a part on it that is called a handle; None where there is none."""
+    members = (scene.parts[m] for m in scene.moving_bodies[moving_id].members if m != moving_id)
     handle = next((part for part in members if part.label is PartLabel.HANDLE), None)
-    return None if handle is None else _held_by(handle, mover_id, _LABELLED, "a handle rides on it")
+    return None if handle is None else _held_by(handle, moving_id, _LABELLED, "a handle rides on it")
 
 
-def _without_label(scene: Scene, mover_id: str, relief: Relief, config: GraspConfig) -> Grasp:
-    """Returns how a mover can be grasped on which no part rides that is called a handle."""
-    for member in scene.movers[mover_id].members:
+def _without_label(scene: Scene, moving_id: str, relief: Relief, config: GraspConfig) -> Grasp:
+    """Returns how a moving body can be grasped on which no part rides that is called a handle."""
+    for member in scene.moving_bodies[moving_id].members:
         part = scene.parts[member]
-        if member != mover_id and part.label in _NAMELESS and _sticks_out(part, relief):
-            return _held_by(part, mover_id, _UNLABELLED, "a small part sticks out of its front")
+        if member != moving_id and part.label in _NAMELESS and _sticks_out(part, relief):
+            return _held_by(part, moving_id, _UNLABELLED, "a small part sticks out of its front")
     for part in scene.static_parts:
         if part.label is PartLabel.HANDLE and _sits_on(part, relief):
-            return _held_by(part, mover_id, _UNATTACHED, "a handle sits on it that nothing attaches to it")
+            return _held_by(part, moving_id, _UNATTACHED, "a handle sits on it that nothing attaches to it")
     best = max(grips_on(relief, config), key=lambda g: (g.confidence, g.length), default=None)
     if best is None:
-        return Grasp(mover_id, "none", 1.0, "no handle, and no edge, hollow or gap with room for fingers")
-    return Grasp(mover_id, best.kind, best.confidence, best.why, best.center, best.length)
+        return Grasp(moving_id, "none", 1.0, "no handle, and no edge, hollow or gap with room for fingers")
+    return Grasp(moving_id, best.kind, best.confidence, best.why, best.center, best.length)
 
 
-def _held_by(part: Part, mover_id: str, confidence: float, why: str) -> Grasp:
+def _held_by(part: Part, moving_id: str, confidence: float, why: str) -> Grasp:
     length = float(part.box.size.max())
-    return Grasp(mover_id, "handle", confidence, why, part.box.center, length, part.id)
+    return Grasp(moving_id, "handle", confidence, why, part.box.center, length, part.id)
 
 
 def _sticks_out(part: Part, relief: Relief) -> bool:
-    """Whether a part that rides on a mover is small and stands out before its face."""
+    """Whether a part that rides on a moving body is small and stands out before its face."""
     if not len(part.mesh.faces):
         return False
     box, front = relief.front.box_of(part.mesh.vertices), relief.front
@@ -102,7 +102,7 @@ def _sticks_out(part: Part, relief: Relief) -> bool:
 
 
 def _sits_on(part: Part, relief: Relief) -> bool:
-    """Whether a part that moves with nothing sits on the face of a mover."""
+    """Whether a part that moves with nothing sits on the face of a moving body."""
     if not len(part.mesh.faces):
         return False
     box, outline = relief.front.box_of(part.mesh.vertices), relief.outline

@@ -55,7 +55,7 @@ def grips_on(relief: Relief, config: GraspConfig) -> list[Grip]:
 
 
 def _beyond_lever(relief: Relief, config: GraspConfig) -> Cells:
-    """Returns the cells where a pull opens the mover: all of a drawer's, those far from the hinge of a door's."""
+    """Returns the cells where a pull opens the moving body: all of a drawer's, those far from the hinge of a door's."""
     u, v = relief.u[:, None] / relief.front.width, relief.v[None, :] / relief.front.height
     away = {"left": u, "right": 1 - u, "bottom": v, "top": 1 - v}.get(relief.front.hinge or "", np.ones((1, 1)))
     return np.broadcast_to(away >= config.lever, relief.face.shape).copy()

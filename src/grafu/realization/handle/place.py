@@ -20,7 +20,7 @@ from grafu.realization.handle.spots import Extent, Spot, spots_on
 from grafu.realization.handle.style import Sibling, Style, choose_style, named_template, siblings_of
 from grafu.realization.handle.way import Surroundings, surroundings_of
 from grafu.realization.likeness import surface_like
-from grafu.realization.scene import Mover, Scene
+from grafu.realization.scene import MovingBody, Scene
 from grafu.templates.handle import HandleTemplate
 from grafu.vocabulary import PartLabel
 
@@ -33,7 +33,7 @@ _BLOCKED = 150  # places in which something was in the way, before a front is gi
 
 
 class NoHandle(StrEnum):
-    """Why a mover gets no handle."""
+    """Why a moving body gets no handle."""
 
     TOO_SMALL = "too small"  # no handle fits the front, however small
     NO_GROUND = "no ground"  # nowhere does the front offer a foot an even, solid surface
@@ -43,9 +43,9 @@ class NoHandle(StrEnum):
 @final
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """A mover that gets no handle, and why, in a word and in words."""
+    """A moving body that gets no handle, and why, in a word and in words."""
 
-    mover: str
+    moving: str
     reason: NoHandle
     why: str
 
@@ -53,7 +53,7 @@ class Refused:
 @final
 @dataclass(frozen=True, eq=False)
 class Handles:
-    """The handles that were added, the movers that got none, and the scene with the handles on their movers."""
+    """The handles that were added, the moving bodies that got none, and the scene with the handles attached."""
 
     additions: tuple[Addition, ...]
     refused: tuple[Refused, ...]
@@ -68,20 +68,20 @@ def add_handles(
     own: Mapping[str, HandleTemplate] | None = None,
     reliefs: Reliefs | None = None,
 ) -> Handles:
-    """Returns handles for the movers of a scene that cannot be grasped.
+    """Returns handles for the moving bodies of a scene that cannot be grasped.
 
     Args:
-        scene: the final scene, with every mover's way.
-        grasps: how each mover can be grasped; those left out are not looked at.
+        scene: the final scene, with every moving body's way.
+        grasps: how each moving body can be grasped; those left out are not looked at.
         config: style, sizes, places.
-        hints: by mover, where a handle was predicted (object frame): taken where it is clear and sensible.
+        hints: by moving body, where a handle was predicted (object frame): taken where it is clear and sensible.
         own: the user's handle templates by id, see `grafu.templates.user_handles`.
         reliefs: those of the scene, where somebody has them already.
 
     Raises:
         TemplateError: if the config names a style that there is not.
     """
-    wanting = movers_without(scene, grasps, config)
+    wanting = bodies_without(scene, grasps, config)
     if not wanting:
         return Handles((), (), scene)
     siblings = siblings_of(scene)
@@ -91,24 +91,24 @@ def add_handles(
     around = surroundings_of(scene)
     additions: list[Addition] = []
     refused: list[Refused] = []
-    for mover in wanting:
-        found = _handles_for(scene, mover, around, task)
+    for moving in wanting:
+        found = _handles_for(scene, moving, around, task)
         if isinstance(found, Refused):
             refused.append(found)
             continue
         additions += found
         for addition in found:
-            around = around.with_handle(mover, addition.part.mesh)
-        scene = _with_parts(scene, mover, found)
+            around = around.with_handle(moving, addition.part.mesh)
+        scene = _with_parts(scene, moving, found)
     return Handles(tuple(additions), tuple(refused), scene)
 
 
-def movers_without(scene: Scene, grasps: Mapping[str, Grasp], config: HandleConfig = HandleConfig()) -> tuple[str, ...]:
-    """Returns the movers that lack a handle: without a grasp, or with a mere edge where others have or get handles."""
-    shown = [g for mover, g in grasps.items() if mover in scene.movers]
+def bodies_without(scene: Scene, grasps: Mapping[str, Grasp], config: HandleConfig = HandleConfig()) -> tuple[str, ...]:
+    """Returns the moving bodies that need a handle: without a grasp, or with only an edge while others have handles."""
+    shown = [g for moving, g in grasps.items() if moving in scene.moving_bodies]
     has_handles = any(g.kind in ("handle", "none") for g in shown)
-    weak = {g.mover for g in shown if g.kind == "edge" and g.confidence < config.weak and has_handles}
-    return tuple(g.mover for g in shown if g.kind == "none" or g.mover in weak)
+    weak = {g.moving for g in shown if g.kind == "edge" and g.confidence < config.weak and has_handles}
+    return tuple(g.moving for g in shown if g.kind == "none" or g.moving in weak)
 
 
 @final
@@ -123,36 +123,36 @@ class _Task:
     reliefs: Reliefs
 
 
-def _handles_for(scene: Scene, mover: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refused:
-    """Returns the handle of one mover, two on a wide drawer, or why there is none."""
-    relief = task.reliefs.of(mover)
-    ground = ground_of(scene, mover, relief)
+def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refused:
+    """Returns the handle of one moving body, two on a wide drawer, or why there is none."""
+    relief = task.reliefs.of(moving)
+    ground = ground_of(scene, moving, relief)
     met, tried, blocked = "", False, 0
     for template, length, protrusion in _sizes(task.style, relief, task.config):
         shape = Shape(template.build(length, protrusion))
-        spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(mover), task.config)
+        spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(moving), task.config)
         for spot in _few(spots):
             tried = True
             poses = [fitted(ground, shape, spot, place) for place in spot.places]
             if any(pose is None for pose in poses):
                 continue
             placed = [shape.mesh.transformed(pose) for pose in poses if pose is not None]
-            met = next((b for mesh in placed if (b := around.blocker(mover, mesh, task.config.poses))), "")
+            met = next((b for mesh in placed if (b := around.blocker(moving, mesh, task.config.poses))), "")
             if not met:
                 kept = [pose for pose in poses if pose is not None]
-                return _additions(scene, mover, template, shape, kept, spot, task)
+                return _additions(scene, moving, template, shape, kept, spot, task)
             blocked += 1
             if blocked >= _BLOCKED:
-                return _blocked(mover, met)
+                return _blocked(moving, met)
     if not tried:
-        return Refused(mover, NoHandle.TOO_SMALL, "its front is smaller than the smallest handle")
+        return Refused(moving, NoHandle.TOO_SMALL, "its front is smaller than the smallest handle")
     if not met:
-        return Refused(mover, NoHandle.NO_GROUND, "its front has no even, solid place for a handle's foot")
-    return _blocked(mover, met)
+        return Refused(moving, NoHandle.NO_GROUND, "its front has no even, solid place for a handle's foot")
+    return _blocked(moving, met)
 
 
-def _blocked(mover: str, met: str) -> Refused:
-    return Refused(mover, NoHandle.BLOCKED, f"wherever a handle sits, {met} is in the way")
+def _blocked(moving: str, met: str) -> Refused:
+    return Refused(moving, NoHandle.BLOCKED, f"wherever a handle sits, {met} is in the way")
 
 
 def _few(spots: Iterable[Spot]) -> Iterator[Spot]:
@@ -195,13 +195,13 @@ def _extent(template: HandleTemplate, shape: Shape) -> Extent:
 
 
 def _additions(
-    scene: Scene, mover: str, template: HandleTemplate, shape: Shape, poses: list[Mat4], spot: Spot, task: _Task
+    scene: Scene, moving: str, template: HandleTemplate, shape: Shape, poses: list[Mat4], spot: Spot, task: _Task
 ) -> tuple[Addition, ...]:
-    names = free_ids(f"handle_{mover}", len(poses), scene.parts)
+    names = free_ids(f"handle_{moving}", len(poses), scene.parts)
     found = []
     for name, pose in zip(names, poses, strict=True):
         surfaces = [_surface(mesh.transformed(pose), task.style) for mesh in shape.meshes]
-        part = added_part(name, PartLabel.HANDLE, surfaces, mover)
+        part = added_part(name, PartLabel.HANDLE, surfaces, moving)
         found.append(Addition(part, f"it could not be grasped: {spot.why}", template.id))
     return tuple(found)
 
@@ -210,9 +210,9 @@ def _surface(mesh: TriangleMesh, style: Style) -> Surface:
     return surface_like(mesh, style.alike, style.finish)
 
 
-def _with_parts(scene: Scene, mover_id: str, added: Iterable[Addition]) -> Scene:
-    """Returns the scene in which a mover carries some more parts."""
+def _with_parts(scene: Scene, moving_id: str, added: Iterable[Addition]) -> Scene:
+    """Returns the scene in which a moving body carries some more parts."""
     parts = [addition.part for addition in added]
-    mover = scene.movers[mover_id]
-    movers = {**scene.movers, mover_id: Mover(mover.id, (*mover.members, *(p.id for p in parts)))}
-    return replace(scene, parts={**scene.parts, **{p.id: p for p in parts}}, movers=movers)
+    moving = scene.moving_bodies[moving_id]
+    moving_bodies = {**scene.moving_bodies, moving_id: MovingBody(moving.id, (*moving.members, *(p.id for p in parts)))}
+    return replace(scene, parts={**scene.parts, **{p.id: p for p in parts}}, moving_bodies=moving_bodies)

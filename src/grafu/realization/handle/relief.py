@@ -1,7 +1,7 @@
 """What lies before a hand at a front: depth maps of the front and of all that surrounds it at rest, by rays.
 
-The mover's own handles and what stands before the front (a closed door before a drawer) are left out; its hardware and
-the floor, z = 0, belong to the surroundings.
+The moving body's own handles and what stands before the front (a closed door before a drawer) are left out; its
+hardware and the floor, z = 0, belong to the surroundings.
 """
 
 from collections.abc import Sequence
@@ -39,9 +39,9 @@ _BODY = 0.04  # metres behind the plane within which the front's outline is take
 class Relief:
     """Depths inwards from the front's foremost plane on a grid, metres.
 
-    `u` and `v` are the cells' middles; `face` is the mover's first surface (infinite where there is none), `first` that
-    of anything (a kilometre). `plane` is where
-    the front's face mainly lies; `factor` what hands are scaled by.
+    `u` and `v` are the cells' middles; `face` is the moving body's first surface (infinite where there is none),
+    `first` that of anything (a kilometre). `plane` is where the front's face mainly lies; `factor` what hands are
+    scaled by.
     """
 
     front: Front
@@ -52,7 +52,7 @@ class Relief:
     face: Grid
     first: Grid
     plane: float
-    mover: RayCaster
+    moving: RayCaster
     others: RayCaster
 
     @cached_property
@@ -69,9 +69,9 @@ class Relief:
         return Box(np.maximum(low, (0.0, -np.inf, 0.0)), np.maximum(np.minimum(high, edge), low))
 
     def cast(self, points: Points, direction: Vec3) -> tuple[Scalars, Scalars]:
-        """Returns the distances from points (u, b, v) along a unit direction (u, b, v) to the mover and to others."""
+        """Returns the distances from points (u, b, v) along a unit direction (u, b, v) to the body and to others."""
         origins, along = self.front.to_object(points), self.front.rotation @ direction
-        return self.mover.along(origins, along), self.others.along(origins, along)
+        return self.moving.along(origins, along), self.others.along(origins, along)
 
 
 @final
@@ -83,22 +83,22 @@ class Reliefs:
         self._found: dict[str, Relief] = {}
         self._extents: dict[int, tuple[TriangleMesh, Points, Points]] = {}
 
-    def of(self, mover_id: str) -> Relief:
-        """Returns the relief of a mover's front.
+    def of(self, moving_id: str) -> Relief:
+        """Returns the relief of a moving body's front.
 
         Raises:
-            KeyError: if the scene knows no such mover, or not how it moves.
+            KeyError: if the scene knows no such moving body, or not how it moves.
         """
-        if mover_id not in self._found:
-            self._found[mover_id] = self._made(mover_id)
-        return self._found[mover_id]
+        if moving_id not in self._found:
+            self._found[moving_id] = self._made(moving_id)
+        return self._found[moving_id]
 
-    def _made(self, mover_id: str) -> Relief:
+    def _made(self, moving_id: str) -> Relief:
         scene = self.scene
-        front, factor = front_of(scene, mover_id), size_factor(scene.unit)
+        front, factor = front_of(scene, moving_id), size_factor(scene.unit)
         region = _around(front, factor)
-        bodies = [scene.parts[m].mesh for m in body_members(scene, mover_id)]
-        casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, _others(scene, mover_id, front))]
+        bodies = [scene.parts[m].mesh for m in body_members(scene, moving_id)]
+        casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, _others(scene, moving_id, front))]
         return _looked_at(front, factor, *casters)
 
     def _near(self, meshes: Sequence[TriangleMesh], region: Box) -> TriangleMesh:
@@ -119,12 +119,12 @@ class Reliefs:
         return self._extents[id(mesh)][1:]
 
 
-def relief_of(scene: Scene, mover_id: str) -> Relief:
-    """Returns the relief of one mover's front; see `Reliefs`."""
-    return Reliefs(scene).of(mover_id)
+def relief_of(scene: Scene, moving_id: str) -> Relief:
+    """Returns the relief of one moving body's front; see `Reliefs`."""
+    return Reliefs(scene).of(moving_id)
 
 
-def _looked_at(front: Front, factor: float, mover: RayCaster, others: RayCaster) -> Relief:
+def _looked_at(front: Front, factor: float, moving: RayCaster, others: RayCaster) -> Relief:
     area = front.width * front.height
     cell = min(max(sqrt(area / _CELLS), factor * _CELL[0]), factor * _CELL[1])
     cell = max(cell, sqrt(area / (4 * _CELLS)))
@@ -132,14 +132,14 @@ def _looked_at(front: Front, factor: float, mover: RayCaster, others: RayCaster)
     lead = _LEAD * factor
     grid = np.stack(np.broadcast_arrays(u[:, None], -lead, v[None, :]), axis=-1)
     origins = front.to_object(grid.reshape(-1, 3))
-    face = mover.along(origins, front.inwards).reshape(grid.shape[:2]) - lead
+    face = moving.along(origins, front.inwards).reshape(grid.shape[:2]) - lead
     first = np.minimum(others.along(origins, front.inwards).reshape(face.shape) - lead, face)
     first = np.where(origins[:, 2].reshape(face.shape) < 0.0, -lead, np.minimum(first, _FAR))
-    return Relief(front, factor, cell, u, v, face, first, _plane(face), mover, others)
+    return Relief(front, factor, cell, u, v, face, first, _plane(face), moving, others)
 
 
 def _plane(face: Grid) -> float:
-    """Returns the depth that a share of the mover's visible cells does not exceed; 0 where nothing is hit."""
+    """Returns the depth that a share of the moving body's visible cells does not exceed; 0 where nothing is hit."""
     hits = face[np.isfinite(face)]
     return float(np.quantile(hits, _AREA)) if len(hits) else 0.0
 
@@ -158,17 +158,17 @@ def _around(front: Front, factor: float) -> Box:
     return Box.around(front.to_object(Box(low, high).corners()))
 
 
-def _others(scene: Scene, mover_id: str, front: Front) -> list[TriangleMesh]:
+def _others(scene: Scene, moving_id: str, front: Front) -> list[TriangleMesh]:
     """Returns what surrounds a front: all other parts at rest but closed doors before it, and all hardware."""
-    own = scene.movers[mover_id].members
-    carried = {member: mover.id for mover in scene.movers.values() for member in mover.members}
-    before = {other for other in scene.movers if other != mover_id and stands_before(scene, other, front)}
+    own = scene.moving_bodies[moving_id].members
+    carried = {member: moving.id for moving in scene.moving_bodies.values() for member in moving.members}
+    before = {other for other in scene.moving_bodies if other != moving_id and stands_before(scene, other, front)}
     parts = [p.mesh for p in scene.parts.values() if p.id not in own and carried.get(p.id, "") not in before]
     return [*parts, *(visual.mesh for owner, visual in scene.hardware if owner not in before)]
 
 
 def stands_before(scene: Scene, other: str, front: Front) -> bool:
-    """Whether another mover stands wholly before a front and hides some of it, as a closed door does a drawer."""
+    """Whether another moving body stands wholly before a front and hides some of it, as a closed door does a drawer."""
     boxes = [scene.parts[m].box.corners() for m in body_members(scene, other) if len(scene.parts[m].mesh.faces)]
     if not boxes:
         return False

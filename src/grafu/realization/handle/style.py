@@ -53,12 +53,14 @@ class Style:
 
 
 def siblings_of(scene: Scene) -> tuple[Sibling, ...]:
-    """Returns the handles that ride on movers of the scene."""
+    """Returns the handles that ride on moving bodies of the scene."""
     found = []
-    for mover in scene.movers.values():
-        handles = [scene.parts[m] for m in mover.members if scene.parts[m].label is PartLabel.HANDLE and m != mover.id]
+    for moving in scene.moving_bodies.values():
+        handles = [
+            scene.parts[m] for m in moving.members if scene.parts[m].label is PartLabel.HANDLE and m != moving.id
+        ]
         if handles:
-            front = front_of(scene, mover.id)
+            front = front_of(scene, moving.id)
             found += [Sibling(p, front, front.box_of(p.mesh.vertices)) for p in handles if len(p.mesh.faces)]
     return tuple(found)
 

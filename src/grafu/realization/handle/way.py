@@ -1,4 +1,4 @@
-"""Whether a new handle stays clear of everything: on its own mover's way, and while the others take theirs."""
+"""Whether a new handle stays clear of everything: on its own moving body's way, and while the others take theirs."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -8,7 +8,7 @@ import numpy as np
 
 from grafu.articulation.waiting import all_before
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.limits import Motion, in_the_way, motion_about, opening_values, swept_box
 from grafu.realization.scene import Obstacle, Scene
@@ -19,60 +19,60 @@ _TOUCH = 0.0002  # of the object's largest side: how deep a handle may touch som
 @final
 @dataclass(frozen=True, eq=False)
 class Surroundings:
-    """All parts and hardware at rest, the still ones and those of each mover."""
+    """All parts and hardware at rest, the still ones and those of each moving body."""
 
     scene: Scene
     still: tuple[Obstacle, ...]
     moving: Mapping[str, tuple[Obstacle, ...]]
 
-    def with_handle(self, mover_id: str, handle: TriangleMesh) -> "Surroundings":
-        """Returns the surroundings with a handle that was added to a mover."""
-        grown = (*self.moving[mover_id], Obstacle(mover_id, MeshCollider(handle)))
-        return replace(self, moving={**self.moving, mover_id: grown})
+    def with_handle(self, moving_id: str, handle: TriangleMesh) -> "Surroundings":
+        """Returns the surroundings with a handle that was added to a moving body."""
+        grown = (*self.moving[moving_id], Obstacle(moving_id, MeshCollider(handle)))
+        return replace(self, moving={**self.moving, moving_id: grown})
 
-    def blocker(self, mover_id: str, handle: TriangleMesh, poses: int) -> str:
-        """Returns the id of something that a handle on a mover runs into, or that runs into it; empty: it is clear.
+    def blocker(self, moving_id: str, handle: TriangleMesh, poses: int) -> str:
+        """Returns the id of something that a handle on a moving body hits, or that hits the handle; empty: nothing.
 
         At rest it is clear of everything; on its way, what opens before it (a door before a drawer) stands wide open.
         """
-        body = MovingBody(handle, _TOUCH * self.scene.unit)
-        others = [other for other in self.moving if other != mover_id]
-        at_rest = [*self.still, *self._own_hardware(mover_id), *(o for other in others for o in self.moving[other])]
+        body = SweptBody(handle, _TOUCH * self.scene.unit)
+        others = [other for other in self.moving if other != moving_id]
+        at_rest = [*self.still, *self._own_hardware(moving_id), *(o for other in others for o in self.moving[other])]
         found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)
         if found:
             return found
-        motion, upper = self._way(mover_id)
-        opened = [other for other in others if other in self._before(mover_id)]
+        motion, upper = self._way(moving_id)
+        opened = [other for other in others if other in self._before(moving_id)]
         closed = [*self.still, *(o for other in others if other not in opened for o in self.moving[other])]
         fixed = in_the_way(closed, swept_box(handle.box, motion, upper))
         fixed += [obstacle for other in opened for obstacle in self._opened(other)]
         found = _met(body, motion, upper, fixed, poses)
-        return found or next((o for o in others if self._runs_into(o, mover_id, body, handle, poses)), "")
+        return found or next((o for o in others if self._runs_into(o, moving_id, body, handle, poses)), "")
 
-    def _own_hardware(self, mover_id: str) -> list[Obstacle]:
-        return [Obstacle(v.name, MeshCollider(v.mesh)) for v in self.scene.hardware_of(mover_id)]
+    def _own_hardware(self, moving_id: str) -> list[Obstacle]:
+        return [Obstacle(v.name, MeshCollider(v.mesh)) for v in self.scene.hardware_of(moving_id)]
 
-    def _way(self, mover_id: str) -> tuple[Motion, float]:
-        way = self.scene.ways[mover_id]
+    def _way(self, moving_id: str) -> tuple[Motion, float]:
+        way = self.scene.ways[moving_id]
         return motion_about(way.axis, way.type), way.upper
 
-    def _before(self, mover_id: str) -> set[str]:
-        """Returns the movers that stand open before a mover can move."""
-        return all_before(mover_id, {name: way.after for name, way in self.scene.ways.items()})
+    def _before(self, moving_id: str) -> set[str]:
+        """Returns the moving bodies that stand open before a moving body can move."""
+        return all_before(moving_id, {name: way.after for name, way in self.scene.ways.items()})
 
-    def _opened(self, mover_id: str) -> list[Obstacle]:
-        motion, upper = self._way(mover_id)
-        return [Obstacle(o.id, o.collider.posed(motion(upper))) for o in self.moving[mover_id]]
+    def _opened(self, moving_id: str) -> list[Obstacle]:
+        motion, upper = self._way(moving_id)
+        return [Obstacle(o.id, o.collider.posed(motion(upper))) for o in self.moving[moving_id]]
 
-    def _runs_into(self, other: str, mover_id: str, body: MovingBody, handle: TriangleMesh, poses: int) -> bool:
-        """Whether a mover runs into a handle at rest, or wide open where that mover waits for the handle's.
+    def _runs_into(self, other: str, moving_id: str, body: SweptBody, handle: TriangleMesh, poses: int) -> bool:
+        """Whether a moving body runs into a handle at rest, or wide open where that moving body waits for the handle's.
 
-        Seen from the mover, the handle takes the way backwards.
+        Seen from the moving body, the handle takes the way backwards.
         """
         motion, upper = self._way(other)
         start = np.eye(4)
-        if mover_id in self._before(other):
-            opening, widest = self._way(mover_id)
+        if moving_id in self._before(other):
+            opening, widest = self._way(moving_id)
             start = opening(widest)
 
         def backwards(value: float) -> Mat4:
@@ -89,16 +89,16 @@ def _closed(_: float) -> Mat4:
 def surroundings_of(scene: Scene) -> Surroundings:
     """Returns the surroundings of all handles of a scene."""
     moving = {
-        mover.id: (
-            *(Obstacle(m, MeshCollider(scene.parts[m].mesh)) for m in mover.members if len(scene.parts[m].mesh.faces)),
-            *(Obstacle(v.name, MeshCollider(v.mesh)) for v in scene.hardware_of(mover.id)),
+        moving.id: (
+            *(Obstacle(m, MeshCollider(scene.parts[m].mesh)) for m in moving.members if len(scene.parts[m].mesh.faces)),
+            *(Obstacle(v.name, MeshCollider(v.mesh)) for v in scene.hardware_of(moving.id)),
         )
-        for mover in scene.movers.values()
+        for moving in scene.moving_bodies.values()
     }
     return Surroundings(scene, (*scene.static_obstacles, *scene.static_hardware), moving)
 
 
-def _met(body: MovingBody, motion: Motion, upper: float, near: Sequence[Obstacle], poses: int) -> str:
+def _met(body: SweptBody, motion: Motion, upper: float, near: Sequence[Obstacle], poses: int) -> str:
     """Returns the id of an obstacle that the body meets on its way; empty: none."""
     colliders = [obstacle.collider for obstacle in near]
     for value in opening_values(upper, poses)[::-1] if near else ():

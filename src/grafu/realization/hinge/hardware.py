@@ -12,7 +12,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.hinge.border import BorderFrame
@@ -32,15 +32,15 @@ _LAP = 0.002  # how far it laps over the leaf that it carries on
 @final
 @dataclass(frozen=True, eq=False)
 class Site:
-    """What hinge hardware is judged against: the door, what is static, the other movers and their ways, the motion.
+    """What hinge hardware is tested against: the door, static parts, the other moving bodies and their motions.
 
     `mount` is the one part that may carry it (empty: any).
     """
 
-    mover: str
+    moving: str
     frame: BorderFrame
     door: TriangleMesh
-    door_body: MovingBody
+    door_body: SweptBody
     scene: Scene
     static_rays: RayCaster
     door_rays: RayCaster
@@ -59,8 +59,8 @@ class Site:
 class InstalledHinge:
     """One hinge with its support blocks, found to hold on both sides and to cut into no part.
 
-    `struck_by` names the other movers that would run into it on their way, and its own where its ends cut into one
-    another.
+    `struck_by` names the other moving bodies that would run into it on their way, and its own where its ends cut into
+    one another.
     """
 
     static: tuple[Visual, ...]
@@ -88,13 +88,13 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
 
 
 def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
-    """Returns the hinge with who would run into it; None where an end cuts into the other side or a mover at rest."""
+    """Returns the hinge and the bodies that would hit it; None if an end cuts into the other side or a body at rest."""
     static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
     if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
         return None
     struck_by = [n.id for n in site.neighbours if n.runs_into(*static) or _strikes_closed(n, dynamic, site)]
     if _blocks_itself(hinge, site):
-        struck_by.append(site.mover)
+        struck_by.append(site.moving)
     return replace(hinge, struck_by=tuple(struck_by))
 
 
@@ -109,8 +109,8 @@ def _blocks_itself(hinge: InstalledHinge, site: Site) -> bool:
     )
 
 
-def _body(meshes: list[TriangleMesh], site: Site) -> MovingBody:
-    return MovingBody(merge_meshes(meshes), site.depth, pieces=meshes)
+def _body(meshes: list[TriangleMesh], site: Site) -> SweptBody:
+    return SweptBody(merge_meshes(meshes), site.depth, pieces=meshes)
 
 
 def _standing(meshes: list[TriangleMesh]) -> list[Obstacle]:
@@ -123,7 +123,7 @@ def _strikes_closed(neighbour: Neighbour, dynamic: list[TriangleMesh], site: Sit
 
 
 def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
-    """Whether the door, another mover at rest, or other hardware cuts into the static hardware."""
+    """Whether the door, another moving body at rest, or other hardware cuts into the static hardware."""
     if not is_free(site.door_body, site.motion, site.upper, _standing(static), 2 * _POSES):
         return True
     body = _body(static, site)
@@ -133,7 +133,7 @@ def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
 
 
 def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
-    """Whether the moving hardware cuts into static parts somewhere, or into other movers at rest."""
+    """Whether the moving hardware cuts into static parts somewhere, or into other moving bodies at rest."""
     body = _body(dynamic, site)
     box = Box.enclosing(mesh.box for mesh in dynamic)
     near = in_the_way(site.obstacles, swept_box(box, site.motion, site.upper))

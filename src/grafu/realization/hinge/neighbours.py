@@ -1,4 +1,4 @@
-"""The other movers around a joint: what they are at rest, and whether they run into hardware on their way.
+"""The other moving bodies around a joint: what they are at rest, and whether they run into hardware on their way.
 
 It chooses nothing; whose ways are known, and whose are only expected, the scene says.
 """
@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import Motion, is_free, motion_about, swept_box
@@ -20,17 +20,17 @@ _POSES = 19
 
 @final
 class Neighbour:
-    """Another mover with what rides on it and its hardware, prepared for queries; not a value.
+    """Another moving body with what rides on it and its hardware, prepared for queries; not a value.
 
     `way` is None where nobody knows how it moves; `depth` is the tolerated penetration in metres.
     """
 
-    def __init__(self, mover_id: str, scene: Scene, depth: float) -> None:
-        self.id = mover_id
-        self.way: Way | None = scene.ways.get(mover_id)
-        self.mesh: TriangleMesh = scene.equipped_mesh(mover_id)
+    def __init__(self, moving_id: str, scene: Scene, depth: float) -> None:
+        self.id = moving_id
+        self.way: Way | None = scene.ways.get(moving_id)
+        self.mesh: TriangleMesh = scene.equipped_mesh(moving_id)
         self.at_rest = MeshCollider(self.mesh)
-        self._part, self._depth, self._scene = scene.parts[mover_id].mesh, depth, scene
+        self._part, self._depth, self._scene = scene.parts[moving_id].mesh, depth, scene
 
     def runs_into(self, *standing: TriangleMesh) -> bool:
         """Whether it cuts into standing meshes, taken together, anywhere on its way."""
@@ -51,10 +51,10 @@ class Neighbour:
         return self._scene.way_box(self.id, self.mesh, self.way, lambda: swept_box(self.mesh.box, motion, upper))
 
     @cached_property
-    def _body(self) -> MovingBody:
-        return MovingBody(self.mesh, self._depth, np.asarray(part_axes(self._part)))
+    def _body(self) -> SweptBody:
+        return SweptBody(self.mesh, self._depth, np.asarray(part_axes(self._part)))
 
 
-def neighbours_of(mover_id: str, scene: Scene, depth: float) -> tuple[Neighbour, ...]:
-    """Returns all other movers; `depth` is the tolerated penetration in metres."""
-    return tuple(Neighbour(other, scene, depth) for other in scene.movers if other != mover_id)
+def neighbours_of(moving_id: str, scene: Scene, depth: float) -> tuple[Neighbour, ...]:
+    """Returns all other moving bodies; `depth` is the tolerated penetration in metres."""
+    return tuple(Neighbour(other, scene, depth) for other in scene.moving_bodies if other != moving_id)

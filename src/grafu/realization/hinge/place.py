@@ -1,8 +1,8 @@
 """Places the hinges of one door: a search over pins, classes and templates, judged by sweeping real meshes.
 
 The best by (free through the wanted opening, out of its neighbours' way, class preference C > F > P, nearness to the
-initial axis) is taken, and its pin becomes the rectified axis. Hardware that another mover would run into on its way is
-left out as long as something else holds the door; the placement notes it.
+initial axis) is taken, and its pin becomes the rectified axis. Hardware that another moving body would run into on its
+way is left out as long as something else holds the door; the placement notes it.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -74,13 +74,13 @@ def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None
     return replace(least, notes=tuple(hits))
 
 
-def _built_ones(movers: Sequence[str], search: DoorSearch) -> list[str]:
-    """Returns those movers whose joints stand."""
+def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
+    """Returns those moving bodies whose joints stand."""
     ways = search.scene.ways
-    return [name for name in movers if name in ways and ways[name].is_built]
+    return [name for name in moving_bodies if name in ways and ways[name].is_built]
 
 
-def _noted(placement: Placement, left_out: Sequence[Placement], mover: str) -> Placement:
+def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> Placement:
     """Returns the placement with notes on what was left out because others, or its own ends, would run into it."""
     templates: dict[tuple[str, ...], list[str]] = {}
     for other in left_out:
@@ -89,7 +89,7 @@ def _noted(placement: Placement, left_out: Sequence[Placement], mover: str) -> P
             templates[other.struck_by].append(name)
     notes = []
     for struck_by, which in templates.items():
-        others = ["its own door" if name == mover else name for name in struck_by]
+        others = ["its own door" if name == moving else name for name in struck_by]
         notes.append(f"{' or '.join(which)} would stand in the way of {', '.join(others)}")
     return replace(placement, notes=tuple(notes))
 
@@ -147,7 +147,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
     box = search.scene.parts[search.request.moving].box
     unit, mount = search.scene.unit, search.request.choice.mount
     return Site(
-        mover=search.request.moving,
+        moving=search.request.moving,
         frame=search.frame,
         door=search.scene.moving_mesh(search.request.moving),
         door_body=search.body,
@@ -155,7 +155,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         static_rays=search.static_rays,
         door_rays=search.door_rays,
         obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
-        neighbours=search.movers_around,
+        neighbours=search.bodies_around,
         motion=cache(motion_about(judged.axis, JointType.REVOLUTE)),
         upper=upper,
         depth=search.depth,

@@ -8,7 +8,7 @@ from typing import final
 
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MovingBody
+from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
@@ -40,7 +40,8 @@ _NEARLY = 0.05  # a pin that leaves this share of the wanted opening blocked is 
 class JudgedPin:
     """A pin with what the sweep of the bare door says of it; lower ranks are better.
 
-    `free` is the opening before the door runs into the static body; `neighbours` are the movers that it meets at rest.
+    `free` is the opening before the door runs into the static body; `neighbours` are the moving bodies that it meets at
+    rest.
     """
 
     pin: PinCandidate
@@ -64,7 +65,7 @@ class DoorSearch:
     scene: Scene
     config: RealizationConfig
     frame: BorderFrame
-    body: MovingBody
+    body: SweptBody
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Obstacle, ...]
     wanted: float
@@ -96,8 +97,8 @@ class DoorSearch:
         return RayCaster(self.scene.moving_mesh(self.request.moving))
 
     @cached_property
-    def movers_around(self) -> tuple[Neighbour, ...]:
-        """The other movers, with the ways that they take or are expected to take."""
+    def bodies_around(self) -> tuple[Neighbour, ...]:
+        """The other moving bodies, with the ways that they take or are expected to take."""
         return neighbours_of(self.request.moving, self.scene, self.depth)
 
     @cached_property
@@ -233,8 +234,8 @@ def door_search(
         scene,
         config,
         border_frame(part.mesh, request.axis),
-        scene.moving_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
+        scene.swept_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
         tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored),
-        scene.other_movers(request.moving),
+        scene.other_bodies(request.moving),
         max(wanted, radians(30)),
     )

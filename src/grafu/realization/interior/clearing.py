@@ -5,7 +5,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
@@ -33,7 +33,7 @@ class Clearing:
         for other in self._panels:  # alike and in one place, two panels would not cut each other's surface
             if (mesh.box.axis_gaps(other.collider.box) < -self._depth).all():
                 return other.id
-        body = MovingBody(mesh, self._depth)
+        body = SweptBody(mesh, self._depth)
         body.place(np.eye(4))
         still = [*self._scene.static_obstacles, *self._panels, *self._hardware, *self._at_rest]
         near = in_the_way(still, mesh.box)
@@ -41,7 +41,7 @@ class Clearing:
         if met:
             return near[met[0]].id
         panel = MeshCollider(mesh)
-        return next((mover for mover in self._scene.ways if self._stops(panel, body, mover)), "")
+        return next((moving for moving in self._scene.ways if self._stops(panel, body, moving)), "")
 
     @cached_property
     def _hardware(self) -> list[Obstacle]:
@@ -49,21 +49,21 @@ class Clearing:
 
     @cached_property
     def _at_rest(self) -> list[Obstacle]:
-        return [Obstacle(mover, MeshCollider(self._scene.moving_mesh(mover))) for mover in self._scene.movers]
+        return [Obstacle(moving, MeshCollider(self._scene.moving_mesh(moving))) for moving in self._scene.moving_bodies]
 
-    def _stops(self, panel: MeshCollider, body: MovingBody, mover: str) -> bool:
-        """Whether a panel stands in the way of a mover or of the hardware that it carries."""
-        way = self._scene.ways[mover]
+    def _stops(self, panel: MeshCollider, body: SweptBody, moving: str) -> bool:
+        """Whether a panel stands in the way of a moving body or of the hardware that it carries."""
+        way = self._scene.ways[moving]
         motion = motion_about(way.axis, way.type)
         values = opening_values(way.upper, _POSES)
-        mesh = self._scene.moving_mesh(mover)
+        mesh = self._scene.moving_mesh(moving)
         if swept_box(mesh.box, motion, way.upper).overlaps(panel.box):
-            moving = self._scene.moving_body(mover, self._depth, part_axes(self._scene.parts[mover].mesh))
+            swept = self._scene.swept_body(moving, self._depth, part_axes(self._scene.parts[moving].mesh))
             for value in values:
-                moving.place(motion(value))
-                if moving.penetrates(panel):
+                swept.place(motion(value))
+                if swept.penetrates(panel):
                     return True
-        for visual in self._scene.hardware_of(mover):
+        for visual in self._scene.hardware_of(moving):
             if not swept_box(visual.mesh.box, motion, way.upper).overlaps(panel.box):
                 continue
             collider = MeshCollider(visual.mesh)

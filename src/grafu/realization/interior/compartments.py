@@ -17,7 +17,7 @@ from grafu.realization.interior.rooms import find_rooms
 from grafu.realization.interior.surroundings import Surroundings
 from grafu.realization.scene import Scene
 
-_DOOR_SHARE = 0.3  # of an opening that movers must cover where floor or ceiling is missing
+_DOOR_SHARE = 0.3  # of an opening that moving bodies must cover where floor or ceiling is missing
 _CLOSED = 0.6  # of a face that walls cover for it to be no opening
 _MOST = 60  # compartments of one object; a pigeonhole desk has fewer
 
@@ -28,7 +28,7 @@ class Compartment:
     """An empty box inside furniture, metres in the object frame.
 
     `opening` is the face that it opens to (0..5: -X, +X, -Y, +Y, -Z, +Z; 5 is a chest under its lid). `walls` holds
-    for each face, in that order, the ids of the still parts that bound it; `behind` the movers in its opening.
+    for each face, in that order, the ids of the still parts that bound it; `behind` the moving bodies in its opening.
     """
 
     box: Box
@@ -100,4 +100,4 @@ def _compartment(
         return None
     box = around.within_walls(box, opening) if not faces[opening].moving else box
     walls = tuple(face.walls for face in faces)
-    return Compartment(box, opening, walls, around.movers_before(box, opening))
+    return Compartment(box, opening, walls, around.bodies_before(box, opening))

@@ -142,7 +142,7 @@ def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> W
 
 def why_inapplicable(scene: Scene) -> str:
     """Returns why a scene without compartments has none, in words."""
-    if any(is_drawer(scene, mover) for mover in scene.movers.values()):
+    if any(is_drawer(scene, moving) for moving in scene.moving_bodies.values()):
         return "no compartment: drawers take all the room between walls"
     return "no compartment: no room large enough lies between walls"
 

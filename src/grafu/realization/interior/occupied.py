@@ -1,4 +1,4 @@
-"""What space is taken at rest and by motions, as cells and as boxes: walls, movers, drawers and the ways they go.
+"""The space taken at rest and by motions, as cells and as boxes: walls, moving bodies, and the paths of drawers.
 
 Doors take only the place where they hang closed: that they swing free is checked panel by panel. A drawer takes its
 whole travel, its rails, and all behind it, which can be reached only through it.
@@ -17,7 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.free_space import Grid, cells_met, points_on
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.interior.config import Sizes
-from grafu.realization.scene import Mover, Scene
+from grafu.realization.scene import MovingBody, Scene
 from grafu.vocabulary import JointType, PartLabel
 
 _SPACING = 0.9  # of a cell: a board along the axes has a point in each of its cells
@@ -62,11 +62,11 @@ def taken_cells(scene: Scene, sizes: Sizes) -> Taken:
     n = np.ceil((box.size + 2 * sizes.cell) / sizes.cell).astype(int)
     shape = (int(n[0]), int(n[1]), int(n[2]))
     still = _cells([part.mesh for part in scene.static_parts], origin, sizes.cell, shape)
-    moving = _cells([scene.moving_mesh(mover) for mover in scene.movers], origin, sizes.cell, shape)
+    moving = _cells([scene.moving_mesh(moving) for moving in scene.moving_bodies], origin, sizes.cell, shape)
     drawers = np.zeros(shape, dtype=bool)
-    for mover in scene.movers.values():
-        if is_drawer(scene, mover):
-            drawers[_zone(scene, mover, still, origin, sizes.cell)] = True
+    for body in scene.moving_bodies.values():
+        if is_drawer(scene, body):
+            drawers[_zone(scene, body, still, origin, sizes.cell)] = True
     walls = still.copy()
     for part in scene.static_parts:
         if _is_open_wall(part, still, origin, sizes.cell):
@@ -74,24 +74,24 @@ def taken_cells(scene: Scene, sizes: Sizes) -> Taken:
     return Taken(origin, sizes.cell, still, moving, drawers, walls)
 
 
-def is_drawer(scene: Scene, mover: Mover) -> bool:
-    """Whether a mover slides out of the body: neither a hinged nor a sliding door."""
-    way, part = scene.ways.get(mover.id), scene.parts[mover.id]
+def is_drawer(scene: Scene, moving: MovingBody) -> bool:
+    """Whether a moving body slides out of the body: neither a hinged nor a sliding door."""
+    way, part = scene.ways.get(moving.id), scene.parts[moving.id]
     if way is None:
         return part.label is PartLabel.DRAWER
     if way.type is not JointType.PRISMATIC or part.label is PartLabel.DOOR:
         return False
-    size = scene.moving_mesh(mover.id).box.size
+    size = scene.moving_mesh(moving.id).box.size
     thin, middle = np.sort(size)[:2]
     along = int(np.abs(way.axis.direction).argmax())
     is_leaf = thin < _THIN * middle and int(np.argmin(size)) != 2
     return part.label is PartLabel.DRAWER or not is_leaf or int(np.argmin(size)) == along
 
 
-def _zone(scene: Scene, mover: Mover, still: Grid, origin: Vec3, cell: float) -> tuple[slice, ...]:
+def _zone(scene: Scene, moving: MovingBody, still: Grid, origin: Vec3, cell: float) -> tuple[slice, ...]:
     """Returns the cells that a drawer takes: itself and its rails, its travel, and what lies behind it."""
-    box = Box.enclosing([scene.moving_mesh(mover.id).box, *(v.mesh.box for v in _rails(scene, mover))])
-    way = scene.ways.get(mover.id)
+    box = Box.enclosing([scene.moving_mesh(moving.id).box, *(v.mesh.box for v in _rails(scene, moving))])
+    way = scene.ways.get(moving.id)
     direction, travel = (way.axis.direction, way.upper) if way is not None else (np.array([0.0, -1.0, 0.0]), 0.0)
     axis = int(np.abs(direction).argmax())
     goes_up = bool(direction[axis] > 0)
@@ -116,9 +116,9 @@ def _free_run(cells: Grid, axis: int) -> int:
     return int(np.median(first))
 
 
-def _rails(scene: Scene, mover: Mover) -> list[Visual]:
+def _rails(scene: Scene, moving: MovingBody) -> list[Visual]:
     """Returns the hardware of a drawer: what moves with it and, by its name, what stands."""
-    return [v for owner, v in scene.hardware if owner == mover.id or (not owner and f"_{mover.id}_" in v.name)]
+    return [v for owner, v in scene.hardware if owner == moving.id or (not owner and f"_{moving.id}_" in v.name)]
 
 
 def _is_open_wall(part: Part, still: Grid, origin: Vec3, cell: float) -> bool:

@@ -44,13 +44,13 @@ class Surroundings:
         self._cell = cell
         reach = near.grown((_NEAR + 2) * cell)
         self._still = RayCaster(_within([part.mesh for part in scene.static_parts], reach))
-        self._moving = RayCaster(_within([scene.moving_mesh(mover) for mover in scene.movers], reach))
+        self._moving = RayCaster(_within([scene.moving_mesh(moving) for moving in scene.moving_bodies], reach))
         own = [part for part in scene.static_parts if part.box.overlaps(reach)]
         self._names = np.array([part.id for part in own], dtype=object)
         self._lows = np.array([part.box.low for part in own]).reshape(-1, 3) - _SKIN * cell
         self._highs = np.array([part.box.high for part in own]).reshape(-1, 3) + _SKIN * cell
-        self._movers = [(mover, scene.moving_mesh(mover).box) for mover in scene.movers]
-        self._drawers = [box for mover, box in self._movers if is_drawer(scene, scene.movers[mover])]
+        self._moving_bodies = [(moving, scene.moving_mesh(moving).box) for moving in scene.moving_bodies]
+        self._drawers = [box for moving, box in self._moving_bodies if is_drawer(scene, scene.moving_bodies[moving])]
 
     def faces_of(self, box: Box) -> tuple[Face, ...]:
         """Returns the six faces (-X, +X, -Y, +Y, -Z, +Z) where the meshes bound a box of free cells."""
@@ -120,15 +120,15 @@ class Surroundings:
                 return True
         return False
 
-    def movers_before(self, box: Box, opening: int) -> tuple[str, ...]:
-        """Returns the movers whose boxes lie before a box, seen from its opening, and overlap it across."""
+    def bodies_before(self, box: Box, opening: int) -> tuple[str, ...]:
+        """Returns the moving bodies whose boxes lie before a box, seen from its opening, and overlap it across."""
         axis, is_high = divmod(opening, 2)
         found = []
-        for mover, own in self._movers:
+        for moving, own in self._moving_bodies:
             gaps = own.axis_gaps(box)
             before = own.high[axis] > box.high[axis] if is_high else own.low[axis] < box.low[axis]
             if before and all(gaps[k] < -0.05 * box.size[k] for k in range(3) if k != axis):
-                found.append(mover)
+                found.append(moving)
         return tuple(found)
 
 

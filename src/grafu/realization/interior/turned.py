@@ -58,12 +58,12 @@ def _straight(scene: Scene) -> tuple[Mat4, Scene]:
 def _turned(scene: Scene, T: Mat4) -> Scene:
     return Scene(
         {name: _part(part, T) for name, part in scene.parts.items()},
-        scene.movers,
+        scene.moving_bodies,
         scene.unit,
         tuple((owner, _visual(visual, T)) for owner, visual in scene.hardware),
         {
-            mover: replace(way, axis=way.axis.transformed(T, way.type is JointType.REVOLUTE))
-            for mover, way in scene.ways.items()
+            moving: replace(way, axis=way.axis.transformed(T, way.type is JointType.REVOLUTE))
+            for moving, way in scene.ways.items()
         },
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.arrays import Mat4, vec3
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation, reflection
 from grafu.realization.limits import in_the_way, is_free, swept_box
@@ -68,7 +68,7 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         count=2,
         dynamic=tuple(dynamic),
         static=tuple(static),
-        in_way=search.movers_in_the_way(upper),
+        in_way=search.bodies_in_the_way(upper),
     )
 
 
@@ -80,21 +80,21 @@ def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4
 
 
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
-    """Whether rails or blocks cut into the other side's parts on the way, or into other movers at rest."""
+    """Whether rails or blocks cut into the other side's parts on the way, or into other moving bodies at rest."""
     depth = search.config.depth * search.scene.unit
     motion = search.motion
     fixed = merge_meshes([v.mesh for v in static])
     if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], 12):
         return True
     moving = merge_meshes([v.mesh for v in dynamic])
-    body = MovingBody(moving, depth, np.asarray(search.frame.rotation))
+    body = SweptBody(moving, depth, np.asarray(search.frame.rotation))
     if not is_free(body, motion, upper, in_the_way(search.obstacles, swept_box(moving.box, motion, upper)), 12):
         return True
     return _cuts_neighbours(fixed, depth, search) or _cuts_neighbours(moving, depth, search)
 
 
 def _cuts_neighbours(mesh: TriangleMesh, depth: float, search: DrawerSearch) -> bool:
-    """Whether hardware at rest cuts into another mover at rest."""
-    body = MovingBody(mesh, depth, np.asarray(search.frame.rotation))
+    """Whether hardware at rest cuts into another moving body at rest."""
+    body = SweptBody(mesh, depth, np.asarray(search.frame.rotation))
     body.place(np.eye(4))
     return any(body.penetrates(o.collider) for o in in_the_way(search.neighbours, mesh.box))

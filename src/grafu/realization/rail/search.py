@@ -9,7 +9,7 @@ import numpy as np
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MovingBody
+from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
@@ -45,7 +45,7 @@ class DrawerSearch:
     scene: Scene
     config: RealizationConfig
     frame: DrawerFrame
-    body: MovingBody
+    body: SweptBody
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Obstacle, ...]
 
@@ -115,8 +115,8 @@ class DrawerSearch:
         """Returns what the drawer cuts into before it has moved at all."""
         return sweep(self.body, self.motion, 0.0, self.obstacles, 1).blockers
 
-    def movers_in_the_way(self, reach: float) -> tuple[str, ...]:
-        """Returns the other movers, at rest, that the drawer runs into."""
+    def bodies_in_the_way(self, reach: float) -> tuple[str, ...]:
+        """Returns the other moving bodies, at rest, that the drawer runs into."""
         near = in_the_way(self.neighbours, swept_box(self.box, self.motion, reach))
         return all_blockers(self.body, self.motion, reach, near, self.config.coarse_poses)
 
@@ -135,7 +135,7 @@ def carried_mesh(request: JointRequest, scene: Scene) -> TriangleMesh:
     """Returns a drawer with those riders that do not stand out before its front; handles never count."""
     drawer, slide = scene.parts[request.moving], np.asarray(request.axis.direction)
     front = float((drawer.mesh.vertices @ slide).max()) + _FLUSH
-    riders = [scene.parts[member] for member in scene.movers[request.moving].members if member != request.moving]
+    riders = [scene.parts[member] for member in scene.moving_bodies[request.moving].members if member != request.moving]
     behind = [r.mesh for r in riders if r.label is not PartLabel.HANDLE and (r.mesh.vertices @ slide).max() <= front]
     return merge_meshes([drawer.mesh, *behind]) if behind else drawer.mesh
 
@@ -150,6 +150,6 @@ def drawer_search(
     frame = drawer_frame(mesh if lying else carried_mesh(request, scene), direction, lying)
     if frame is None:
         return None
-    body = scene.moving_body(request.moving, config.depth * scene.unit, part_axes(mesh))
+    body = scene.swept_body(request.moving, config.depth * scene.unit, part_axes(mesh))
     obstacles = tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored)
-    return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_movers(request.moving))
+    return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_bodies(request.moving))

@@ -76,7 +76,7 @@ class TopVerdict:
 
 def missing_tops(
     parts: Sequence[Part],
-    movers: Iterable[JointRequest] = (),
+    moving_bodies: Iterable[JointRequest] = (),
     config: TopConfig = DEFAULT_TOP,
     hint: Box | None = None,
 ) -> TopVerdict:
@@ -84,12 +84,12 @@ def missing_tops(
 
     Each is judged with those before it in place; a further one must lie clearly higher or lower than all of them.
     """
-    movers, parts = tuple(movers), list(parts)
-    first = missing_top(parts, movers, config, hint)
+    moving_bodies, parts = tuple(moving_bodies), list(parts)
+    first = missing_top(parts, moving_bodies, config, hint)
     found = list(first.additions)
     while 0 < len(found) < _MOST:
         parts.append(found[-1].part)
-        further = missing_top(parts, movers, config)
+        further = missing_top(parts, moving_bodies, config)
         if further.addition is None or not _is_apart(further.addition, found):
             break
         found.append(further.addition)
@@ -104,16 +104,16 @@ def _is_apart(top: Addition, others: Sequence[Addition]) -> bool:
 
 def missing_top(
     parts: Sequence[Part],
-    movers: Iterable[JointRequest] = (),
+    moving_bodies: Iterable[JointRequest] = (),
     config: TopConfig = DEFAULT_TOP,
     hint: Box | None = None,
 ) -> TopVerdict:
     """Returns whether parts lack a top, and the slab for them.
 
-    `movers` are the joints asked for: lids cover, drawers do not, and the slab lets all of them move. `hint` is the box
-    of a top that a network predicts, in the object frame; it settles close calls and nothing else.
+    `moving_bodies` are the joints asked for: lids cover, drawers do not, and the slab lets all of them move. `hint` is
+    the box of a top that a network predicts, in the object frame; it settles close calls and nothing else.
     """
-    roles = roles_of(parts, movers)
+    roles = roles_of(parts, moving_bodies)
     if roles is None:
         return TopVerdict(True, 1.0, "nothing has a surface")
     metre = metre_of(float(Box.enclosing(p.box for p in parts).size.max()))

@@ -1,6 +1,6 @@
 """What a slab leaves free for doors, drawers and flaps: grooves in its underside, and edges that end before them.
 
-It knows how movers move, not how their joints will be built: those come later and respect the slab.
+It knows how moving bodies move, not how their joints will be built: those come later and respect the slab.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ _POSES = 12
 _NEAR = 0.06  # metres below the slab within which a flap's upper end meets it
 _BEYOND = 0.15  # metres before a flap that stay free
 _BESIDE = 0.05  # metres beside it
-_TRAY = 0.1  # of the body's plan: a mover that takes more is no front but a tray or drawer
+_TRAY = 0.1  # of the body's plan: a moving body that takes more is no front but a tray or drawer
 _THICKEST = 0.05  # metres that a slab spans above its seat for the sake of such a one
 
 
@@ -38,19 +38,19 @@ class Freedom:
 
 
 def freedom_of(
-    movers: tuple[Closed, ...], outline: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
+    moving_bodies: tuple[Closed, ...], outline: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
 ) -> Freedom:
     """Returns what a slab over `outline` that stands at height `seat` must leave free, `gap` metres of air included."""
     cuts, grooves = [], []
-    for mover in movers:
-        low, top = float(mover.mesh.box.low[2]), float(mover.mesh.box.high[2])
+    for moving in moving_bodies:
+        low, top = float(moving.mesh.box.low[2]), float(moving.mesh.box.high[2])
         if low >= seat + thickness:
             continue
-        if lifts(mover) and top > seat - gap - _NEAR * metre:
-            cuts.append(_beyond(mover, outline, metre))
+        if lifts(moving) and top > seat - gap - _NEAR * metre:
+            cuts.append(_beyond(moving, outline, metre))
         if top <= seat - gap:
             continue
-        way = offset(_swept(mover, seat - gap), gap)
+        way = offset(_swept(moving, seat - gap), gap)
         if not way.intersects(outline):
             continue
         if top + gap - seat > (1 - _LEFT) * thickness:
@@ -61,34 +61,34 @@ def freedom_of(
 
 
 def thick_enough(
-    movers: tuple[Closed, ...], body: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
+    moving_bodies: tuple[Closed, ...], body: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
 ) -> float:
     """Returns a thickness that passes over trays and drawers that stand a little higher than what carries the slab."""
-    for mover in movers:
-        rise = float(mover.mesh.box.high[2]) + gap - seat
-        if not (1 - _LEFT) * thickness < rise <= _THICKEST * metre or lifts(mover):
+    for moving in moving_bodies:
+        rise = float(moving.mesh.box.high[2]) + gap - seat
+        if not (1 - _LEFT) * thickness < rise <= _THICKEST * metre or lifts(moving):
             continue
-        points = mover.mesh.vertices[mover.mesh.vertices[:, 2] > seat - gap][:, :2]
+        points = moving.mesh.vertices[moving.mesh.vertices[:, 2] > seat - gap][:, :2]
         plan = shapely.convex_hull(shapely.multipoints(points))
         if plan.intersection(body).area > _TRAY * body.area:
             thickness = 1.001 * rise / (1 - _LEFT)
     return thickness
 
 
-def lifts(mover: Closed) -> bool:
-    """Whether a mover turns about a level axis at its upper end: a flap that rises when it opens."""
-    joint = mover.request
+def lifts(moving: Closed) -> bool:
+    """Whether a moving body turns about a level axis at its upper end: a flap that rises when it opens."""
+    joint = moving.request
     if joint is None or joint.type is not JointType.REVOLUTE:
         return False
     if abs(float(joint.axis.direction[2])) > 1 - _UPRIGHT:
         return False
-    box = mover.mesh.box
+    box = moving.mesh.box
     return bool(joint.axis.point[2] >= box.high[2] - _FLAP * box.size[2])
 
 
-def _beyond(mover: Closed, outline: BaseGeometry, metre: float) -> BaseGeometry:
+def _beyond(moving: Closed, outline: BaseGeometry, metre: float) -> BaseGeometry:
     """Returns the plan of what lies before a flap's face, away from the body's middle: there it rises."""
-    box, middle = mover.mesh.box, outline.centroid
+    box, middle = moving.mesh.box, outline.centroid
     away = box.center[:2] - np.array([middle.x, middle.y])
     across = int(np.argmin(box.size[:2]))
     outer = box.high[across] if away[across] > 0 else box.low[across]
@@ -98,20 +98,20 @@ def _beyond(mover: Closed, outline: BaseGeometry, metre: float) -> BaseGeometry:
     return shapely.box(float(x[0]), float(y[0]), float(x[1]), float(y[1]))
 
 
-def _swept(mover: Closed, height: float) -> BaseGeometry:
-    """Returns the plan of what a mover's parts above a height pass over when it opens."""
-    vertices = mover.mesh.vertices
-    level = section_lines(mover.mesh.triangles, height).reshape(-1, 2)
+def _swept(moving: Closed, height: float) -> BaseGeometry:
+    """Returns the plan of what a moving body's parts above a height pass over when it opens."""
+    vertices = moving.mesh.vertices
+    level = section_lines(moving.mesh.triangles, height).reshape(-1, 2)
     flat = np.concatenate([vertices[vertices[:, 2] > height][:, :2], level])
     hull = np.asarray(shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(flat))), dtype=np.float64)
     points = np.column_stack([hull, np.full(len(hull), height)])
-    joint = mover.request
+    joint = moving.request
     if joint is None:
         poses = [points]
     else:
         motion = motion_about(joint.axis, joint.type)
         turns = joint.type is JointType.REVOLUTE
-        reach = float(_TURN) if turns else float(mover.mesh.box.size[:2].max())
+        reach = float(_TURN) if turns else float(moving.mesh.box.size[:2].max())
         poses = [transform_points(motion(v), points) for v in np.linspace(0.0, reach, _POSES if turns else 2)]
     steps = [np.concatenate([a, b])[:, :2] for a, b in zip(poses, poses[1:] or poses, strict=False)]
     return shapely.union_all([shapely.convex_hull(shapely.multipoints(step)) for step in steps])

@@ -81,16 +81,16 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim 
     return Rim(seat, thinned(solid(walls, _BOARD * metre), metre), body) if body.area > 0 else None
 
 
-def with_fronts(rim: Rim, movers: tuple[Closed, ...], metre: float) -> BaseGeometry:
+def with_fronts(rim: Rim, moving_bodies: tuple[Closed, ...], metre: float) -> BaseGeometry:
     """Returns a rim's outline with the doors and drawers before it whose upper ends come near it."""
     near = offset(rim.outline, _FRONT * metre)
     found = [rim.outline]
-    for mover in movers:
-        top = float(mover.mesh.box.high[2])
-        if top < rim.seat - _REACH * metre or not _plan_box(mover.mesh.box).intersects(near):
+    for moving in moving_bodies:
+        top = float(moving.mesh.box.high[2])
+        if top < rim.seat - _REACH * metre or not _plan_box(moving.mesh.box).intersects(near):
             continue
         height = min(top, rim.seat) - 0.005 * metre
-        front = thinned(filled(section(mover.mesh.triangles, [height], metre)), metre)
+        front = thinned(filled(section(moving.mesh.triangles, [height], metre)), metre)
         found.append(front.intersection(near))
     if len(found) == 1:
         return rim.outline

@@ -31,25 +31,25 @@ class ReplacedTop:
 
 def replace_top(
     parts: Sequence[Part],
-    movers: Iterable[JointRequest],
+    moving_bodies: Iterable[JointRequest],
     tops: Collection[str],
     config: TopConfig = DEFAULT_TOP,
     hint: Box | None = None,
 ) -> ReplacedTop:
     """Returns the top that takes the place of the parts `tops`; where a top is missing anyway, that one.
 
-    `movers` are the joints asked for: what moves is no top. `hint` is the box of a top that a network predicts.
+    `moving_bodies` are the joints asked for: what moves is no top. `hint` is the box of a top that a network predicts.
     """
-    movers = tuple(movers)
-    found = missing_tops(parts, movers, config, hint)
+    moving_bodies = tuple(moving_bodies)
+    found = missing_tops(parts, moving_bodies, config, hint)
     if found.missing:
         return ReplacedTop(found, frozenset(), "" if found.addition is not None else found.why)
-    moving = {part for request in movers for part in (request.moving, *request.riders)}
+    moving = {part for request in moving_bodies for part in (request.moving, *request.riders)}
     old = frozenset(part.id for part in parts if part.id in tops and part.id not in moving)
     if not old:
         why = "no still part of it is called a top panel: correct the category of what is to be replaced"
         return ReplacedTop(found, frozenset(), f"it has a top, and {why}")
-    made = missing_tops([part for part in parts if part.id not in old], movers, config)
+    made = missing_tops([part for part in parts if part.id not in old], moving_bodies, config)
     if made.addition is None:
         why = "what is left still is covered" if made.covered else made.why
         return ReplacedTop(found, frozenset(), f"without {', '.join(sorted(old))}, {why}")

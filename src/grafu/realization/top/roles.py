@@ -63,16 +63,16 @@ class Roles:
 
 
 def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest] = ()) -> Roles | None:
-    """Returns the parts by role, movers closed; None where nothing but handles has a face."""
+    """Returns the parts by role, moving bodies closed; None where nothing but handles has a face."""
     known = {part.id: part for part in parts if len(part.mesh.faces)}
     asked = {joint.moving: joint for joint in joints if joint.moving in known}
     carried = {rider for joint in asked.values() for rider in joint.riders} - asked.keys()
-    movers = [_closed(joint, known) for joint in asked.values()]
+    moving_bodies = [_closed(joint, known) for joint in asked.values()]
     rest = [p for p in known.values() if p.id not in asked and p.id not in carried and p.rides_on is None]
-    movers += [_labelled(p) for p in rest if p.label.is_movable]
+    moving_bodies += [_labelled(p) for p in rest if p.label.is_movable]
     still = tuple(p for p in rest if not p.label.is_movable and p.label is not PartLabel.HANDLE)
-    turning = tuple(m for m in movers if not m.slides)
-    return Roles(still, turning, tuple(m for m in movers if m.slides)) if still or movers else None
+    turning = tuple(m for m in moving_bodies if not m.slides)
+    return Roles(still, turning, tuple(m for m in moving_bodies if m.slides)) if still or moving_bodies else None
 
 
 def triangles_of(meshes: Iterable[TriangleMesh]) -> Float[np.ndarray, "n 3 3"]:

@@ -15,7 +15,7 @@ import numpy as np
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.arrays import Mat4, Scalars
 from grafu.geometry.box_stack import BoxStack, box_frames, overlapping, penetrations, stacked
-from grafu.geometry.intersection import MeshCollider, MovingBody
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.noise.tessellation import is_two_sided
 from grafu.vocabulary import JointType
@@ -121,7 +121,7 @@ class _Pieces:
         self._parts = np.array([number for number, _ in owned], dtype=np.int64)
         self.carriers = np.array([self._numbers[self.carrier_of[i]] for i in self._ids], dtype=np.int64)[self._parts]
         self.is_box, self.boxes = _boxes(self._meshes)
-        self._bodies: dict[int, MovingBody] = {}
+        self._bodies: dict[int, SweptBody] = {}
         self._colliders: dict[int, MeshCollider] = {}
 
     def number(self, part: str) -> int:
@@ -147,10 +147,10 @@ class _Pieces:
             centers[rows], rotations[rows] = there.centers, there.rotations
         return BoxStack(centers, self.boxes.halves, rotations)
 
-    def body(self, row: int) -> MovingBody:
+    def body(self, row: int) -> SweptBody:
         """Returns a piece as a moving body."""
         if row not in self._bodies:
-            self._bodies[row] = MovingBody(self._meshes[row], DEPTH, np.asarray(self.boxes.rotations[row]))
+            self._bodies[row] = SweptBody(self._meshes[row], DEPTH, np.asarray(self.boxes.rotations[row]))
         return self._bodies[row]
 
     def collider(self, row: int) -> MeshCollider:
