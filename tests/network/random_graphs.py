@@ -3,10 +3,9 @@
 import torch
 from torch import Tensor
 
-from grafu.network.batch import GraphBatch, one_graph
+from grafu.network.batch import GraphBatch, Predictions, one_graph
 from grafu.network.config import EDGE_COUNT, LABEL_COUNT, GraFuConfig
 from grafu.network.grafu import GraFu
-from grafu.network.predictions import Predictions
 
 TINY = GraFuConfig(
     hidden=16, heads=2, encoder_layers=2, decoder_layers=2, edge=12, category=8, points=6, geometry=4, free_slots=3

@@ -6,10 +6,9 @@ import pytest
 import torch
 from random_graphs import TINY, arrays, differences, graph, tiny_network
 
-from grafu.network.batch import one_graph
+from grafu.network.batch import Predictions, one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
-from grafu.network.predictions import Predictions
 from joined_batches import join_batches
 
 OPTIONS = [

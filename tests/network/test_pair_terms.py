@@ -4,7 +4,7 @@ import pytest
 import torch
 
 from grafu.network.config import PairFeatures
-from grafu.network.pair_terms import edge_terms, face_scale, face_terms, pair_term_count, pair_terms
+from grafu.network.encoder import edge_terms, face_scale, face_terms, pair_term_count, pair_terms
 
 # Half sizes 1, 1, 1 and .5, 1, 1; from the first centre to the second: 3, 4, 0; gaps 1.5, 2, 0
 BOXES = torch.tensor([[[0.0, 0.0, 0.0, 1.0, 1.0, 1.0], [3.0, 4.0, 0.0, 0.5, 1.0, 1.0]]])

@@ -9,7 +9,7 @@ from torch.nn.functional import one_hot
 
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.network.predictions import Predictions
+from grafu.network.batch import Predictions
 from grafu.training.loss_config import LossConfig
 from grafu.training.matcher import match_slots
 from grafu.training.slot_truth import SlotTruth, slot_truth

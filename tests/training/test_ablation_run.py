@@ -13,8 +13,7 @@ from little_runs import FewModels, little
 from grafu.errors import ExportError, UnreadableAsset
 from grafu.training import ablation_run
 from grafu.training.ablation import Experiment
-from grafu.training.ablation_pool import do_runs
-from grafu.training.ablation_run import AblationRun, begin_ablation, do_run, known_figures
+from grafu.training.ablation_run import AblationRun, begin_ablation, do_run, do_runs, known_figures
 from grafu.training.checkpoint import load_best
 
 

@@ -10,7 +10,7 @@ from grafu.data.pair import GraphPair
 from grafu.graph.edit import as_contacts, without_nodes
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
 from grafu.training.lesson import Lesson, make_lesson
-from grafu.training.padding import ROW_STEP, SLOT_STEP, stepped
+from grafu.training.targets import ROW_STEP, SLOT_STEP, stepped
 from small_graphs import cabinet
 
 FEATURES = FeatureConfig(points=32, anchors=4, neighbours=4)

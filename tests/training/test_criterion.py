@@ -7,7 +7,7 @@ import torch
 from perfect_answers import perfect, targets_of, two_cabinets
 
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.network.predictions import Predictions
+from grafu.network.batch import Predictions
 from grafu.training.criterion import criterion
 from grafu.training.loss_config import OFFICIAL, PAPER, LossConfig
 from grafu.training.targets import TargetBatch, stack_targets

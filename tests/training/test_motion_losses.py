@@ -8,7 +8,7 @@ import torch
 from perfect_answers import perfect, place, targets_of, truth_of
 
 from grafu.graph.arrays import NONE
-from grafu.training.motion_losses import motion_losses
+from grafu.training.criterion import motion_losses
 from grafu.training.targets import stack_targets
 from small_graphs import cabinet
 

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from grafu.training.config import Matrices, OptimiserConfig
-from grafu.training.optimiser import Optimiser
+from grafu.training.optimiser import Optimiser, rate_at
 
 CONFIG = OptimiserConfig(rate=0.01, weight_decay=0.0)
 
@@ -85,3 +85,16 @@ def test_biases_and_norms_do_not_decay() -> None:
     for old, new in zip(before, net.parameters(), strict=True):
         decays = old.ndim >= 2
         assert torch.allclose(new, old * (1 - 0.5 * CONFIG.rate) if decays else old)
+
+
+def test_it_rises_and_falls_to_zero() -> None:
+    rates = [rate_at(step, 100, 10) for step in range(101)]
+    assert rates[:11] == sorted(rates[:11])
+    assert rates[10] == 1.0
+    assert rates[10:] == sorted(rates[10:], reverse=True)
+    assert rates[100] == pytest.approx(0.0)
+    assert rate_at(55, 100, 10) == pytest.approx(0.5)
+
+
+def test_a_period_beyond_the_end_never_comes_to_zero() -> None:
+    assert rate_at(119, 120, 0, 450) == pytest.approx(0.837, abs=0.01)  # the authors stop at 83 % of the peak

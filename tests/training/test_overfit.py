@@ -7,14 +7,13 @@ from grafu.completion.features import FeatureConfig, GraphFeatures, graph_featur
 from grafu.graph.edit import as_contacts, mirrored, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import total_accuracy
-from grafu.network.batch import GraphBatch, one_graph
+from grafu.network.batch import GraphBatch, Predictions, one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
-from grafu.network.predictions import Predictions
 from grafu.training.criterion import criterion
 from grafu.training.loss_config import PAPER, LossConfig
-from grafu.training.raw_answers import batch_accuracy
 from grafu.training.targets import GraphTargets, TargetBatch, graph_targets, stack_targets
+from grafu.training.validation import batch_accuracy
 from joined_batches import join_batches
 from small_graphs import cabinet
 

@@ -8,8 +8,8 @@ import torch
 from perfect_answers import perfect, place, targets_of, truth_of
 
 from grafu.graph.arrays import NULL
+from grafu.training.criterion import choice_loss, edge_loss, hinge_target_loss, pair_losses, parent_loss
 from grafu.training.loss_config import LossConfig
-from grafu.training.pair_losses import choice_loss, edge_loss, hinge_target_loss, pair_losses, parent_loss
 from grafu.training.targets import stack_targets
 from small_graphs import cabinet
 

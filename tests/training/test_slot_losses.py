@@ -9,8 +9,17 @@ from perfect_answers import perfect, truth_of, two_cabinets
 from torch import Tensor
 
 from grafu.graph.arrays import UNKNOWN
+from grafu.training.criterion import (
+    box_errors,
+    category_loss,
+    count_loss,
+    exists_loss,
+    free_exists_loss,
+    mean_where,
+    slot_losses,
+    weighted_mean,
+)
 from grafu.training.loss_config import LossConfig
-from grafu.training.slot_losses import box_errors, category_loss, count_loss, exists_loss, free_exists_loss, slot_losses
 
 TARGETS = two_cabinets()  # 16 + 12 anchored slots, 2 + 1 missing nodes, 4 + 4 free slots
 ANSWERS = perfect(TARGETS)
@@ -114,3 +123,20 @@ def test_the_count_has_a_slope_that_ends() -> None:
 def test_a_sure_mistake_costs_its_logit() -> None:
     exists = changed(ANSWERS.exists, 0, 16, 3.0)  # a free slot that should not fire
     assert free_exists_loss(exists, TRUTH, 10.0).item() == pytest.approx(log(1 + exp(3.0)) / FREE, rel=1e-4)
+
+
+def test_the_mean_is_of_the_marked_values() -> None:
+    assert mean_where(torch.tensor([1.0, 3.0, torch.inf]), torch.tensor([True, True, False])).item() == 2.0
+
+
+def test_weights_count() -> None:
+    assert weighted_mean(torch.tensor([1.0, 4.0, torch.nan]), torch.tensor([2.0, 1.0, 0.0])).item() == 2.0
+
+
+def test_the_mean_of_nothing_is_nothing_and_moves_nothing() -> None:
+    values = torch.tensor([1.0, 2.0], requires_grad=True)
+    mean = mean_where(values, torch.tensor([False, False]))
+    mean.backward()
+    assert mean.item() == 0.0
+    assert values.grad is not None
+    assert values.grad.tolist() == [0.0, 0.0]

@@ -12,8 +12,7 @@ from grafu.cli.progress import with_progress
 from grafu.data.asked import VARIANTS
 from grafu.export.whole_file import write_whole
 from grafu.training.ablation import experiments, training_models
-from grafu.training.ablation_pool import do_runs
-from grafu.training.ablation_run import AblationRun, begin_ablation, known_figures
+from grafu.training.ablation_run import AblationRun, begin_ablation, do_runs, known_figures
 from grafu.training.ablation_table import MEAN, Result, csv_table, markdown_table
 from grafu.training.config import CONFIGS, TrainingConfig
 from grafu.training.source import source_to_train_on

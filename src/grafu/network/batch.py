@@ -1,15 +1,41 @@
-"""The padded batch of graphs that the network reads. It knows no files and not how features are computed.
+"""The padded batch of graphs that the network reads, and what it says about them. It knows no files and no features.
 
 Parts' points stand in a table of their own, and nodes point into it: several corrupted copies of one model share its
-rows, so that each part's points are encoded once.
+rows, so that each part's points are encoded once. Predictions are logits and boxes by slot and by pair of slots.
 """
 
 from dataclasses import dataclass, fields, replace
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float32, Int64
+from jaxtyping import Bool, Float, Float32, Int64
 from torch import Tensor
+
+
+@final
+@dataclass(frozen=True)
+class Predictions:
+    """Scores of s = n + K slots: first one for each input node, padding included, then the K free ones.
+
+    All scores are logits. Boxes stand in the normalised frame of the input. A pair (i, j) asks about i as the child,
+    the door, drawer or handle, and j as what carries it; `edge` is symmetric. `parent_abstain` and `hinge_abstain` are
+    the scores that i's parent, or mount, is none of the slots. Borders, signs and slides are official motion codes.
+    `mask` marks slots that are no padding.
+    """
+
+    exists: Float[Tensor, "b s"]
+    category: Float[Tensor, "b s labels"]
+    centre: Float[Tensor, "b s 3"]
+    half: Float[Tensor, "b s 3"]
+    edge: Float[Tensor, "b s s kinds"]
+    parent: Float[Tensor, "b s s"]
+    parent_abstain: Float[Tensor, ""]
+    hinge_target: Float[Tensor, "b s s"]
+    hinge_abstain: Float[Tensor, ""]
+    border: Float[Tensor, "b s s 4"]
+    sign: Float[Tensor, "b s s 2"]
+    slide: Float[Tensor, "b s s 6"]
+    mask: Bool[Tensor, "b s"]
 
 
 @final

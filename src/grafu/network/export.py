@@ -18,10 +18,9 @@ from torch import Tensor, nn
 from torch.nn.functional import pad
 
 from grafu.graph.arrays import LABELS
-from grafu.network.batch import one_graph
+from grafu.network.batch import Predictions, one_graph
 from grafu.network.config import LABEL_COUNT
 from grafu.network.grafu import GraFu
-from grafu.network.predictions import Predictions
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges")

@@ -7,15 +7,11 @@ from jaxtyping import Float
 from torch import Tensor, nn
 from torch.nn.functional import pad
 
-from grafu.network.batch import GraphBatch
+from grafu.network.batch import GraphBatch, Predictions
 from grafu.network.config import GraFuConfig
-from grafu.network.graph_encoder import GraphEncoder
-from grafu.network.motion_heads import MotionHeads
-from grafu.network.pair_heads import PairHeads
-from grafu.network.pair_terms import pair_term_count, pair_terms
-from grafu.network.predictions import Predictions
-from grafu.network.slot_decoder import SlotDecoder
-from grafu.network.slot_heads import SlotAnswers, SlotHeads
+from grafu.network.decoder import SlotDecoder
+from grafu.network.encoder import GraphEncoder, pair_term_count, pair_terms
+from grafu.network.heads import MotionHeads, PairHeads, SlotAnswers, SlotHeads
 
 
 @final

@@ -1,6 +1,10 @@
-"""A hand of lessons as one padded batch: what is seen, and the answers. Copies of one model share rows of points."""
+"""Lessons as padded batches: what is seen, and the answers. Copies of one model share rows of points.
 
-from collections.abc import Sequence
+The batches of a run are a function of its source, its config and the batch's number alone.
+"""
+
+from collections.abc import Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -9,9 +13,11 @@ import torch
 
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
+from grafu.training.config import TrainingConfig
 from grafu.training.lesson import Copy, Lesson
-from grafu.training.padding import ROW_STEP, SLOT_STEP, padded, stepped
-from grafu.training.targets import TargetBatch, mirrored_targets, stack_targets
+from grafu.training.lesson_stream import Hand, Syllabus, stream_hands
+from grafu.training.source import Source
+from grafu.training.targets import ROW_STEP, SLOT_STEP, TargetBatch, mirrored_targets, padded, stack_targets, stepped
 
 
 @final
@@ -108,3 +114,24 @@ def _in_frame(showing: Showing, rows: np.ndarray, copy: Copy) -> tuple[np.ndarra
     stretch = (signs * copy.stretch).astype(np.float32)
     shift = (signs * copy.shift).astype(np.float32)
     return showing.lesson.anchors[rows] * stretch + shift, showing.lesson.groups[rows] * stretch
+
+
+def stream_batches(
+    source: Source, config: TrainingConfig, start: int = 0, jobs: int = 1, part: tuple[int, int] = (0, 1)
+) -> Generator[TrainingBatch, None, None]:
+    """Yields the batches from number `start` on, without end; `jobs` as in `stream_hands`, `part` as in `Syllabus`."""
+    syllabus = Syllabus(source, config.mix, config.features, config.seed, part)
+    with closing(stream_hands(syllabus, config.deal, start, jobs)) as hands:
+        for number, hand in enumerate(hands, start=start):
+            rng = np.random.default_rng([config.seed, number, *part])
+            yield stack_showings(_shown(hand, config, rng), config.network.points_frame == "part")
+
+
+def _shown(hand: Hand, config: TrainingConfig, rng: np.random.Generator) -> list[Showing]:
+    """Returns what is shown of each model this time: the copies of this visit, perhaps mirrored."""
+    count = config.deal.copies
+    showings = []
+    for lesson, visit in hand:
+        across = int(rng.choice(config.mirror_axes)) if rng.random() < config.mirror else None
+        showings.append(Showing(lesson, lesson.copies[visit * count : (visit + 1) * count], across))
+    return showings

@@ -1,20 +1,214 @@
-"""The whole loss: match slots to nodes, lay the answers out by slot, take every term, weigh and add."""
+"""The whole loss: match slots to nodes, lay the answers out by slot, take every term, weigh and add.
+
+Terms before weights: of single slots attributes, existence, anchors (supplement, Per-slot Loss), of pairs of slots
+kinds of edges and exclusive choices (Per-pair Loss), of true hinges and rails their motions (Motion Loss). Means are
+over marked entries, so that padding and what is unknown never count.
+"""
 
 from dataclasses import dataclass
 from typing import final
 
 import torch
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int64
 from torch import Tensor
+from torch.nn import functional
 
-from grafu.network.predictions import Predictions
-from grafu.training.loss_config import LossConfig
+from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, RAIL, UNKNOWN
+from grafu.network.batch import Predictions
+from grafu.training.loss_config import BoxError, LossConfig
 from grafu.training.matcher import match_slots
-from grafu.training.motion_losses import MotionLosses, motion_losses
-from grafu.training.pair_losses import PairLosses, pair_losses
-from grafu.training.slot_losses import SlotLosses, slot_losses
-from grafu.training.slot_truth import slot_truth
+from grafu.training.slot_truth import SlotTruth, slot_truth
 from grafu.training.targets import TargetBatch
+
+
+@final
+@dataclass(frozen=True)
+class MotionLosses:
+    """Three numbers: two over hinges, one over rails."""
+
+    border: Float[Tensor, ""]
+    sign: Float[Tensor, ""]
+    slide: Float[Tensor, ""]
+
+
+def motion_losses(predictions: Predictions, truth: SlotTruth) -> MotionLosses:
+    """Returns the cross-entropies of border, sign and slide, read at (moving part, what carries it)."""
+    hinges, rails = truth.child & (truth.edges == HINGE), truth.child & (truth.edges == RAIL)
+    return MotionLosses(
+        border=code_loss(predictions.border.float(), truth.border, hinges),
+        sign=code_loss(predictions.sign.float(), truth.sign, hinges),
+        slide=code_loss(predictions.slide.float(), truth.slide, rails),
+    )
+
+
+def code_loss(
+    logits: Float[Tensor, "b s s c"], codes: Int64[Tensor, "b s"], edges: Bool[Tensor, "b s s"]
+) -> Float[Tensor, ""]:
+    """Returns the mean cross-entropy over the edges of parts whose code is known."""
+    graph, child, carrier = (edges & (codes != NONE)[:, :, None]).nonzero(as_tuple=True)  # few of all pairs
+    wrong = functional.cross_entropy(logits[graph, child, carrier], codes[graph, child], reduction="sum")
+    return wrong / max(len(graph), 1)
+
+
+def mean_where(values: Float[Tensor, "*shape"], where: Bool[Tensor, "*shape"]) -> Float[Tensor, ""]:
+    """Returns the mean of the marked values, 0 where none is marked."""
+    return weighted_mean(values, where.to(values.dtype))
+
+
+def weighted_mean(values: Float[Tensor, "*shape"], weights: Float[Tensor, "*shape"]) -> Float[Tensor, ""]:
+    """Returns the mean of the values by weight; values without weight take no part, even if infinite."""
+    used = torch.where(weights > 0, values, 0.0)
+    total = weights.sum()
+    return (used * weights).sum() / torch.where(total > 0, total, 1.0)
+
+
+@final
+@dataclass(frozen=True)
+class SlotLosses:
+    """Each number is a mean over the slots (the count: over the graphs) that it speaks of, before its weight."""
+
+    category: Float[Tensor, ""]
+    centre: Float[Tensor, ""]
+    half: Float[Tensor, ""]
+    exists: Float[Tensor, ""]
+    free_exists: Float[Tensor, ""]
+    count: Float[Tensor, ""]
+    anchor_centre: Float[Tensor, ""]
+    anchor_half: Float[Tensor, ""]
+    free_category: Float[Tensor, ""]
+    free_centre: Float[Tensor, ""]
+    free_half: Float[Tensor, ""]
+
+
+def slot_losses(predictions: Predictions, truth: SlotTruth, config: LossConfig) -> SlotLosses:
+    """Returns the per-slot losses; nodes without a known label take no part in the category's."""
+    centre, half, error = predictions.centre.float(), predictions.half.float(), config.box_error
+    exists, categories = predictions.exists.float(), predictions.category.float()
+    added = truth.matched & truth.free
+    off_centre = box_errors(centre, truth.boxes[..., :3], error)
+    off_size = box_errors(half, truth.boxes[..., 3:], error)
+    return SlotLosses(
+        category=category_loss(categories, truth, truth.matched),
+        centre=mean_where(off_centre, truth.matched),
+        half=mean_where(off_size, truth.matched),
+        exists=exists_loss(exists, truth, config.exists_balanced),
+        free_exists=free_exists_loss(exists, truth, config.free_positive),
+        count=count_loss(exists, truth, config.count_smoothing),
+        anchor_centre=mean_where(box_errors(centre, truth.given[..., :3], error), truth.anchored),
+        anchor_half=mean_where(box_errors(half, truth.given[..., 3:], error), truth.anchored),
+        free_category=category_loss(categories, truth, added),
+        free_centre=mean_where(off_centre, added),
+        free_half=mean_where(off_size, added),
+    )
+
+
+def category_loss(logits: Float[Tensor, "b s c"], truth: SlotTruth, slots: Bool[Tensor, "b s"]) -> Float[Tensor, ""]:
+    """Returns the cross-entropy of the categories of these slots, where the node has a label."""
+    wrong = functional.cross_entropy(logits.transpose(1, 2), truth.labels, reduction="none")
+    return mean_where(wrong, slots & (truth.labels != UNKNOWN))
+
+
+def box_errors(found: Float[Tensor, "b s 3"], wanted: Float[Tensor, "b s 3"], error: BoxError) -> Float[Tensor, "b s"]:
+    """Returns the squared distance, or the sum of the absolute differences, of each slot."""
+    apart = found - wanted
+    return (apart.square() if error == "squared" else apart.abs()).sum(dim=-1)
+
+
+def exists_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, balanced: bool) -> Float[Tensor, ""]:
+    """Returns the cross-entropy of existence over all slots: those anchored or matched should exist."""
+    should, slots = truth.anchored | truth.matched, truth.anchored | truth.free
+    share = slots.sum() / should.sum().clamp(min=1)
+    return mean_where(_existence(exists, should, share if balanced else torch.ones_like(share)), slots)
+
+
+def free_exists_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, positive: float) -> Float[Tensor, ""]:
+    """Returns the cross-entropy of existence over the free slots, those that should exist weighing `positive`."""
+    weight = torch.full((), positive, device=exists.device)
+    return mean_where(_existence(exists, truth.matched, weight), truth.free)
+
+
+def count_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, smoothing: float) -> Float[Tensor, ""]:
+    """Returns the square root of how far the expected number of added nodes is from the number that free slots can add.
+
+    It is the mean over the graphs that have a free slot.
+    """
+    expected = torch.where(truth.free, exists.sigmoid(), 0.0).sum(dim=1)
+    wanted = torch.minimum(truth.missing, truth.free.sum(dim=1))
+    roots = ((expected - wanted).abs() + smoothing).sqrt() - smoothing**0.5
+    return weighted_mean(roots, truth.free.any(dim=1).float())
+
+
+def _existence(
+    exists: Float[Tensor, "b s"], should: Bool[Tensor, "b s"], positive: Float[Tensor, ""]
+) -> Float[Tensor, "b s"]:
+    return functional.binary_cross_entropy_with_logits(exists, should.float(), pos_weight=positive, reduction="none")
+
+
+@final
+@dataclass(frozen=True)
+class PairLosses:
+    """Three numbers: over real pairs, over handles, over doors."""
+
+    edge: Float[Tensor, ""]
+    parent: Float[Tensor, ""]
+    hinge_target: Float[Tensor, ""]
+
+
+def pair_losses(predictions: Predictions, truth: SlotTruth, edge_kinds: tuple[float, ...]) -> PairLosses:
+    """Returns the per-pair losses, the kinds of edges weighted by `edge_kinds`."""
+    return PairLosses(
+        edge=edge_loss(predictions.edge.float(), truth, edge_kinds),
+        parent=parent_loss(predictions.parent.float(), predictions.parent_abstain.float(), truth),
+        hinge_target=hinge_target_loss(predictions.hinge_target.float(), predictions.hinge_abstain.float(), truth),
+    )
+
+
+def edge_loss(logits: Float[Tensor, "b s s k"], truth: SlotTruth, edge_kinds: tuple[float, ...]) -> Float[Tensor, ""]:
+    """Returns the cross-entropy of the kinds of edges over real pairs, a mean by the weight of the true kinds."""
+    weights = torch.tensor(edge_kinds, device=logits.device)[truth.edges] * truth.real_pairs
+    right = logits.log_softmax(dim=-1).gather(-1, truth.edges[..., None])[..., 0]
+    return weighted_mean(-right, weights)
+
+
+def parent_loss(scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth) -> Float[Tensor, ""]:
+    """Returns how badly handles choose their one door or drawer; one whose parent is no slot should abstain."""
+    movable = (truth.labels == DOOR) | (truth.labels == DRAWER)
+    right = truth.child & (truth.edges == ATTACHED)
+    return choice_loss(scores, abstain, truth.labels == HANDLE, movable[:, None, :] & truth.real_pairs, right)
+
+
+def hinge_target_loss(
+    scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth
+) -> Float[Tensor, ""]:
+    """Returns how badly doors choose what they hang on, among all that is neither door, drawer nor handle.
+
+    A door that truly hangs on several parts may choose any of them; one whose mount is no slot should abstain.
+    """
+    support = ~torch.isin(truth.labels, torch.tensor([DOOR, DRAWER, HANDLE], device=scores.device))
+    right = truth.child & (truth.edges == HINGE)
+    return choice_loss(scores, abstain, truth.labels == DOOR, support[:, None, :] & truth.real_pairs, right)
+
+
+def choice_loss(
+    scores: Float[Tensor, "b s s"],
+    abstain: Float[Tensor, ""],
+    chooses: Bool[Tensor, "b s"],
+    candidates: Bool[Tensor, "b s s"],
+    right: Bool[Tensor, "b s s"],
+) -> Float[Tensor, ""]:
+    """Returns minus the log of the share that right candidates, or else abstaining, have in the softmax over all.
+
+    It is the mean over the slots that choose.
+    """
+    graph, slot = chooses.nonzero(as_tuple=True)
+    scores, right = scores[graph, slot], right[graph, slot]
+    nowhere = torch.full_like(scores[:, :1], -torch.inf)
+    abstains = abstain.expand(nowhere.shape)
+    others = scores.masked_fill(~(candidates[graph, slot] | right), -torch.inf)
+    right_abstains = torch.where(right.any(dim=-1, keepdim=True), nowhere, abstains)
+    right_scores = torch.cat([scores.masked_fill(~right, -torch.inf), right_abstains], dim=-1)
+    all_scores = torch.cat([others, abstains], dim=-1)
+    return (all_scores.logsumexp(dim=-1) - right_scores.logsumexp(dim=-1)).sum() / max(len(slot), 1)
 
 
 @final

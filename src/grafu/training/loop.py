@@ -20,19 +20,15 @@ from grafu.errors import ExportError
 from grafu.export.whole_file import write_whole
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
-from grafu.training.batching import TrainingBatch
+from grafu.training.batching import TrainingBatch, stream_batches
 from grafu.training.checkpoint import Progress, has_progress, load_progress, require_own, save_best, save_progress
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
-from grafu.training.data import stream_batches
-from grafu.training.logbook import STEPS, VALIDATION, Logbook
-from grafu.training.meter import Meter
-from grafu.training.optimiser import Optimiser
-from grafu.training.schedule import rate_at
+from grafu.training.logbook import STEPS, VALIDATION, Logbook, Meter
+from grafu.training.optimiser import Optimiser, rate_at
 from grafu.training.source import Source
-from grafu.training.stopping import stop_requests
 from grafu.training.validation import validate, validation_batches, validation_source
-from grafu.training.workers import Workers
+from grafu.training.workers import Workers, stop_requests
 
 _MOST_LOST = 50  # steps in a row with a loss or gradient that is no number: the run is beyond help
 

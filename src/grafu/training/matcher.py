@@ -10,7 +10,7 @@ from scipy.optimize import linear_sum_assignment
 from torch import Tensor
 
 from grafu.graph.arrays import NONE, UNKNOWN
-from grafu.network.predictions import Predictions
+from grafu.network.batch import Predictions
 from grafu.training.loss_config import ClassCost, LossConfig
 from grafu.training.targets import TargetBatch
 

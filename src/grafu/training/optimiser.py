@@ -1,9 +1,10 @@
-"""How weights are moved: matrices inside the network by Muon or by Adam, all else by Adam.
+"""How weights are moved: matrices inside the network by Muon or by Adam, all else by Adam; and how large a step is.
 
 Muon makes every direction of a matrix's momentum count alike, scaled so that its steps are as large as Adam's: learning
-rate and decay mean the same for both.
+rate and decay mean the same for both. The learning rate rises, then falls to zero along a cosine.
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, final
 
@@ -11,6 +12,20 @@ import torch
 from torch import Tensor, nn
 
 from grafu.training.config import OptimiserConfig
+
+
+def rate_at(step: int, steps: int, warmup: int, period: int | None = None) -> float:
+    """Returns the share (0..1) of the highest learning rate for step 0, 1, ... of `steps`.
+
+    It rises evenly over the first `warmup` steps, so that Adam's first averages do no harm, and then falls along half a
+    cosine to zero at the end; or, with `period`, at that step, which the paper's training never reaches.
+    """
+    if step < warmup:
+        return (step + 1) / (warmup + 1)
+    last = steps if period is None else period
+    done = (step - warmup) / max(1, last - warmup)
+    return 0.5 * (1.0 + math.cos(math.pi * min(1.0, done)))
+
 
 _FEATURES = 32  # numbers: a narrower matrix reads terms or writes answers
 

@@ -8,7 +8,7 @@ from jaxtyping import Bool, Float32, Int64
 from torch import Tensor
 
 from grafu.graph.arrays import NONE, NULL, UNKNOWN
-from grafu.network.predictions import Predictions
+from grafu.network.batch import Predictions
 from grafu.training.matcher import anchored_nodes, anchored_slots
 from grafu.training.targets import TargetBatch
 

@@ -1,6 +1,8 @@
 """What the network is to answer about a graph, as arrays, and the padded batch of several. It knows no losses.
 
-Boxes stand in the frame of the INPUT graph's features, since that is where the network answers.
+Boxes stand in the frame of the INPUT graph's features, since that is where the network answers. Batches of ever new
+sizes would be slow: for each size of a product oneDNN builds code of its own, keeps a thousand of them, and litters the
+heap with those that it drops. With sizes in steps a few dozen are made once.
 """
 
 from collections.abc import Sequence
@@ -15,7 +17,23 @@ from torch import Tensor
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.training.padding import padded, stepped
+
+SLOT_STEP = 4  # graphs of a batch have so many nodes, or a multiple
+ROW_STEP = 64  # and their points as many rows
+
+
+def stepped(size: int, step: int) -> int:
+    """Returns the least multiple of `step` that is not below `size`."""
+    return -(-size // step) * step
+
+
+def padded(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: float | int | bool) -> Tensor:
+    """Returns the arrays, each filled up to `shape`, one behind another; there is at least one."""
+    stacked = np.full((len(arrays), *shape), fill, dtype=arrays[0].dtype)
+    for row, array in zip(stacked, arrays, strict=True):
+        row[tuple(slice(size) for size in array.shape)] = array
+    return torch.from_numpy(stacked)
+
 
 _PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending (official.md 3.2)
 

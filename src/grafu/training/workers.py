@@ -1,17 +1,55 @@
 """Several processes that train one network (torchrun), each on its own models: who is who, and what they agree on.
 
 Gradients are averaged here in one message, not by torch's wrapper for modules: that wrapper stumbles over a head that
-no graph of a batch needs (a batch without drawers). The same message says whether somebody was asked to stop.
+no graph of a batch needs (a batch without drawers). The same message says whether somebody was asked to stop: Ctrl-C
+and termination end a run after the step at hand, with everything saved.
 """
 
 import os
+import signal
+import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from types import FrameType
 from typing import final
 
 import torch
 from torch import Tensor, distributed, nn
+
+from grafu.processes.signals import END_REQUESTS
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+@final
+class StopRequest:
+    """Whether somebody asked. A second Ctrl-C interrupts at once."""
+
+    def __init__(self) -> None:
+        self.is_made = False
+
+    def hear(self, number: int, _: FrameType | None) -> None:
+        """Takes a signal, as its handler."""
+        if self.is_made and number == signal.SIGINT:
+            raise KeyboardInterrupt
+        self.is_made = True
+        END_REQUESTS.are_made |= number == signal.SIGTERM
+
+
+@contextmanager
+def stop_requests() -> Iterator[StopRequest]:
+    """Yields what says whether a signal came; outside of the main thread none can come."""
+    request = StopRequest()
+    if threading.current_thread() is not threading.main_thread():
+        yield request
+        return
+    before = {number: signal.signal(number, request.hear) for number in _SIGNALS}
+    try:
+        yield request
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @final

@@ -10,10 +10,9 @@ import torch
 from jaxtyping import Bool, Float
 from torch import Tensor, nn
 
-from grafu.network.attention import Attention
 from grafu.network.config import GraFuConfig
-from grafu.network.graph_layer import WIDENING
-from grafu.network.perceptron import perceptron
+from grafu.network.encoder import WIDENING
+from grafu.network.layers import Attention, perceptron
 
 
 @final

@@ -3,8 +3,7 @@
 import torch
 from torch import nn
 
-from grafu.network.attention import EdgeAttention, attention_shares
-from grafu.network.perceptron import PairLinear
+from grafu.network.layers import EdgeAttention, PairLinear, attention_shares
 
 
 def test_shares_add_up_to_one_over_what_is_no_padding() -> None:

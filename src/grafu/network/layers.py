@@ -1,11 +1,43 @@
-"""Attention of several heads, plain and with edges. Padding is never attended to; with nothing to attend, it is 0."""
+"""Layers that know nothing of furniture: linear stacks of nodes and of pairs, and attention, plain and with edges.
+
+Padding is never attended to; with nothing to attend, attention is 0.
+"""
 
 import math
+from itertools import pairwise
 from typing import final
 
 import torch
 from jaxtyping import Bool, Float
 from torch import Tensor, nn
+
+
+def perceptron(*widths: int) -> nn.Sequential:
+    """Returns linear layers from each width to the next, with a GELU between two."""
+    layers: list[nn.Module] = []
+    for into, out in pairwise(widths):
+        layers += [nn.Linear(into, out), nn.GELU()]
+    return nn.Sequential(*layers[:-1])
+
+
+@final
+class PairLinear(nn.Module):
+    """A linear layer over [i | j | terms of the pair], written as a sum of three.
+
+    It is the same function, but i and j are projected once each instead of once for every pair, and no pair holds a
+    copy of both: of 522 numbers into 256, for 22 nodes, a fifteenth of the multiplications.
+    """
+
+    def __init__(self, width: int, terms: int, out: int) -> None:
+        super().__init__()
+        self.of_first = nn.Linear(width, out)
+        self.of_second = nn.Linear(width, out, bias=False)
+        self.of_terms = nn.Linear(terms, out, bias=False)
+
+    def forward(self, nodes: Float[Tensor, "b n width"], terms: Float[Tensor, "b n n t"]) -> Float[Tensor, "b n n o"]:
+        """Returns the layer's output for all pairs (i, j)."""
+        return self.of_terms(terms) + self.of_first(nodes)[:, :, None] + self.of_second(nodes)[:, None, :]
+
 
 _UNSEEN = -1e4  # the score of padding: exp of it is 0 in every precision, and it is no infinity
 

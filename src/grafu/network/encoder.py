@@ -1,0 +1,264 @@
+"""The graph encoder: nodes and edges encoded, then layers over the fully connected graph (supplement, Graph Encoder).
+
+A node is its category, box and points side by side; an edge its kind and where its boxes stand. Nodes attend along
+edges, then edges are told by their nodes again.
+
+Points go through a lightweight PointNet++ of two stages over groups made beforehand. The first stage looks at each
+group, the second at all groups of a part. The authors' second stage groups once more; here it takes all groups at once:
+of so few there is little left to group, and a step is shorter by a tenth or two.
+"""
+
+from itertools import pairwise
+from typing import final
+
+import torch
+from jaxtyping import Bool, Float
+from torch import Tensor, nn
+
+from grafu.network.batch import GraphBatch
+from grafu.network.config import EDGE_COUNT, LABEL_COUNT, GraFuConfig, PairFeatures, PointsFrame
+from grafu.network.layers import EdgeAttention, PairLinear, perceptron
+
+EDGE_TERMS = 8
+FACE_TERMS = 12
+_FINE = 0.004  # of the object's size: face terms are linear below it and logarithmic above, 3 mm in a wardrobe
+_TINY = 1e-6  # of the object's size: two parts with one centre have no direction
+
+
+def edge_terms(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n n 8"]:
+    """Returns [|r|, |g|, r / |r|, g] of all pairs (supplement, Graph Encoder).
+
+    r runs from i's centre to j's, g holds the gaps of the boxes along the axes, 0 where they overlap.
+    """
+    r, g = _offsets(boxes), _gaps(boxes)
+    far, gap = _length(r), _length(g)
+    return torch.cat([far, gap, r / far.clamp(min=_TINY), g], dim=-1)
+
+
+def pair_term_count(features: PairFeatures) -> int:
+    """Returns how many numbers `pair_terms` gives for a pair."""
+    return {"faces": 10 + FACE_TERMS, "signed": 10, "unsigned": 7}[features]
+
+
+def pair_terms(boxes: Float[Tensor, "b s 6"], features: PairFeatures) -> Float[Tensor, "b s s t"]:
+    """Returns [|rx|, |ry|, |rz|, |r|, (r,) g] of all pairs, as the authors' pair heads have them (official.md 5).
+
+    With "faces", the face terms follow.
+    """
+    r, g = _offsets(boxes), _gaps(boxes)
+    terms = [r.abs(), _length(r), g] if features == "unsigned" else [r.abs(), _length(r), r, g]
+    return torch.cat([*terms, face_terms(boxes)] if features == "faces" else terms, dim=-1)
+
+
+def face_terms(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n n 12"]:
+    """Returns how far faces of j's box are from faces of i's, along each axis, on a logarithmic scale.
+
+    Low to low and high to high (0: flush), j's low to i's high (above 0: a gap), i's low to j's high; x, y, z of each.
+    A distance d, as a share of the object's size, is asinh(d / 0.004) / 5: 0.18 at 0.004, 1.24 at 1.
+    """
+    low, high = boxes[..., :3] - boxes[..., 3:], boxes[..., :3] + boxes[..., 3:]
+    distances = torch.cat(
+        [
+            low[:, None, :] - low[:, :, None],
+            high[:, None, :] - high[:, :, None],
+            low[:, None, :] - high[:, :, None],
+            low[:, :, None] - high[:, None, :],
+        ],
+        dim=-1,
+    )
+    return face_scale(distances)
+
+
+def face_scale(distances: Float[Tensor, "*p"]) -> Float[Tensor, "*p"]:
+    """Returns distances, as shares of the object's size, on the logarithmic scale of face terms."""
+    return torch.asinh(distances / _FINE) / 5.0
+
+
+def _offsets(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n n 3"]:
+    centres = boxes[..., :3]
+    return centres[:, None, :] - centres[:, :, None]
+
+
+def _gaps(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n n 3"]:
+    halves = boxes[..., 3:]
+    return (_offsets(boxes).abs() - halves[:, None, :] - halves[:, :, None]).clamp(min=0.0)
+
+
+def _length(vectors: Float[Tensor, "*p 3"]) -> Float[Tensor, "*p 1"]:
+    return vectors.square().sum(dim=-1, keepdim=True).sqrt()
+
+
+PART = 64  # width of the kind and of the geometric terms before they are joined (official.md 5)
+
+
+@final
+class EdgeEncoder(nn.Module):
+    """From each pair of nodes to the feature z_e."""
+
+    def __init__(self, width: int, features: PairFeatures) -> None:
+        super().__init__()
+        self.features = features
+        self.kind = nn.Embedding(EDGE_COUNT, PART)
+        self.terms = perceptron(EDGE_TERMS + (FACE_TERMS if features == "faces" else 0), PART, PART)
+        self.joined = nn.Linear(2 * PART, width)
+
+    def forward(self, batch: GraphBatch) -> Float[Tensor, "b n n e"]:
+        """Returns the features of all pairs, null edges included."""
+        boxes = [edge_terms(batch.boxes)] + ([face_terms(batch.boxes)] if self.features == "faces" else [])
+        terms = self.terms(torch.cat(boxes, dim=-1))
+        return self.joined(torch.cat([self.kind(batch.edges).to(terms.dtype), terms], dim=-1))
+
+
+FIRST_STAGE = (3, 32, 64)  # widths of the stages and of the head (official.md 5)
+SECOND_STAGE = (67, 64, 128)
+POINT_HEAD = 128
+
+
+@final
+class PointEncoder(nn.Module):
+    """From a part's grouped points to `width` numbers."""
+
+    def __init__(self, width: int, frame: PointsFrame) -> None:
+        super().__init__()
+        self.frame = frame
+        self.first = _stage(*FIRST_STAGE)
+        self.second = _stage(*SECOND_STAGE)
+        self.head = perceptron(SECOND_STAGE[-1], POINT_HEAD, width)
+
+    def forward(self, anchors: Float[Tensor, "u g 3"], groups: Float[Tensor, "u g k 3"]) -> Float[Tensor, "u width"]:
+        """Returns a latent of each part; the order of groups and of their points does not matter."""
+        centres = anchors - middles(anchors) if self.frame == "part" else anchors
+        of_groups = self.first(groups).amax(dim=2)
+        of_part = self.second(torch.cat([centres.to(of_groups.dtype), of_groups], dim=2)).amax(dim=1)
+        return self.head(of_part)
+
+
+def middles(anchors: Float[Tensor, "u g 3"]) -> Float[Tensor, "u 1 3"]:
+    """Returns the middle of each part's box of anchors."""
+    return (anchors.amax(dim=1, keepdim=True) + anchors.amin(dim=1, keepdim=True)) / 2
+
+
+def _stage(*widths: int) -> nn.Sequential:
+    layers: list[nn.Module] = []
+    for into, out in pairwise(widths):
+        layers += [nn.Linear(into, out), nn.LayerNorm(out), nn.ReLU()]
+    return nn.Sequential(*layers)
+
+
+BOX_NUMBERS = 9  # centroid and two corners
+MARGIN_NUMBERS = 9
+BOX_HIDDEN = 64  # official.md 5
+
+
+@final
+class NodeEncoder(nn.Module):
+    """From a part to the latent z_v."""
+
+    def __init__(self, config: GraFuConfig) -> None:
+        super().__init__()
+        self.category = nn.Embedding(LABEL_COUNT, config.category)  # a linear projection of the one-hot label
+        self.sees_margins = config.margins
+        numbers = BOX_NUMBERS + (MARGIN_NUMBERS if config.margins else 0)
+        self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
+        self.points = PointEncoder(config.points, config.points_frame)
+        self.hidden_share = config.geometry_dropout
+
+    @staticmethod
+    def width(config: GraFuConfig) -> int:
+        """Returns how many numbers a latent has: the paper's 224."""
+        return config.category + config.points + config.geometry
+
+    def forward(self, batch: GraphBatch) -> Float[Tensor, "b n z"]:
+        """Returns the latents; in training, some graphs' points are hidden."""
+        points = self.points(batch.anchors, batch.groups)[batch.point_index]
+        if self.training and self.hidden_share > 0:
+            points = points * (torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_share)
+        seen = [corners(batch.boxes)] + ([margins(batch.boxes, batch.mask)] if self.sees_margins else [])
+        box = self.box(torch.cat(seen, dim=-1))
+        return torch.cat([self.category(batch.labels), points, box], dim=-1)
+
+
+def corners(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n 9"]:
+    """Returns [centroid, low corner, high corner] of boxes given as centre and half size."""
+    centre, half = boxes[..., :3], boxes[..., 3:]
+    return torch.cat([centre, centre - half, centre + half], dim=-1)
+
+
+def margins(boxes: Float[Tensor, "b n 6"], mask: Bool[Tensor, "b n"]) -> Float[Tensor, "b n 9"]:
+    """Returns how far boxes are from the object's low and high faces, and how large they are, on the scale of faces.
+
+    `mask` marks the boxes of which the object consists.
+    """
+    centre, half = boxes[..., :3], boxes[..., 3:]
+    low, high = centre - half, centre + half
+    absent = ~mask[..., None]
+    nothing = torch.full_like(low.sum(dim=1, keepdim=True), torch.inf)  # so that a graph without nodes has ends too
+    bottom = torch.cat([low.masked_fill(absent, torch.inf), nothing], dim=1).amin(dim=1, keepdim=True)
+    top = torch.cat([high.masked_fill(absent, -torch.inf), -nothing], dim=1).amax(dim=1, keepdim=True)
+    found = face_scale(torch.cat([low - bottom, top - high, 2 * half], dim=-1))
+    return found.masked_fill(absent, 0.0)
+
+
+WIDENING = 4  # of the feed-forward block (official.md 5)
+EDGE_HIDDEN = 256
+
+
+@final
+class GraphLayer(nn.Module):
+    """A pre-norm transformer block over all pairs of nodes (supplement, figure Graph encoder architecture)."""
+
+    def __init__(self, config: GraFuConfig) -> None:
+        super().__init__()
+        hidden = config.hidden
+        self.before_attention = nn.LayerNorm(hidden)
+        self.attention = EdgeAttention(hidden, config.heads, config.edge)
+        self.before_forward = nn.LayerNorm(hidden)
+        self.feed_forward = perceptron(hidden, WIDENING * hidden, hidden)
+        self.dropout = nn.Dropout(config.dropout)
+
+    def forward(
+        self, nodes: Float[Tensor, "b n h"], edges: Float[Tensor, "b n n e"], mask: Bool[Tensor, "b n"]
+    ) -> Float[Tensor, "b n h"]:
+        """Returns the nodes, told by what they attended to."""
+        nodes = nodes + self.dropout(self.attention(self.before_attention(nodes), edges, mask))
+        return nodes + self.dropout(self.feed_forward(self.before_forward(nodes)))
+
+
+@final
+class EdgeUpdate(nn.Module):
+    """Encodes every edge anew from its two nodes and what it was."""
+
+    def __init__(self, config: GraFuConfig) -> None:
+        super().__init__()
+        self.joined = PairLinear(config.hidden, config.edge, EDGE_HIDDEN)
+        self.rest = nn.Sequential(nn.GELU(), nn.Linear(EDGE_HIDDEN, config.edge))
+        self.norm = nn.LayerNorm(config.edge)
+
+    def forward(self, nodes: Float[Tensor, "b n h"], edges: Float[Tensor, "b n n e"]) -> Float[Tensor, "b n n e"]:
+        """Returns the edges, told by their nodes."""
+        return self.norm(edges + self.rest(self.joined(nodes, edges)))
+
+
+@final
+class GraphEncoder(nn.Module):
+    """From a graph to what each node, and each edge, knows of the whole."""
+
+    def __init__(self, config: GraFuConfig) -> None:
+        super().__init__()
+        self.nodes = NodeEncoder(config)
+        self.into_hidden = nn.Linear(NodeEncoder.width(config), config.hidden)
+        self.edges = EdgeEncoder(config.edge, config.pair_features)
+        self.layers = nn.ModuleList([GraphLayer(config) for _ in range(config.encoder_layers)])
+        # Nothing would read what the last layer makes of the edges, if the pair heads do not
+        updates = config.encoder_layers if config.pair_edges else config.encoder_layers - 1
+        self.updates = nn.ModuleList([EdgeUpdate(config) for _ in range(updates)])
+        self.norm = nn.LayerNorm(config.hidden)
+
+    def forward(self, batch: GraphBatch) -> tuple[Float[Tensor, "b n h"], Float[Tensor, "b n n e"]]:
+        """Returns the encoded nodes and edges."""
+        nodes, edges = self.into_hidden(self.nodes(batch)), self.edges(batch)
+        for number, layer in enumerate(self.layers):
+            nodes = layer(nodes, edges, batch.mask)
+            if number < len(self.updates):
+                edges = self.updates[number](nodes, edges)
+        return self.norm(nodes), edges
