@@ -15,7 +15,7 @@ _handle = None
 
 def strokes(context) -> list:
     """Returns what is drawn: colour, width in pixels, and the ends of its lines in the world, for each joint."""
-    from grafu.export.blend.marked import marks_of
+    from grafu.export.blend.marks import marks_of
 
     found, shown = [], session_of(context)
     for session in slots_in(context.scene):

@@ -24,7 +24,7 @@ import numpy as np
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.evaluation.dataset import ModelRef, find_models, load_model
-from grafu.evaluation.masking import masked
+from grafu.evaluation.methods import masked
 from grafu.evaluation.moving_parts import MovingPart, counted_parts
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph

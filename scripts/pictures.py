@@ -14,10 +14,10 @@ from PIL import Image
 
 from grafu.asset.edit import as_static_object
 from grafu.asset.load import load_asset
-from grafu.export.exposure import PictureStyle
-from grafu.export.picture import Picture, before_after, encode_png, posed_visuals
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.render.exposure import PictureStyle
+from grafu.render.picture import Picture, before_after, encode_png, posed_visuals
 from grafu.templates.gallery import builtin_gallery
 
 ROOT = Path(__file__).parent.parent

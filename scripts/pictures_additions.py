@@ -12,8 +12,6 @@ import numpy as np
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset, Part, PartSource
-from grafu.export.camera import Camera, three_quarter_view
-from grafu.export.picture import Picture, box_of, contact_sheet, opened_values, posed_visuals, render
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
@@ -25,6 +23,8 @@ from grafu.realization.grip.config import GripConfig, GripKind
 from grafu.realization.handle.config import HandleConfig
 from grafu.realization.interior.request import parse_interior
 from grafu.realization.top.config import TopConfig, TopShape
+from grafu.render.camera import Camera, three_quarter_view
+from grafu.render.picture import Picture, box_of, contact_sheet, opened_values, posed_visuals, render
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_cabinet, make_inner_corner
 from grafu.synth.case.case import Case

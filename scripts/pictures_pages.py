@@ -9,10 +9,10 @@ import numpy as np
 from PIL import Image
 
 from grafu.asset.load import load_asset
-from grafu.export.picture import Picture
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
+from grafu.render.picture import Picture
 from grafu.templates.gallery import builtin_gallery
 from grafu.viewer.model_page import model_page
 from grafu.viewer.pictures import take_stills

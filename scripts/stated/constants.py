@@ -15,7 +15,7 @@ from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.data.corruption.config import PAPER as CORRUPTION
 from grafu.data.furfun import folder
 from grafu.data.shards_arrays import STEPS
-from grafu.evaluation import bootstrap, distribution, masking, measures, moving_parts, plausible, twins
+from grafu.evaluation import bootstrap, distribution, measures, methods, moving_parts, plausible, twins
 from grafu.metrics.collision import TOLERANT
 from grafu.metrics.connectivity import ConnectivityConfig
 from grafu.network.config import GraFuConfig
@@ -85,7 +85,7 @@ def evaluation() -> Iterator[Sentence]:
     yield page, "lie within {} of the other's surface", (twins.ON,)
     yield page, "what stands still are within {}", (plausible.NEAR,)
     yield page, "opens to {:g} % of the reference", (per_cent(plausible.OPENS),)
-    yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, masking.LEVELS))
+    yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, methods.LEVELS))
     yield page, "less the mean of {} made models of seed {}", (distribution.TRAINING_COUNT, distribution.TRAINING_SEED)
     yield "metrics.md", "the body cuts deeper than {} of the largest side", (TOLERANT.tolerance,)
     yield "metrics.md", "compares it with {} of the largest side", (ConnectivityConfig().tolerance,)

@@ -54,14 +54,14 @@ def test_a_missing_template_folder_is_one_line(tmp_path: Path, capsys: pytest.Ca
 
 def test_templates_keeps_a_folder_that_is_not_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "diary.txt").write_text("mine")
-    monkeypatch.setattr("grafu.export.gallery.gallery_sheet", blank_sheet)
+    monkeypatch.setattr("grafu.render.gallery.gallery_sheet", blank_sheet)
 
     assert main(["templates", "--out", str(tmp_path), "--overwrite"]) == 2
     assert [p.name for p in tmp_path.iterdir()] == ["diary.txt"]
 
 
 def test_templates_writes_one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("grafu.export.gallery.gallery_sheet", blank_sheet)
+    monkeypatch.setattr("grafu.render.gallery.gallery_sheet", blank_sheet)
 
     assert main(["templates", "--out", str(tmp_path / "gallery")]) == 0
     names = {p.name for p in (tmp_path / "gallery").iterdir()}

@@ -3,8 +3,7 @@
 import pytest
 from measured_cabinets import cabinet
 
-from grafu.evaluation.distribution import Distribution
-from grafu.evaluation.graph_features import FEATURE_NAMES, graph_features
+from grafu.evaluation.distribution import FEATURE_NAMES, Distribution, graph_features
 from grafu.graph.parse import parse_graph
 
 

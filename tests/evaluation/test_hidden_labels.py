@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from measured_cabinets import cabinet
 
-from grafu.evaluation.masking import LEVELS, mask_order, masked
+from grafu.evaluation.methods import LEVELS, mask_order, masked
 from grafu.vocabulary import PartLabel
 
 

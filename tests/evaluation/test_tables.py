@@ -11,8 +11,8 @@ import pytest
 
 from grafu.evaluation.bootstrap import Figure
 from grafu.evaluation.dataset import ModelRef
+from grafu.evaluation.distribution import FEATURE_NAMES
 from grafu.evaluation.figures import over_objects, over_parts
-from grafu.evaluation.graph_features import FEATURE_NAMES
 from grafu.evaluation.masking_table import masking_table
 from grafu.evaluation.methods import Method
 from grafu.evaluation.models_table import models_table
@@ -35,8 +35,7 @@ from grafu.evaluation.records import (
 )
 from grafu.evaluation.results import Results, collect
 from grafu.evaluation.static_table import static_table
-from grafu.evaluation.table import Column, Table
-from grafu.evaluation.table_forms import FORMS, csv_text, json_text, latex, markdown
+from grafu.evaluation.table import FORMS, Column, Table, csv_text, json_text, latex, markdown
 from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, Task, TwinTask, key_of
 from grafu.vocabulary import JointType, PartLabel
 

@@ -4,9 +4,9 @@ import tracemalloc
 
 import numpy as np
 
-from grafu.export.graph_layout import node_places
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.render.graph_picture import node_places
 from grafu.vocabulary import PartLabel
 
 

@@ -1,8 +1,8 @@
 import pytest
 
 from grafu.errors import TemplateError
+from grafu.render.gallery import as_articulated, models_of, natural_template, shown_template
 from grafu.templates.gallery import builtin_gallery
-from grafu.templates.sheet import as_articulated, models_of, natural_template, shown_template
 from grafu.vocabulary import JointType, MechanismClass
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from sklearn.ensemble import HistGradientBoostingClassifier
 
 from grafu.asset.load import load_asset
-from grafu.data.statistics_fronts import Front, doors_of
+from grafu.evaluation.statistics_fronts import Front, doors_of
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph

@@ -6,8 +6,7 @@ from page_reader import PageReader
 
 from grafu.pipeline.report_schema import SkippedRecord
 from grafu.realization.report import SkipReason
-from grafu.viewer.histogram import binned
-from grafu.viewer.run_page import run_page
+from grafu.viewer.run_page import binned, run_page
 from grafu.viewer.run_rows import RunEntry, functionalized_run
 from grafu.viewer.run_table import Column, Figure, Run, RunRow, RunTable
 

@@ -13,9 +13,9 @@ from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
 from grafu.errors import ExportError, OptionError
-from grafu.export.apart import why_not_apart
 from grafu.export.files import write_files
 from grafu.export.formats import exporter_for
+from grafu.export.output_names import why_not_apart
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.pipeline.addition_choice import GRIPS
 from grafu.pipeline.addition_config import HandleChoice

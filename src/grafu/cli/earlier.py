@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from grafu.errors import ExportError
 from grafu.export.files import require_free
 from grafu.export.marker import Marker, read_marker
-from grafu.export.remains import is_hidden_name
+from grafu.export.whole_file import is_hidden_name
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings, settings_from_json
 

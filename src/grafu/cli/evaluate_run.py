@@ -21,11 +21,9 @@ from grafu.evaluation.methods import parse_method
 from grafu.evaluation.output import build_tables, output_files
 from grafu.evaluation.perform import failed, perform
 from grafu.evaluation.plan import EvaluationPlan
-from grafu.evaluation.records import Row
+from grafu.evaluation.records import NAME, Row, append_rows, begin_rows, done
 from grafu.evaluation.results import Results, collect
-from grafu.evaluation.rows import NAME, append_rows, begin_rows, done
-from grafu.evaluation.table import Table
-from grafu.evaluation.table_forms import shown
+from grafu.evaluation.table import Table, shown
 from grafu.evaluation.tasks import Task, key_of
 from grafu.export.files import ExportFiles, require_free, write_files
 from grafu.export.whole_file import write_whole

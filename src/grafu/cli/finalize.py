@@ -13,10 +13,9 @@ from pathlib import Path
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
 from grafu.cli.messages import one_line
 from grafu.errors import FunctionalizationError
-from grafu.export.apart import why_not_apart
 from grafu.export.blend.transport import packed
 from grafu.export.formats import exporter_for
-from grafu.export.output_names import output_name
+from grafu.export.output_names import output_name, why_not_apart
 from grafu.pipeline.motion_source import MotionChoice
 from grafu.pipeline.settings import settings_from_json
 from grafu.visible import visible

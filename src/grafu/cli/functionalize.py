@@ -118,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
     from grafu.cli.job_list import jobs_of
     from grafu.cli.run_page import write_index
     from grafu.cli.summary import print_place, print_results
-    from grafu.export.remains import clear_remains
+    from grafu.export.whole_file import clear_remains
 
     inputs = _distinct(options.inputs)
     jobs, refused = jobs_of(inputs, _job_options(options, alone=len(inputs) == 1))
@@ -187,7 +187,7 @@ def _run_alone(job: "Job") -> "JobResult":
 def _run_several(jobs: "list[Job]", options: argparse.Namespace) -> "list[JobResult]":
     from grafu.cli.pool import run_jobs
     from grafu.cli.progress import with_progress
-    from grafu.export.remains import clear_remains
+    from grafu.export.whole_file import clear_remains
 
     workers = options.jobs or os.cpu_count() or 1
     results: list[JobResult] = []

@@ -7,8 +7,7 @@ from pathlib import Path
 from grafu.cli.job import Failed, Job, JobOptions
 from grafu.cli.messages import one_line
 from grafu.errors import AssetError
-from grafu.export.apart import why_not_apart
-from grafu.export.output_names import output_name, same_place
+from grafu.export.output_names import output_name, same_place, why_not_apart
 
 
 def jobs_of(inputs: Sequence[Path], shared: JobOptions) -> tuple[list[Job], list[Failed]]:

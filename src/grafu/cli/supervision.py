@@ -40,6 +40,6 @@ def _tidy(options: argparse.Namespace) -> None:
         sys.stderr.write(_CLEAR_LINE)
     out: Path | None = getattr(options, "out", None)
     if out is not None:
-        from grafu.export.remains import clear_remains
+        from grafu.export.whole_file import clear_remains
 
         clear_remains(out)

@@ -10,9 +10,9 @@ from grafu.cli.messages import say
 from grafu.cli.progress import with_progress
 from grafu.cli.tables import plain_table, wide_console
 from grafu.data.gallery import gallery_page
-from grafu.data.statistics import Comparison, compare, number_text
 from grafu.data.stream import stream_specimens
 from grafu.errors import ExportError, UnreadableAsset
+from grafu.evaluation.statistics import Comparison, compare, number_text
 from grafu.export.files import write_files
 from grafu.synth.specimen import Specimen
 

@@ -49,8 +49,7 @@ def run(options: argparse.Namespace) -> int:
     if options.out is not None:
         from grafu.cli.messages import say
         from grafu.export.files import ExportFiles, write_files
-        from grafu.export.gallery import gallery_files
-        from grafu.export.handle_gallery import handle_files
+        from grafu.render.gallery import gallery_files, handle_files
 
         contents = {**gallery_files(gallery).contents, **handle_files(list(handles.values())).contents}
         write_files(ExportFiles(contents), options.out, options.overwrite)

@@ -12,10 +12,10 @@ import numpy as np
 
 from grafu.articulation.sweep import all_open
 from grafu.asset.edit import as_static_object
-from grafu.export.camera import three_quarter_view
-from grafu.export.exposure import PictureStyle
 from grafu.export.files import ExportFiles
-from grafu.export.graph_picture import (
+from grafu.render.camera import three_quarter_view
+from grafu.render.exposure import PictureStyle
+from grafu.render.graph_picture import (
     EDGE_COLORS,
     SHORT_LABELS,
     GraphDrawing,
@@ -24,7 +24,7 @@ from grafu.export.graph_picture import (
     drawing_picture,
     drawing_svg,
 )
-from grafu.export.picture import Picture, box_of, contact_sheet, encode_jpeg, encode_png, posed_visuals, render
+from grafu.render.picture import Picture, box_of, contact_sheet, encode_jpeg, encode_png, posed_visuals, render
 from grafu.synth.specimen import Specimen
 from grafu.synth.truth.articulated import articulated_of
 

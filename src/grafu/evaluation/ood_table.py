@@ -3,9 +3,8 @@
 import numpy as np
 from scipy.stats import spearmanr
 
-from grafu.evaluation.distribution import TRAINING_SEED, Distribution
+from grafu.evaluation.distribution import FEATURE_NAMES, TRAINING_SEED, Distribution
 from grafu.evaluation.figures import by_object
-from grafu.evaluation.graph_features import FEATURE_NAMES
 from grafu.evaluation.results import Results
 from grafu.evaluation.table import Cell, Column, Table
 

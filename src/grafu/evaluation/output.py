@@ -15,8 +15,7 @@ from grafu.evaluation.ood_table import ood_table
 from grafu.evaluation.plan import EvaluationPlan
 from grafu.evaluation.results import Results
 from grafu.evaluation.static_table import static_table
-from grafu.evaluation.table import Table
-from grafu.evaluation.table_forms import FORMS, markdown
+from grafu.evaluation.table import FORMS, Table, markdown
 from grafu.version import __version__
 
 _BUILDERS: Final[dict[str, Callable[[Results], Table]]] = {

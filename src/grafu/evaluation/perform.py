@@ -7,7 +7,7 @@ from grafu.asset.part import Asset
 from grafu.errors import FunctionalizationError
 from grafu.evaluation.completeness import completeness_of
 from grafu.evaluation.dataset import ModelRef, category_of, load_model
-from grafu.evaluation.graph_features import graph_features
+from grafu.evaluation.distribution import graph_features
 from grafu.evaluation.measures import PartMeasure, measure_parts
 from grafu.evaluation.methods import made_by, made_with_labels_hidden
 from grafu.evaluation.moving_parts import MovingPart, counted_parts

@@ -7,8 +7,7 @@ from typing import Final, final
 from grafu.errors import OptionError
 from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.distribution import TRAINING_COUNT, TRAINING_SEED
-from grafu.evaluation.masking import LEVELS
-from grafu.evaluation.methods import Method
+from grafu.evaluation.methods import LEVELS, Method
 from grafu.evaluation.records import ModelFacts, Row
 from grafu.evaluation.tasks import MadeTask, MethodTask, ModelTask, Task, TwinTask, key_of, mask_tasks
 from grafu.evaluation.twins import alike_pairs

@@ -13,11 +13,11 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Asset
 from grafu.evaluation.measures import OPENS, joints_by_part
 from grafu.evaluation.moving_parts import MovingPart, usual_opening
-from grafu.evaluation.surface_distance import distances_up_to
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.point_distance import distances_up_to
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import transform_points
 from grafu.metrics.collision import TOLERANT

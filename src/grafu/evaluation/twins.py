@@ -14,9 +14,9 @@ import numpy as np
 from grafu.asset.edit import centred, scaled, yawed
 from grafu.asset.part import Asset
 from grafu.evaluation.moving_parts import MovingPart, counted_parts
-from grafu.evaluation.surface_distance import distances_up_to
 from grafu.geometry.arrays import Points
 from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.point_distance import distances_up_to
 from grafu.geometry.sampling import sample_surfaces
 from grafu.metrics.motion import Motion
 

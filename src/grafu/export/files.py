@@ -18,8 +18,7 @@ from grafu.asset.own_results import MARKER
 from grafu.errors import ExportError
 from grafu.export.marker import Marker, read_marker
 from grafu.export.output_names import same_place
-from grafu.export.remains import hidden_name
-from grafu.export.whole_file import whole_file
+from grafu.export.whole_file import hidden_name, whole_file
 
 
 @final

@@ -17,9 +17,7 @@ from grafu.articulation.link_frames import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
-from grafu.export.gltf_buffer import GltfBuffer
-from grafu.export.gltf_material import GltfMaterials
-from grafu.export.gltf_mesh import mesh_of, to_y_up
+from grafu.export.gltf_mesh import GltfBuffer, GltfMaterials, mesh_of, to_y_up
 from grafu.export.names import NameBook
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Vec3

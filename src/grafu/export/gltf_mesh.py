@@ -1,15 +1,144 @@
-"""Visuals as glTF meshes: one mesh each, one primitive per surface. It knows no links and no joints."""
+"""Visuals as glTF tables: meshes, materials, images, and the binary half of the file. It knows no links and no joints.
 
-from typing import Any
+A visual is one mesh with one primitive per surface; each material and each image is written once. Arrays become
+accessors over one aligned buffer.
+"""
+
+from typing import Any, final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual
-from grafu.export.gltf_buffer import VERTEX_DATA, GltfBuffer
-from grafu.export.gltf_material import GltfMaterials
 from grafu.export.shading import corner_normals
-from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Points, Vec3
+from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.arrays import Points, Vec3, extremes
+
+_COMPONENT = {"uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
+_TYPE = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+
+VERTEX_DATA = 34962
+INDEX_DATA = 34963
+
+
+@final
+class GltfBuffer:
+    """Collects arrays and encoded images; every one starts at a multiple of four bytes."""
+
+    def __init__(self) -> None:
+        self.accessors: list[dict[str, Any]] = []
+        self.views: list[dict[str, Any]] = []
+        self._chunks: list[bytes] = []
+        self._length = 0
+
+    def add_bytes(self, data: bytes, target: int | None = None) -> int:
+        """Appends raw bytes as a new buffer view and returns its index."""
+        view = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
+        self.views.append(view if target is None else {**view, "target": target})
+        padded = data + b"\0" * (-len(data) % 4)
+        self._chunks.append(padded)
+        self._length += len(padded)
+        return len(self.views) - 1
+
+    def add_array(self, array: np.ndarray, target: int | None = None, bounds: bool = False) -> int:
+        """Appends an array of scalars or rows of up to 4 and returns the index of its accessor.
+
+        `bounds` adds the least and largest value of each column, which positions and key times must have. Bytes are
+        colours, read as 0..1.
+        """
+        rows = array.reshape(len(array), -1)
+        accessor: dict[str, Any] = {
+            "bufferView": self.add_bytes(np.ascontiguousarray(array).tobytes(), target),
+            "componentType": _COMPONENT[str(array.dtype)],
+            "count": len(array),
+            "type": _TYPE[rows.shape[1]],
+        }
+        if array.dtype == np.uint8:
+            accessor["normalized"] = True
+        if bounds:
+            low, high = extremes(rows)
+            accessor |= {"min": low.tolist(), "max": high.tolist()}
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def add_indices(self, indices: np.ndarray) -> int:
+        """Appends vertex indices as 16-bit numbers where these suffice (65535 is reserved), else 32-bit ones."""
+        narrow = not len(indices) or int(indices.max()) < 65535
+        return self.add_array(indices.astype(np.uint16 if narrow else np.uint32), INDEX_DATA)
+
+    def to_bytes(self) -> bytes:
+        """Returns the whole buffer."""
+        return b"".join(self._chunks)
+
+
+_REPEATING = {"wrapS": 10497, "wrapT": 10497}
+
+
+@final
+class GltfMaterials:
+    """Gives every distinct material an index; images go into the buffer byte for byte."""
+
+    def __init__(self, buffer: GltfBuffer) -> None:
+        self.materials: list[dict[str, Any]] = []
+        self.images: list[dict[str, Any]] = []
+        self._buffer = buffer
+        self._material_index: dict[tuple[Material, bool], int] = {}
+        self._image_index: dict[tuple[bytes, str], int] = {}
+
+    @property
+    def tables(self) -> dict[str, list[dict[str, Any]]]:
+        """The glTF tables that are not empty."""
+        textures = [{"source": k, "sampler": 0} for k in range(len(self.images))]
+        samplers: list[dict[str, Any]] = [dict(_REPEATING)] if textures else []
+        tables = {"materials": self.materials, "textures": textures, "samplers": samplers, "images": self.images}
+        return {name: table for name, table in tables.items() if table}
+
+    def index_of(self, material: Material, textured: bool) -> int:
+        """Returns the index of a material; without texture coordinates (`textured` false) it has no textures."""
+        key = (material, textured)
+        if key not in self._material_index:
+            self._material_index[key] = len(self.materials)
+            self.materials.append(self._described(material, textured))
+        return self._material_index[key]
+
+    def _described(self, material: Material, textured: bool) -> dict[str, Any]:
+        def slot(texture: Texture | None) -> dict[str, int] | None:
+            return {"index": self._image(texture)} if textured and texture is not None else None
+
+        metallic_roughness = {
+            "baseColorFactor": [_share(c) for c in material.base_color],
+            "metallicFactor": _share(material.metallic),
+            "roughnessFactor": _share(material.roughness),
+            "baseColorTexture": slot(material.base_color_texture),
+            "metallicRoughnessTexture": slot(material.metallic_roughness_texture),
+        }
+        described = {
+            "name": material.name,
+            "pbrMetallicRoughness": _given(metallic_roughness),
+            "normalTexture": slot(material.normal_texture),
+            "occlusionTexture": slot(material.occlusion_texture),
+            "emissiveTexture": slot(material.emissive_texture),
+            "emissiveFactor": [_share(c) for c in material.emissive] if any(material.emissive) else None,
+            "alphaMode": material.alpha_mode if material.alpha_mode != "OPAQUE" else None,
+            "alphaCutoff": max(float(material.alpha_cutoff), 0.0) if material.alpha_mode == "MASK" else None,
+            "doubleSided": True if material.double_sided else None,
+        }
+        return _given(described)
+
+    def _image(self, texture: Texture) -> int:
+        key = (texture.data, texture.mime)
+        if key not in self._image_index:
+            self._image_index[key] = len(self.images)
+            view = self._buffer.add_bytes(texture.data)
+            self.images.append({"name": texture.name, "mimeType": texture.mime, "bufferView": view})
+        return self._image_index[key]
+
+
+def _share(value: float) -> float:
+    return min(max(float(value), 0.0), 1.0)
+
+
+def _given(table: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in table.items() if value is not None}
 
 
 def to_y_up(vectors: Points) -> Points:

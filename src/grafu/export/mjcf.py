@@ -16,12 +16,10 @@ from grafu.articulation.mass import MassProperties
 from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.export.files import ExportFiles
-from grafu.export.mjcf_looks import MjcfLooks
-from grafu.export.mjcf_meshes import drawn_meshes
-from grafu.export.names import NameBook, printable
-from grafu.export.obj_set import MESHES, collision_name, obj_set
+from grafu.export.mjcf_looks import MjcfLooks, drawn_meshes
+from grafu.export.names import NameBook, number, numbers, printable
+from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.export.xml_numbers import number, numbers
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.vocabulary import JointType, PartLabel

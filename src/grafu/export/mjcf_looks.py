@@ -1,20 +1,25 @@
-"""Materials and images as MuJoCo takes them: one colour or one PNG image each. It knows no meshes.
+"""Visuals, materials and images as MuJoCo takes them: meshes of one look each, at least four corners, some area.
 
-Metallic-roughness, normal, occlusion and emissive images are left out: MuJoCo's own renderer has no use for them.
+A visual of one look is the OBJ file that a URDF names too; others are divided by look into files of their own. A look
+is one colour or one PNG image; metallic-roughness, normal, occlusion and emissive images are left out: MuJoCo's own
+renderer has no use for them. It knows no links.
 """
 
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import final
 
 import numpy as np
 from PIL import Image
 
-from grafu.export.names import NameBook, printable
+from grafu.articulation.articulated_object import Visual
+from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import ObjFolder
-from grafu.export.xml_numbers import number, numbers
 from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.arrays import Vec3
+from grafu.geometry.mesh import TriangleMesh
 
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 
@@ -107,3 +112,74 @@ def _display(linear: float) -> float:
     """Returns a linear share of light as screens take it (sRGB): MuJoCo shows its colours as they are."""
     x = min(max(linear, 0.0), 1.0)
     return round(12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055, 6)
+
+
+_FEWEST_CORNERS = 4
+_LEAST_AREA = 1e-10  # square metres: a hundredth of a millimetre each way, which nobody sees and no solver needs
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class DrawnMesh:
+    """A mesh of one look: its OBJ file in the folder, and the look."""
+
+    file: str
+    look: Look
+
+
+def drawn_meshes(visual: Visual, shared: str, origin: Vec3, folder: ObjFolder) -> Iterator[DrawnMesh]:
+    """Yields the meshes of a visual relative to `origin` (metres); `shared` is the OBJ file of the whole of it.
+
+    What has no area is left out. Files are added to the folder where the whole will not do.
+    """
+    groups: dict[Look, list[Surface]] = {}
+    for surface in visual.surfaces:
+        if not surface.is_empty:
+            groups.setdefault(look_of(surface), []).append(surface)
+    uniform = len(groups) == 1 and len({s.uv is None for s in visual.surfaces if not s.is_empty}) == 1
+    for look, surfaces in groups.items():
+        if sum(surface.mesh.area for surface in surfaces) < _LEAST_AREA:
+            continue
+        if uniform and _corners(surfaces) >= _FEWEST_CORNERS:
+            yield DrawnMesh(shared, look)
+        else:
+            drawn = tuple(_plain(surface, look) for surface in surfaces)
+            yield DrawnMesh(folder.add_visual(replace(visual, surfaces=_divided(drawn)), origin), look)
+
+
+def _corners(surfaces: list[Surface] | tuple[Surface, ...]) -> int:
+    return len(np.unique(np.vstack([s.mesh.vertices[np.unique(s.mesh.faces)] for s in surfaces]), axis=0))
+
+
+def _plain(surface: Surface, look: Look) -> Surface:
+    """Returns a surface that has coordinates in the image only where the look has one: a file has them all or none."""
+    return surface if look.textured else replace(surface, uv=None)
+
+
+def _divided(surfaces: tuple[Surface, ...]) -> tuple[Surface, ...]:
+    """Returns the same surfaces; where they have too few corners, the first face gets one more in its middle."""
+    if _corners(surfaces) >= _FEWEST_CORNERS:
+        return surfaces
+    largest = max(range(len(surfaces)), key=lambda k: surfaces[k].mesh.area)
+    return (*surfaces[:largest], _with_middle(surfaces[largest]), *surfaces[largest + 1 :])
+
+
+def _with_middle(surface: Surface) -> Surface:
+    """Returns a surface whose largest face is divided into three around its middle."""
+    mesh, face = surface.mesh, int(np.argmax(surface.mesh.face_areas))
+    a, b, c = (int(corner) for corner in mesh.faces[face])
+    new = len(mesh.vertices)
+    fan = [[a, b, new], [b, c, new], [c, a, new]]
+    faces = np.vstack([np.delete(mesh.faces, face, axis=0), fan])
+
+    def extended(values: np.ndarray) -> np.ndarray:
+        return np.vstack([values, values[[a, b, c]].mean(axis=0)]).astype(values.dtype)
+
+    return Surface(
+        TriangleMesh(extended(mesh.vertices), faces),
+        surface.material,
+        None if surface.uv is None else extended(surface.uv),
+        None if surface.normals is None else extended(surface.normals),
+        None if surface.colors is None else extended(surface.colors),
+        surface.name,
+    )

@@ -1,7 +1,21 @@
-"""Names that are unique and safe in files and formats. It knows nothing of what they name."""
+"""Names that are unique and safe in files and formats, and numbers as XML attributes hold them.
+
+Numbers are short, without minus zero or rounding noise. It knows nothing of what they name.
+"""
 
 import re
+from collections.abc import Iterable
 from typing import final
+
+
+def number(value: float) -> str:
+    """Returns a number in ten digits; what is smaller than 1e-12 is zero."""
+    return f"{value if abs(value) > 1e-12 else 0.0:.10g}"
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Returns numbers apart by spaces."""
+    return " ".join(number(float(value)) for value in values)
 
 
 @final

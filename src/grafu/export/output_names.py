@@ -2,19 +2,55 @@
 
 A name that Windows cannot hold is refused on every system: results are passed on. One that is longer than most tools
 and disks bear, or no Unicode, is mended, and ends in `~` and eight digits of its digest: two such names stay apart.
+Results and inputs stay apart, too: a folder that is replaced as a whole never is an input, and never holds one.
 """
 
 import os
 import re
 import unicodedata
+from collections.abc import Iterable
 from hashlib import blake2b
 from pathlib import Path
 from typing import Final
 
 from grafu.asset.own_results import MARKER
 from grafu.errors import AssetError
-from grafu.export.remains import is_hidden_name
+from grafu.export.whole_file import is_hidden_name
 from grafu.visible import visible
+
+
+def why_not_apart(result: Path, inputs: Iterable[Path]) -> str:
+    """Returns why results cannot go to a folder, in a line; empty where it neither is nor holds one of the inputs.
+
+    Places are compared as the disk knows them: links, the case of letters and other ways to the same place count.
+    A result inside an input's folder is fine: readers pass it over.
+    """
+    for given in inputs:
+        if _is_same(result, given):
+            return f"the results would go to `{result}`, and so replace the input `{given}`: choose another --out"
+        if holds(result, given):
+            return f"the results would go to `{result}`, which holds the input `{given}`: choose another --out"
+    return ""
+
+
+def holds(folder: Path, path: Path) -> bool:
+    """Whether a path, by its name or by what it leads to, is the folder or lies in it."""
+    return any(_is_same(folder, place) for place in _places(path))
+
+
+def _places(path: Path) -> Iterable[Path]:
+    """Yields the path and what is above it: as it is written, and with every link followed."""
+    written = Path(os.path.abspath(path))
+    for start in (written, Path(os.path.realpath(written.parent)) / written.name, Path(os.path.realpath(path))):
+        yield from (start, *start.parents)
+
+
+def _is_same(first: Path, second: Path) -> bool:
+    try:
+        return os.path.samefile(first, second)
+    except OSError:  # what is not there is nothing, and holds nothing
+        return False
+
 
 MOST_BYTES: Final = 120
 """Of a name in UTF-8; beside it a folder has room for what is written at the same time (255 on most disks)."""

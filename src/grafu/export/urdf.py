@@ -17,10 +17,9 @@ from grafu.articulation.dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.export.files import ExportFiles
-from grafu.export.names import printable
-from grafu.export.obj_set import MESHES, collision_name, obj_set
+from grafu.export.names import number, numbers, printable
+from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.export.xml_numbers import number, numbers
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.vocabulary import JointType

@@ -1,9 +1,14 @@
-"""Distances of points from loose triangles, all at once. It builds no tree: for tens of points, hundreds of faces."""
+"""Distances of points from loose triangles, all at once, and from a surface where it is near. It builds no tree.
+
+It is for tens of points and hundreds of faces: most questions concern a small region.
+"""
 
 import numpy as np
 from jaxtyping import Float
 
-from grafu.geometry.arrays import Points
+from grafu.geometry.arrays import Points, Scalars
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 
 Triangles = Float[np.ndarray, "m 3 3"]
 Distances = Float[np.ndarray, "n m"]
@@ -38,3 +43,21 @@ def _segment(squared: Distances, along: Distances, length: np.ndarray) -> Distan
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.asarray(np.einsum("...k,...k->...", a, b))
+
+
+_MOST_PAIRS = 500_000  # of a point and a triangle at once: some tens of megabytes
+
+
+def distances_up_to(points: Points, mesh: TriangleMesh, near: float) -> Scalars:
+    """Returns the distance in metres of each point from a mesh; farther than `near`, infinity may stand for it."""
+    if not len(points):
+        return np.zeros(0)
+    around = Box.around(points).grown(near)
+    corners = mesh.triangles
+    keep = np.all((corners.min(axis=1) <= around.high) & (corners.max(axis=1) >= around.low), axis=1)
+    triangles = corners[keep]
+    found = np.full(len(points), np.inf)
+    for chunk in np.array_split(triangles, max(1, len(points) * len(triangles) // _MOST_PAIRS)):
+        if len(chunk):
+            found = np.minimum(found, point_triangle_distances(points, chunk).min(axis=1))
+    return found

@@ -1,20 +1,39 @@
-"""The annotation file of a user's template, and how its coordinates map to a template's frame. It reads no meshes.
+"""The annotation file of a user's template or handle, and how its coordinates map to a template's frame.
 
-`docs/templates.md` describes every field for the people who write such files.
+It reads no meshes. `docs/templates.md` describes every field for the people who write such files.
 """
 
+import json
 from pathlib import Path
 from typing import Annotated, Literal, final
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from grafu.errors import TemplateError
+from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
+from grafu.errors import AssetError, TemplateError
 from grafu.geometry.arrays import Mat4, Vec3, vec3
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.templates.note_files import read_note
+from grafu.templates.handle import HandleFamily
 from grafu.templates.template import SnapPlane
 from grafu.vocabulary import MechanismClass
+
+_LIMITS = Limits(max_bytes=2**20)
+
+
+def read_note(path: Path) -> str:
+    """Returns the text of an annotation file.
+
+    Raises:
+        TemplateError: if it is missing, no regular file of its template's folder, too large, or not UTF-8.
+    """
+    try:
+        return ModelFiles(path.parent, _LIMITS).read(path).decode("utf-8")
+    except (AssetError, UnicodeDecodeError) as error:
+        why = error if isinstance(error, AssetError) else f"{path} cannot be read as text (UnicodeDecodeError)"
+        raise TemplateError(f"{why}: expected a JSON file") from None
+
 
 Triple = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0)]
@@ -169,3 +188,62 @@ def _unit(direction: Triple, name: str) -> Vec3:
     if length < 1e-12:
         raise TemplateError(f"`{name}` must be a direction with a length: got {list(direction)}")
     return vector / length
+
+
+@final
+class HandleNote(BaseModel):
+    """`template.json` of a handle; lengths in mesh units, `unit` metres each.
+
+    `foot` is a point of the plane that lies on the front, `outwards` points away from the front, `along` along the
+    handle's long side (up is square to both, so that `along` x `outwards` points down).
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    kind: Literal["handle"]
+    family: HandleFamily
+    title: str = ""
+    unit: Positive = 1.0
+    foot: Triple = (0.0, 0.0, 0.0)
+    outwards: Triple
+    along: Triple
+    longest: Positive | None = None
+    turns: bool = True
+
+
+def is_handle(path: Path) -> bool:
+    """Whether a `template.json` says that it is of a handle; what cannot be read says nothing."""
+    try:
+        found = json.loads(read_note(path))
+    except (TemplateError, ValueError, RecursionError):
+        return False
+    return isinstance(found, dict) and found.get("kind") == "handle"
+
+
+def read_handle_note(path: Path) -> HandleNote:
+    """Returns a handle's annotation.
+
+    Raises:
+        TemplateError: if the file cannot be read, is not JSON, or a field is missing, unknown or out of range.
+    """
+    try:
+        return HandleNote.model_validate_json(read_note(path))
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        where = ".".join(str(step) for step in first["loc"]) or "the file"
+        raise TemplateError(f"{path}: {where}: {first['msg']}; see docs/templates.md") from None
+
+
+def handle_frame(note: HandleNote) -> Mat4:
+    """Returns T_handle_mesh: scales to metres, the foot plane to y = 0, outwards to -Y, along to +X.
+
+    Raises:
+        TemplateError: if a direction has no length, or the two are not square to each other.
+    """
+    x, y = _unit(note.along, "along"), -_unit(note.outwards, "outwards")
+    if abs(float(x @ y)) > _SQUARE:
+        raise TemplateError("`along` must be square to `outwards` (the handle lies along the front)")
+    x = x - y * float(x @ y)
+    x /= np.linalg.norm(x)
+    R = np.stack([x, y, np.cross(x, y)])
+    return from_rotation(note.unit * R, -note.unit * (R @ np.array(note.foot)))

@@ -3,7 +3,8 @@
 from functools import cache
 from math import radians
 
-from grafu.templates import leaves, pins
+from grafu.templates import leaves
+from grafu.templates import leaves as pins
 from grafu.templates.finish import BLACK, BRASS, BRONZE, NICKEL, STEEL
 from grafu.templates.hinges import HingeStyle, hinge_model
 from grafu.templates.rails import CENTRE_STYLE, CORNER_STYLE, rail_model

@@ -24,8 +24,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.templates.finish import SCREW, finished
-from grafu.templates.leaves import LeafArea, LeafShape, ScrewPattern
-from grafu.templates.pins import PinStyle, pin_solid
+from grafu.templates.leaves import LeafArea, LeafShape, PinStyle, ScrewPattern, pin_solid
 from grafu.templates.solids import disc, extrude, placed, tube
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate, SnapPlane, TemplateEnd
 from grafu.vocabulary import MechanismClass

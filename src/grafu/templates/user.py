@@ -25,11 +25,11 @@ from grafu.templates.annotation import (
     RailNote,
     hinge_frame,
     hinge_normals,
+    is_handle,
     rail_frame,
     read_annotation,
     snap_plane,
 )
-from grafu.templates.handle_annotation import is_handle
 from grafu.templates.template import (
     Gallery,
     HingeModel,

@@ -16,8 +16,8 @@ from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, TemplateError
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.templates.annotation import HandleNote, handle_frame, is_handle, read_handle_note
 from grafu.templates.handle import HandleSize, HandleTemplate
-from grafu.templates.handle_annotation import HandleNote, handle_frame, is_handle, read_handle_note
 
 ANNOTATION = "template.json"
 MESH = "handle"

@@ -1,23 +1,53 @@
 """The page of one model: a single file that opens from a disk, without a network. It writes no files.
 
-A header with the verdict, a 3D view with a slider per joint, pictures, the functional graph, and the report as tables.
+A header with the verdict (its colour, its sentence, a line for each fault), a 3D view with a slider per joint,
+pictures, the functional graph, and the report as tables.
 """
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.asset.part import Asset
-from grafu.export.graph_picture import draw_graph, drawing_svg
 from grafu.graph.completion import GraphCompletion
-from grafu.pipeline.report_schema import Report
+from grafu.pipeline.report_schema import FaultRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
 from grafu.pipeline.words import opening
-from grafu.viewer.corrections import LEAD
+from grafu.render.graph_picture import draw_graph, drawing_svg
 from grafu.viewer.markup import Html, joined, json_block, tag
 from grafu.viewer.pictures import Stills, stills_row
-from grafu.viewer.report_tables import added_table, joints_table, lacks_table, lines, not_built_table, timing_words
+from grafu.viewer.report_tables import (
+    LEAD,
+    added_table,
+    correction_buttons,
+    joints_table,
+    lacks_table,
+    lines,
+    not_built_table,
+    part_button,
+    timing_words,
+)
 from grafu.viewer.scene_data import scene_data
-from grafu.viewer.shell import section, whole_page
-from grafu.viewer.verdict_view import verdict_view
-from grafu.viewer.wording import size_words, unused_joints
+from grafu.viewer.shell import light_of, section, whole_page
+from grafu.viewer.wording import facts, size_words, unused_joints
+
+_LEAD = "A click copies an option: give it to the same command, with --overwrite."
+
+
+def verdict_view(report: Report, verdict: VerdictRecord) -> Html:
+    """Returns the traffic light, what is amiss with the option that may set it right, and the facts below it."""
+    light = tag("p", light_of(verdict.colour), " ", verdict.sentence, class_="verdict")
+    rows = [_line(fault, {part.id for part in report.parts}) for fault in verdict.lines]
+    lead = [tag("p", _LEAD, class_="lead")] if any(fault.option for fault in verdict.lines) else []
+    amiss = [tag("ul", joined(rows), class_="faults"), *lead] if rows else []
+    return joined([light, *amiss, tag("p", facts(report))])
+
+
+def _line(fault: FaultRecord, known: set[str]) -> Html:
+    """Returns one fault: the part, what is amiss, why, and the option to copy."""
+    part = part_button(fault.part) if fault.part in known else tag("span", fault.part)
+    copy = correction_buttons((fault.option,) if fault.option else ())
+    said = [part, " "] if fault.part else []
+    kind = tag("span", fault.kind, class_=f"fault {fault.colour}")
+    return tag("li", joined([tag("span", joined([*said, kind, ": ", fault.why]), class_="said"), copy]))
+
 
 _STYLES = ("page.css", "model.css")
 _SCRIPTS = (

@@ -1,10 +1,12 @@
-"""The still pictures of a model's page: as it came, closed and open; small files, drawn on the CPU.
+"""The still pictures of a model's page: as it came, closed and open; and small images, as data URIs.
 
-They are clear around the model, so that they stand on light and on dark paper.
+Pictures are drawn on the CPU and clear around the model, so that they stand on light and on dark paper. Images are no
+larger than a screen shows.
 """
 
 import re
-from base64 import b64decode
+from base64 import b64decode, b64encode
+from collections.abc import Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from typing import final
@@ -15,11 +17,54 @@ from PIL import Image
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset
-from grafu.export.camera import three_quarter_view
-from grafu.export.exposure import PictureStyle
-from grafu.export.picture import box_of, opened_values, posed_visuals, render
+from grafu.geometry.appearance import Texture
+from grafu.render.camera import three_quarter_view
+from grafu.render.exposure import PictureStyle
+from grafu.render.picture import box_of, opened_values, posed_visuals, render
 from grafu.viewer.markup import Html, joined, tag
-from grafu.viewer.textures import data_uri
+
+LIMIT = 1024  # pixels a side: a whole piece of furniture on a screen shows no more
+_BUDGET = 6 * LIMIT * LIMIT  # pixels of all images of a page together
+_TEXTURE_QUALITY = 84
+
+
+def texture_uris(textures: Sequence[Texture]) -> list[str]:
+    """Returns each image as a data URI, at most `LIMIT` pixels a side, and less where there are many.
+
+    An image that cannot be read becomes an empty string: the part keeps its plain colour.
+    """
+    limit = LIMIT
+    while limit > 64 and len(textures) * limit * limit > _BUDGET:
+        limit //= 2
+    return [_texture_uri(texture, limit) for texture in textures]
+
+
+def data_uri(data: bytes, mime: str) -> str:
+    """Returns bytes as a URI that needs no network."""
+    return f"data:{mime};base64,{b64encode(data).decode()}"
+
+
+def _texture_uri(texture: Texture, limit: int) -> str:
+    try:
+        with Image.open(BytesIO(texture.data)) as image:
+            if max(image.size) <= limit:
+                image.verify()
+                return data_uri(texture.data, texture.mime)
+            image.draft("RGB", (limit, limit))  # a JPEG is decoded at a smaller size at once
+            return _smaller(image, limit)
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError):
+        return ""
+
+
+def _smaller(image: Image.Image, limit: int) -> str:
+    has_alpha = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
+    small = image.convert("RGBA" if has_alpha else "RGB")
+    small.thumbnail((limit, limit), Image.Resampling.BOX)
+    kind, mime = ("PNG", "image/png") if has_alpha else ("JPEG", "image/jpeg")
+    stream = BytesIO()
+    small.save(stream, kind, quality=_TEXTURE_QUALITY)
+    return data_uri(stream.getvalue(), mime)
+
 
 SIZE = (320, 240)
 THUMBNAIL = (112, 84)

@@ -1,4 +1,7 @@
-"""The tables of a model's page, from its report: joints, what was missing, added, not built. It decides nothing."""
+"""The tables of a model's page, from its report: joints, what was missing, added, not built. It decides nothing.
+
+What sets a wrong motion right stands beside it: the options of `grafu functionalize`, as buttons to copy.
+"""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,10 +13,21 @@ from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.pipeline.verdict import stopped, verdict_of
 from grafu.pipeline.words import counted, listed, opening, percent
-from grafu.viewer.corrections import correction_buttons
 from grafu.viewer.markup import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
 from grafu.vocabulary import JointType
+
+LEAD = (
+    "One is wrong? Copy its line, give it to the same command, with --overwrite. Instead of the last word: left, "
+    "right, top or bottom (it turns about that side), slides, or not."
+)
+
+
+def correction_buttons(options: tuple[str, ...]) -> Html:
+    """Returns a button for each option that copies it; its text can be selected, too."""
+    buttons = (tag("button", o, type="button", class_="copy", title="Copy", data_copy=o) for o in options)
+    return joined(buttons)
+
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT, FaultKind.NOTHING_MOVES)
 _SHOWN = 6  # ids in a cell; more of them are counted

@@ -11,13 +11,13 @@ from typing import Any, final
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
 from grafu.articulation.sweep import opening_stages
-from grafu.export.picture import CATEGORY_COLORS, box_of, opened_values, posed_visuals
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.pipeline.report_schema import Report
+from grafu.render.picture import CATEGORY_COLORS, box_of, opened_values, posed_visuals
+from grafu.viewer.pictures import texture_uris
 from grafu.viewer.quantise import PackedMesh, pack_surface
-from grafu.viewer.textures import texture_uris
 
 Table = dict[str, Any]
 _COMPRESSION = 6

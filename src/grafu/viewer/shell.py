@@ -11,6 +11,12 @@ from importlib.resources import files
 from grafu.version import __version__
 from grafu.viewer.markup import Html, joined, tag
 
+
+def light_of(colour: str) -> Html:
+    """Returns a coloured mark that names its colour: nobody must see it to read it."""
+    return tag("span", colour, class_=f"light {colour}")
+
+
 GENERATOR = f"grafu {__version__}"
 
 

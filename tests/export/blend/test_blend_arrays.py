@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from small_cabinet import GLASS, PAINT, STEEL, board
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
-from grafu.export.blend.cycle import cycle_keys
-from grafu.export.blend.layout import fitted_name
+from grafu.export.blend.layout import cycle_keys, fitted_name
 from grafu.export.blend.mesh_arrays import mesh_arrays
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from grafu.articulation.articulated_object import Joint, JointLimits
-from grafu.export.blend.cycle import Key
-from grafu.export.blend.layout import AFTER, CHILD, ID, KIND, LOWER, OPEN, PARENT, TYPE, UPPER, Kind
+from grafu.export.blend.layout import AFTER, CHILD, ID, KIND, LOWER, OPEN, PARENT, TYPE, UPPER, Key, Kind
 from grafu.geometry.arrays import Vec3
 from grafu.vocabulary import JointType
 

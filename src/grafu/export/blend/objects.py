@@ -14,7 +14,6 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.link_frames import link_origins
-from grafu.export.blend.cycle import cycle_keys
 from grafu.export.blend.joints import describe_joint, drive_link, key_joint, turn_to_axis
 from grafu.export.blend.layout import (
     COLLECTION_OF_ROLE,
@@ -28,6 +27,7 @@ from grafu.export.blend.layout import (
     RIG,
     UV_LAYER,
     Kind,
+    cycle_keys,
     fitted_name,
 )
 from grafu.export.blend.materials import BlenderMaterials

@@ -1,12 +1,36 @@
-"""Materials as UsdPreviewSurface, which every viewer shows; images stay byte for byte. It knows no meshes."""
+"""Materials as UsdPreviewSurface, which every viewer shows; images stay byte for byte. It knows no meshes.
 
+Prims are named as OpenUSD takes it everywhere, with the name that was wished where it differs.
+"""
+
+import re
 from typing import Any, final
 
 from pxr import Gf, Sdf, Usd, UsdShade
 
 from grafu.export.names import NameBook, file_safe
-from grafu.export.usd.names import Siblings
 from grafu.geometry.appearance import Material, Surface, Texture
+
+
+def identifier(name: str) -> str:
+    """Returns a name of letters, digits and `_` that does not begin with a digit and is never empty."""
+    safe = re.sub(r"[^A-Za-z0-9_]", "_", name) or "unnamed"
+    return f"_{safe}" if safe[0].isdigit() else safe
+
+
+@final
+class Siblings:
+    """Hands out the names of the children of one prim."""
+
+    def __init__(self, *taken: str) -> None:
+        self._book = NameBook(case_counts=True)
+        for name in taken:
+            self._book.unique(name)
+
+    def unique(self, wish: str) -> str:
+        """Returns the wished name where a prim can have it, else the nearest one that is free."""
+        return self._book.unique(identifier(wish))
+
 
 _SUFFIX = {"image/png": ".png", "image/jpeg": ".jpg"}
 _FLOAT, _COLOR, _TOKEN = Sdf.ValueTypeNames.Float, Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Token

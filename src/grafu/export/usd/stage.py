@@ -16,9 +16,8 @@ from grafu.articulation.dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.physics import physics_of
 from grafu.export.usd.config import UsdConfig
-from grafu.export.usd.looks import UsdLooks
+from grafu.export.usd.looks import Siblings, UsdLooks, identifier
 from grafu.export.usd.meshes import add_collision, add_surface, quaternion
-from grafu.export.usd.names import Siblings, identifier
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.version import __version__
 from grafu.vocabulary import JointType, PartLabel

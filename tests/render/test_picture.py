@@ -11,10 +11,15 @@ from grafu.articulation.articulated_object import (
     VisualRole,
 )
 from grafu.errors import ArticulationError
-from grafu.export.camera import Camera, three_quarter_view
-from grafu.export.exposure import PictureStyle
-from grafu.export.gallery import gallery_files, gallery_sheet
-from grafu.export.picture import (
+from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.render.camera import Camera, three_quarter_view
+from grafu.render.exposure import PictureStyle
+from grafu.render.gallery import gallery_files, gallery_sheet
+from grafu.render.picture import (
     before_after,
     box_of,
     contact_sheet,
@@ -24,12 +29,7 @@ from grafu.export.picture import (
     posed_visuals,
     render,
 )
-from grafu.export.ray_scene import _decode
-from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import vec3
-from grafu.geometry.axis import Axis
-from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
+from grafu.render.ray_scene import _decode
 from grafu.templates.gallery import builtin_gallery
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType, PartLabel

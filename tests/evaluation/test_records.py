@@ -10,8 +10,7 @@ from grafu.errors import ExportError
 from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.methods import Method
 from grafu.evaluation.perform import perform
-from grafu.evaluation.records import MadeFacts, Row
-from grafu.evaluation.rows import NAME, append_rows, begin_rows, done, read_rows
+from grafu.evaluation.records import NAME, MadeFacts, Row, append_rows, begin_rows, done, read_rows
 from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, TwinTask, key_of
 
 

@@ -5,8 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.export.graph_layout import node_places
-from grafu.export.graph_picture import (
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.graph.edges import Attached, Contact, Hinge, Rail
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.render.graph_picture import (
     EDGE_COLORS,
     SHORT_LABELS,
     category_rgb,
@@ -14,11 +17,8 @@ from grafu.export.graph_picture import (
     drawing_picture,
     drawing_svg,
     motion_words,
+    node_places,
 )
-from grafu.geometry.arrays import vec3
-from grafu.geometry.box import Box
-from grafu.graph.edges import Attached, Contact, Hinge, Rail
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import EdgeKind, PartLabel
 
 

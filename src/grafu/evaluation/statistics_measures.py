@@ -14,7 +14,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.data.statistics_fronts import Front, boxes_of, doors_of, drawers_of, lacks_top
+from grafu.evaluation.statistics_fronts import Front, boxes_of, doors_of, drawers_of, lacks_top
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph

@@ -8,7 +8,7 @@ from made_models import picture
 from PIL import Image
 
 from grafu.geometry.appearance import Texture
-from grafu.viewer.textures import LIMIT, texture_uris
+from grafu.viewer.pictures import LIMIT, texture_uris
 
 
 def opened(uri: str) -> Image.Image:

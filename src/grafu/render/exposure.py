@@ -9,10 +9,10 @@ from typing import Literal, final
 import numpy as np
 from jaxtyping import Float32
 
-from grafu.export.camera import Camera
-from grafu.export.light import key_direction, key_share, shade, sky_share
-from grafu.export.ray_scene import Hits, RayScene
 from grafu.geometry.arrays import extremes
+from grafu.render.camera import Camera
+from grafu.render.light import key_direction, key_share, shade, sky_share
+from grafu.render.ray_scene import Hits, RayScene
 
 Samples = Float32[np.ndarray, "_ _ 4"]
 

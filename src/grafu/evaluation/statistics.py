@@ -14,8 +14,8 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.asset.load import load_asset
-from grafu.data.statistics_measures import ModelMeasures, measure_model
 from grafu.errors import FunctionalizationError
+from grafu.evaluation.statistics_measures import ModelMeasures, measure_model
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.edit import with_edges
 from grafu.graph.parse import parse_graph

@@ -8,9 +8,9 @@ from math import radians
 import numpy as np
 from jaxtyping import Float32
 
-from grafu.export.camera import Camera
-from grafu.export.ray_scene import Hits, Rays, RayScene, Values
 from grafu.geometry.arrays import Vec3
+from grafu.render.camera import Camera
+from grafu.render.ray_scene import Hits, Rays, RayScene, Values
 
 Rgb = Float32[np.ndarray, "n 3"]
 Pattern = np.ndarray  # one number in 0..15 per ray: its place in the 4x4 pattern

@@ -13,12 +13,12 @@ from PIL import Image, ImageDraw, ImageFont
 
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.articulation.kinematics import link_poses
-from grafu.export.camera import Camera, three_quarter_view
-from grafu.export.exposure import Exposure, PictureStyle, Samples
-from grafu.export.light import displayed
-from grafu.export.ray_scene import RayScene
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
+from grafu.render.camera import Camera, three_quarter_view
+from grafu.render.exposure import Exposure, PictureStyle, Samples
+from grafu.render.light import displayed
+from grafu.render.ray_scene import RayScene
 from grafu.vocabulary import PartLabel
 
 Picture = UInt8[np.ndarray, "_ _ 4"]

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from grafu.asset.part import Asset, Part, PartSource
-from grafu.data.statistics import Spread, StatisticsRow, compare, compare_measures, measure_folder
-from grafu.data.statistics_fronts import doors_of, drawers_of, lacks_top
-from grafu.data.statistics_measures import ModelMeasures, measure_model
+from grafu.evaluation.statistics import Spread, StatisticsRow, compare, compare_measures, measure_folder
+from grafu.evaluation.statistics_fronts import doors_of, drawers_of, lacks_top
+from grafu.evaluation.statistics_measures import ModelMeasures, measure_model
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes

@@ -1,0 +1,155 @@
+"""A gallery of templates as files: hinges, rails and handles, a GLB each, and one picture of them all.
+
+Templates become articulated objects first, so that every exporter and every picture can show them. It writes nothing
+itself.
+"""
+
+from collections.abc import Sequence
+from math import radians
+
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
+from grafu.export.files import ExportFiles
+from grafu.export.glb import export_glb
+from grafu.geometry.appearance import Material
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.transform import rotation_about, translation
+from grafu.render.camera import three_quarter_view
+from grafu.render.picture import (
+    Picture,
+    box_of,
+    contact_sheet,
+    encode_png,
+    opened_values,
+    posed_visuals,
+    render,
+)
+from grafu.templates.finish import STEEL, finished
+from grafu.templates.handle import HandleTemplate
+from grafu.templates.template import (
+    Gallery,
+    HingeModel,
+    HingeSize,
+    HingeTemplate,
+    RailModel,
+    RailSize,
+    RailTemplate,
+)
+from grafu.vocabulary import JointType, PartLabel
+
+Template = HingeTemplate | RailTemplate
+Model = HingeModel | RailModel
+
+_SHOWN_HINGE = 0.12  # metres; long templates are shown shorter, or nothing but their length could be seen
+_SHOWN_RAIL = 0.2
+
+
+def as_articulated(template: Template) -> ArticulatedObject:
+    """Returns a template as an object with a static link, a dynamic link and one joint, standing on z = 0.
+
+    The joint is `<id>_joint`; its limits are the template's whole range. A hinge is turned so that its leaves face
+    the front (-Y).
+    """
+    low = min(float(end.mesh.box.low[2]) for end in (template.static, template.dynamic))
+    T = translation(vec3(0.0, 0.0, -low))
+    if isinstance(template, HingeTemplate):
+        T = T @ rotation_about(np.zeros(3), vec3(0.0, 0.0, 1.0), np.pi)
+        joint_type, axis = JointType.REVOLUTE, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
+    else:
+        joint_type, axis = JointType.PRISMATIC, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0))
+    prefix = "hinge" if joint_type is JointType.REVOLUTE else "rail"
+    links = []
+    for name, end in (("static", template.static), ("dynamic", template.dynamic)):
+        surfaces = end.transformed(T).surfaces
+        links.append(Link(name, (Visual(f"{prefix}_{template.id}_{name}", surfaces, VisualRole.HARDWARE),)))
+    joint = Joint(f"{template.id}_joint", joint_type, "static", "dynamic", axis, JointLimits(0.0, template.range))
+    return ArticulatedObject(template.id, "static", tuple(links), (joint,))
+
+
+def models_of(gallery: Gallery) -> tuple[Model, ...]:
+    """Returns all models of a gallery, hinges first."""
+    return (*gallery.hinges, *gallery.rails)
+
+
+def natural_template(model: Model) -> Template:
+    """Returns the template at its natural size."""
+    if isinstance(model, HingeModel):
+        return model.build(model.natural)
+    return model.build(model.natural)
+
+
+def shown_template(model: Model) -> Template:
+    """Returns the template for a picture: at its natural size, but long ones cut short so that details show."""
+    if isinstance(model, HingeModel):
+        n = model.natural
+        return model.build(HingeSize(min(n.length, _SHOWN_HINGE), n.leaf, n.thickness, n.radius))
+    r = model.natural
+    return model.build(RailSize(min(r.length, _SHOWN_RAIL), r.height, r.thickness))
+
+
+HANDLE_SHEET_NAME = "handles.png"
+_SHOWN_LENGTH = 0.2  # metres: longer ones are shown shorter, or nothing but their length could be seen
+
+
+def handle_files(handles: Sequence[HandleTemplate], finish: Material = STEEL) -> ExportFiles:
+    """Returns `handle_<id>.glb` for each handle at its natural size, and the sheet `handles.png`."""
+    contents: dict[str, bytes] = {}
+    for template in handles:
+        exported = export_glb(_shown(template, template.natural.length, finish))
+        contents[f"handle_{template.id}.glb"] = next(
+            d for name, d in exported.contents.items() if name.endswith(".glb")
+        )
+    contents[HANDLE_SHEET_NAME] = encode_png(handle_sheet(handles, finish))
+    return ExportFiles(contents)
+
+
+def handle_sheet(
+    handles: Sequence[HandleTemplate], finish: Material = STEEL, size: tuple[int, int] = (300, 220), columns: int = 6
+) -> Picture:
+    """Returns one picture of all handles, seen from the front, with title and id below each."""
+    pictures = []
+    for template in handles:
+        visuals = posed_visuals(_shown(template, min(template.natural.length, _SHOWN_LENGTH), finish))
+        camera = three_quarter_view(box_of(visuals), size[0] / size[1], radians(-35), radians(25))
+        pictures.append(render(visuals, camera, size))
+    return contact_sheet(pictures, [f"{t.title}  ·  {t.id}" for t in handles], columns)
+
+
+def _shown(template: HandleTemplate, length: float, finish: Material) -> ArticulatedObject:
+    surfaces = tuple(finished(mesh, finish) for mesh in template.build(length))
+    visual = Visual(f"handle_{template.id}", surfaces, VisualRole.ADDED, PartLabel.HANDLE)
+    return ArticulatedObject(template.id, "handle", (Link("handle", (visual,)),))
+
+
+SHEET_NAME = "templates.png"
+_SHOWN_OPENING = 0.55  # share of the range: wide open, leaves hide one another again
+
+
+def gallery_files(gallery: Gallery) -> ExportFiles:
+    """Returns `<id>.glb` for each template at its natural size, opening and closing, and the sheet `templates.png`."""
+    contents: dict[str, bytes] = {}
+    for model in models_of(gallery):
+        exported = export_glb(as_articulated(natural_template(model)))
+        contents[f"{model.id}.glb"] = next(data for name, data in exported.contents.items() if name.endswith(".glb"))
+    contents[SHEET_NAME] = encode_png(gallery_sheet(gallery))
+    return ExportFiles(contents)
+
+
+def gallery_sheet(gallery: Gallery, size: tuple[int, int] = (300, 260), columns: int = 3) -> Picture:
+    """Returns one picture of all templates, closed beside opened, with title, id and class below each."""
+    models = models_of(gallery)
+    pictures = [_closed_and_opened(as_articulated(shown_template(m)), isinstance(m, HingeModel), size) for m in models]
+    return contact_sheet(pictures, [_caption(model) for model in models], columns)
+
+
+def _caption(model: Model) -> str:
+    return f"{model.title}  ·  {model.id}  ·  {model.mechanism.value}"
+
+
+def _closed_and_opened(shown: ArticulatedObject, is_hinge: bool, size: tuple[int, int]) -> Picture:
+    azimuth = radians(-32 if is_hinge else 62)  # rails are seen from the drawer's side
+    poses = [posed_visuals(shown), posed_visuals(shown, opened_values(shown, _SHOWN_OPENING if is_hinge else 1.0))]
+    camera = three_quarter_view(box_of([v for pose in poses for v in pose]), size[0] / size[1], azimuth)
+    return np.concatenate([render(pose, camera, size) for pose in poses], axis=1)
