@@ -58,7 +58,7 @@ def way(rotation: np.ndarray, scale: float = 1.0, offset: tuple[float, float, fl
 
 
 def unlabelled(asset: Asset) -> Asset:
-    """Returns the asset with no label at all, nor a joint nor a rider."""
+    """Returns the asset with no label at all, nor a joint nor an attached part."""
     parts = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none", rides_on=None) for p in asset.parts)
     return replace(asset, parts=parts, joints=())
 

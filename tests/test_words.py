@@ -15,6 +15,8 @@ RETIRED = {
     r"(?i)beliefs?(?![a-z])": "probabilities",
     r"(?i)ballots?(?![a-z])": "votes",
     r"(?i)(?<![a-z])sight(?![a-z])": "features, forward pass",
+    r"(?i)(?<![a-z])movers?(?![a-z])": "moving body",
+    r"(?i)(?<![a-z])riders?(?![a-z])": "attached part",
 }
 # Names of files, keys and columns that others read stay as they are: (path, the text that may stand there).
 ALLOWED: frozenset[tuple[str, str]] = frozenset()

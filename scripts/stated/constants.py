@@ -58,7 +58,7 @@ def evaluation() -> Iterator[Sentence]:
     )
     yield (
         page,
-        "share of {} poses from rest to full in which the part with its riders cuts deeper than {}",
+        "share of {} poses from rest to full in which the part with its attached parts cuts deeper than {}",
         (
             TOLERANT.poses,
             TOLERANT.tolerance,

@@ -62,8 +62,8 @@ def test_a_motor_can_lift_what_hangs_on_the_joint(axis):
 
 def test_what_hangs_on_the_child_counts():
     joint = Joint("j", JointType.PRISMATIC, "body", "door", OUT, JointLimits(0.0, 0.3))
-    rider = Joint("k", JointType.FIXED, "door", "box", OUT, JointLimits(0.0, 0.0))
-    made = ArticulatedObject("o", "body", (Link("body", ()), Link("door", ()), Link("box", ())), (joint, rider))
+    part = Joint("k", JointType.FIXED, "door", "box", OUT, JointLimits(0.0, 0.0))
+    made = ArticulatedObject("o", "body", (Link("body", ()), Link("door", ()), Link("box", ())), (joint, part))
     masses = {n: MassProperties(m, np.zeros(3), np.eye(3)) for n, m in {"body": 50.0, "door": 2.0, "box": 3.0}.items()}
 
     assert joint_dynamics(made, joint, masses).damping == pytest.approx(5 / 0.25)

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from grafu.asset.attached_parts import with_attached
 from grafu.asset.edit import as_static_object, yawed
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.load import load_asset
@@ -12,7 +13,6 @@ from grafu.asset.options import DIRECTIONS, LoadOptions
 from grafu.asset.orientation import decide_front, front_votes, up_from_parts, vector
 from grafu.asset.part import Asset
 from grafu.asset.reading import Convention, Reading
-from grafu.asset.riders import with_riders
 from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
 from grafu.errors import AssetError
 from grafu.export.files import write_files
@@ -124,7 +124,7 @@ def test_a_front_on_the_upright_axis_is_refused():
 def test_handles_are_found_on_what_carries_them(spec):
     asset = make_cabinet(spec)
     stated = {p.id: p.rides_on for p in asset.parts}
-    found = {p.id: p.rides_on for p in with_riders(asset.without_annotation().parts)}
+    found = {p.id: p.rides_on for p in with_attached(asset.without_annotation().parts)}
     assert found == stated
 
 

@@ -235,8 +235,8 @@ def test_a_body_that_touches_only_a_door_does_not_ride_on_it(tmp_path):
             stated["base"] = []
 
     _, path = written(tmp_path, change=change)
-    riders = {p.id: p.rides_on for p in load_annotated(path).parts if p.rides_on}
-    assert riders == {"handle_7": "door_6", "handle_9": "door_8"}  # the second by contact
+    attached = {p.id: p.rides_on for p in load_annotated(path).parts if p.rides_on}
+    assert attached == {"handle_7": "door_6", "handle_9": "door_8"}  # the second by contact
 
 
 def test_parts_that_lie_elsewhere_than_annotated_are_reported(tmp_path):

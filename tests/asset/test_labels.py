@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.asset.labels import is_control, is_piece, is_whole_mover, label_of, sense_of
+from grafu.asset.labels import is_control, is_piece, is_whole_part, label_of, sense_of
 from grafu.asset.names import safe_id, unique_ids, words
 from grafu.vocabulary import PartLabel
 
@@ -61,8 +61,8 @@ def test_the_official_spelling_gives_each_label(label):
 def test_pieces_wholes_and_controls_are_told_apart():
     assert is_piece("drawer_front-3")
     assert not is_piece("drawer_3")
-    assert is_whole_mover("Door.001")
-    assert not any(is_whole_mover(n) for n in ("doors", "drawer_unit", "drawer_side", "shelf"))
+    assert is_whole_part("Door.001")
+    assert not any(is_whole_part(n) for n in ("doors", "drawer_unit", "drawer_side", "shelf"))
     assert is_control("knob")
     assert is_control("Caster_2")
     assert not is_control("door_knob")
@@ -153,5 +153,5 @@ def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
     assert sense_of("drawer_sprocket").is_blurred
     assert not sense_of("drawer_2_main").is_blurred
     assert not sense_of("frieze_drawer").is_blurred
-    assert not is_whole_mover("drawer_sprocket")
+    assert not is_whole_part("drawer_sprocket")
     assert sense_of("CabinetBody").is_container

@@ -164,8 +164,8 @@ def test_made_furniture_is_what_the_generator_makes_with_its_true_joints(specime
         assert asset.joints == specimen.whole.joints
         assert [p.label for p in asset.parts] == [p.label for p in specimen.asset.parts]
         present = {p.id for p in asset.parts}
-        riders = {p.id: p.rides_on for p in specimen.whole.parts if p.id in present and p.rides_on in present}
-        assert {p.id: p.rides_on for p in asset.parts if p.rides_on} == riders
+        attached = {p.id: p.rides_on for p in specimen.whole.parts if p.id in present and p.rides_on in present}
+        assert {p.id: p.rides_on for p in asset.parts if p.rides_on} == attached
         assert not asset.without_annotation().joints
         assert category_of(ref) == specimen.family
 

@@ -24,7 +24,7 @@ def measured(asset, plan) -> dict[str, PartMeasure]:
     return {measure.part: measure for measure in found}
 
 
-def test_doors_and_drawers_count_with_their_riders() -> None:
+def test_doors_and_drawers_count_with_their_attached_parts() -> None:
     parts = {part.id: part for part in counted_parts(cabinet())}
 
     assert set(parts) == {DOOR, DRAWER}

@@ -1,4 +1,4 @@
-"""The joints and riders of an asset as edges."""
+"""The joints and attached parts of an asset as edges."""
 
 from dataclasses import replace
 

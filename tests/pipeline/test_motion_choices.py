@@ -72,11 +72,11 @@ def opened(result: Functionalized, part: str) -> np.ndarray:
 @pytest.mark.parametrize("source", SOURCES)
 def test_what_is_rejected_stands_still_with_all_that_sits_on_it(asset, source):
     door = named(asset, PartLabel.DOOR)
-    riders = {p.id for p in asset.parts if p.rides_on == door}
+    attached = {p.id for p in asset.parts if p.rides_on == door}
     result = run(asset, Settings(source).with_motion(door, STANDS_STILL))
     report = report_of(result)
     assert door not in result.object.joint_of
-    assert {door, *riders} <= {v.name for v in result.object.link(result.object.root).visuals}
+    assert {door, *attached} <= {v.name for v in result.object.link(result.object.root).visuals}
     assert [(s.reason, s.detail) for s in report.skipped if s.request == door] == [("rejected", REJECTED)]
     assert {s.part: s.level for s in joint_states(report)}[door] is Level.OK
     assert [r.why for r in result.completion.refused if r.part == door] == [REJECTED]
@@ -97,8 +97,8 @@ def test_a_door_turns_about_the_border_that_is_stated(asset, source, side):
     assert opened(result, door)[1] < -0.05
     (edge,) = [h for h in result.completion.completed.hinges if h.child == door]
     assert result.asset.part(edge.parent).label.is_support
-    riders = {p.id for p in asset.parts if p.rides_on == door}
-    assert riders <= {v.name for v in result.object.link(door).visuals}
+    attached = {p.id for p in asset.parts if p.rides_on == door}
+    assert attached <= {v.name for v in result.object.link(door).visuals}
 
 
 @pytest.mark.parametrize("source", SOURCES)
@@ -128,10 +128,10 @@ def test_a_part_that_nobody_takes_for_a_door_becomes_one_with_the_handle_on_it(a
 
 def test_what_is_stated_of_all_parts_holds_where_one_rode_on_the_other(asset):
     door = named(asset, PartLabel.DOOR)
-    rider = next(p.id for p in asset.parts if p.rides_on == door)
-    chosen = Settings(MotionSource.ANNOTATION).with_motion(rider, MotionChoice(Moves.SLIDES))
+    part = next(p.id for p in asset.parts if p.rides_on == door)
+    chosen = Settings(MotionSource.ANNOTATION).with_motion(part, MotionChoice(Moves.SLIDES))
     result = run(asset, chosen)
-    assert rider not in {v.name for v in result.object.link(door).visuals}
+    assert part not in {v.name for v in result.object.link(door).visuals}
 
 
 def test_choices_for_the_joint_hold_on_a_stated_motion(asset):

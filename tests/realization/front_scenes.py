@@ -17,8 +17,8 @@ from grafu.vocabulary import JointType, PartLabel
 
 
 def scene_of(asset: Asset) -> Scene:
-    riders = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
-    moving_bodies = {part: MovingBody(part, (part, *ids)) for part, ids in riders.items()}
+    attached = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
+    moving_bodies = {part: MovingBody(part, (part, *ids)) for part, ids in attached.items()}
     ways = {j.part: Way(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
     return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.unit, ways=ways)
 

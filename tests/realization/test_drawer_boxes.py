@@ -13,7 +13,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation
-from grafu.realization.drawer_box.complete import complete_drawers, with_riders
+from grafu.realization.drawer_box.complete import complete_drawers, with_attached
 from grafu.realization.motion_source import plan_from_annotation
 from grafu.realization.realize import realize
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -40,7 +40,7 @@ def completed(asset: Asset):
     """The asset realized with the boards that its drawers lacked."""
     plan, made = plan_from_annotation(asset), found(asset)
     whole = replace(asset, parts=(*asset.parts, *(a.part for a in made.additions)))
-    return realize(with_riders(plan, made), whole, GALLERY)
+    return realize(with_attached(plan, made), whole, GALLERY)
 
 
 def boards_of(made, drawer: str) -> dict[str, object]:
@@ -142,9 +142,9 @@ def test_one_missing_board_is_replaced_where_it_was(gone):
         box("side", (-0.235, -0.18, 0.0), (-0.2125, 0.25, 0.2)),
         box("end", (0.2125, -0.18, 0.0), (0.235, 0.25, 0.2)),
     ]
-    riders = [box(f"board_{k}", *span, rides_on="drawer") for k, span in boards.items() if k != gone]
+    attached = [box(f"board_{k}", *span, rides_on="drawer") for k, span in boards.items() if k != gone]
     front = box("drawer", (-0.23, -0.2, 0.0), (0.23, -0.18, 0.2))
-    asset = scene(*walls, front, *riders, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
+    asset = scene(*walls, front, *attached, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
     (new,) = found(asset).additions
     low, high = boards[gone]
     np.testing.assert_allclose(new.part.box.low, low, atol=2e-3)
@@ -176,8 +176,8 @@ def test_loose_boards_behind_a_front_are_its_box(label):
     assert sorted(part_id for _, part_id in made.loose) == sorted(boards)
     assert {v.kind for v in made.verdicts} == {"whole"}
     assert made.additions == ()
-    plan = with_riders(plan_from_annotation(asset), made)
-    assert {r for request in plan.joints for r in request.riders} >= set(boards)
+    plan = with_attached(plan_from_annotation(asset), made)
+    assert {r for request in plan.joints for r in request.attached} >= set(boards)
 
 
 def test_the_case_is_no_loose_board():

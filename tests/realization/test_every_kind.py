@@ -25,7 +25,7 @@ def test_each_door_and_drawer_gets_a_joint_of_its_type(kind):
 
 
 @every_kind
-def test_no_part_is_lost_and_riders_ride(kind):
+def test_no_part_is_lost_and_attached_parts_move_along(kind):
     asset, obj = made_kind(kind), realized_kind(kind).object
     link_of = {v.name: link.id for link in obj.links for v in link.visuals if v.role is not VisualRole.HARDWARE}
     moving_bodies = set(true_joints(asset))

@@ -60,13 +60,13 @@ def test_a_joint_without_limits_opens_by_a_right_angle():
 
 def test_requests_say_where_they_come_from_and_what_rides():
     (request,) = plan_from_annotation(scene(DOOR, SIDE, HANDLE, joints=(hinged(),))).joints
-    assert (request.source, request.riders, request.mounts) == ("annotation", ("handle",), ())
+    assert (request.source, request.attached, request.mounts) == ("annotation", ("handle",), ())
 
 
-def test_riders_of_riders_ride_too():
+def test_parts_attached_to_attached_parts_move_too():
     knob = box("handle_knob", (0.35, -0.06, 0.3), (0.37, -0.05, 0.32), rides_on="handle")
     (request,) = plan_from_annotation(scene(DOOR, SIDE, HANDLE, knob, joints=(hinged(),))).joints
-    assert request.riders == ("handle", "handle_knob")
+    assert request.attached == ("handle", "handle_knob")
 
 
 def test_doors_without_a_joint_are_refused_unless_they_ride():
@@ -128,12 +128,12 @@ def test_a_completed_graph_and_the_annotation_build_the_same(kind):
         assert outcome.axis.angle_to(stated[part].axis) < 1e-3
 
 
-def test_a_completed_graph_states_mounts_and_riders():
+def test_a_completed_graph_states_mounts_and_attached_parts():
     bare = made_kind("overlay pair").without_annotation()
     plan = plan_from_completion(complete_by_rule(parse_graph(bare, ParsingConfig())), bare)
     by_part = {r.moving: r for r in plan.joints}
     assert by_part["door_1"].mounts == ("side_panel_left",)
-    assert len(by_part["door_1"].riders) == 1
+    assert len(by_part["door_1"].attached) == 1
     assert by_part["door_1"].reference is None
 
 

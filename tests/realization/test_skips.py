@@ -101,7 +101,7 @@ def test_the_first_of_two_requests_for_a_part_counts():
 
 def test_what_rides_on_a_door_gets_no_joint_of_its_own():
     handle = box("handle", (0.35, -0.05, 0.2), (0.37, -0.02, 0.4))
-    door = JointRequest("door", JointType.REVOLUTE, LEFT_EDGE, "test", riders=("handle",))
+    door = JointRequest("door", JointType.REVOLUTE, LEFT_EDGE, "test", attached=("handle",))
     alone = JointRequest("handle", JointType.REVOLUTE, LEFT_EDGE, "test")
     result = realize(RealizationPlan((alone, door)), scene(DOOR, SIDE, handle), GALLERY)
     assert [j.child for j in result.object.joints] == ["door"]

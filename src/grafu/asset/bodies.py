@@ -82,7 +82,7 @@ class _Draft:
     visuals: tuple[Visual, ...]
     carrier: str | None = None
     motion: Motion | None = None
-    is_mover: bool = False
+    is_moving: bool = False
 
 
 def drafts_of_visuals(visuals: Iterable[Visual]) -> list[PartDraft]:
@@ -102,25 +102,25 @@ def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
         up: the index of the vertical axis in the input's coordinates.
     """
     notes: list[str] = []
-    movers = {body.link for body in bodies if _is_mover(body, notes)}
-    if not movers:
+    moving_bodies = {body.link for body in bodies if _is_moving(body, notes)}
+    if not moving_bodies:
         return None
     by_link = {body.link: body for body in bodies}
     drafts: list[_Draft] = []
     for body in bodies:
-        carrier = _carrier(body, by_link, movers)
-        drafts += _moving(body, carrier, up) if body.link in movers else _static(body, carrier, notes)
+        carrier = _carrier(body, by_link, moving_bodies)
+        drafts += _moving(body, carrier, up) if body.link in moving_bodies else _static(body, carrier, notes)
     drafts = [d for d in drafts if any(not s.is_empty for v in d.visuals for s in v.surfaces)]
     ids = unique_ids((d.name, d.label is PartLabel.HANDLE) for d in drafts)
-    mover_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.is_mover}
+    moving_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.is_moving}
     body_of = {v.link: body.link for body in bodies for v in body.visuals}
-    by_body = {body_of[link]: i for link, i in mover_ids.items()}
+    by_body = {body_of[link]: i for link, i in moving_ids.items()}
     parts = tuple(_part(d, i, by_body) for d, i in zip(drafts, ids, strict=True))
     joints = tuple(_joint(d.motion, i) for d, i in zip(drafts, ids, strict=True) if d.motion)
     return Annotation(parts, joints, tuple(notes))
 
 
-def _is_mover(body: Body, notes: list[str]) -> bool:
+def _is_moving(body: Body, notes: list[str]) -> bool:
     if not body.visuals or (body.motion is None and not body.is_loose):
         return False
     names = [body.name, *(v.name for v in body.visuals)]
@@ -132,11 +132,11 @@ def _is_mover(body: Body, notes: list[str]) -> bool:
     return any(label_of(v.name) is not PartLabel.HANDLE for v in body.visuals) or body.parent is None
 
 
-def _carrier(body: Body, by_link: dict[str, Body], movers: set[str]) -> str | None:
+def _carrier(body: Body, by_link: dict[str, Body], moving_bodies: set[str]) -> str | None:
     seen = {body.link}
     parent = body.parent
     while parent is not None and parent not in seen and parent in by_link:
-        if parent in movers:
+        if parent in moving_bodies:
             return parent
         seen.add(parent)
         parent = by_link[parent].parent
@@ -146,14 +146,14 @@ def _carrier(body: Body, by_link: dict[str, Body], movers: set[str]) -> str | No
 def _moving(body: Body, carrier: str | None, up: int) -> list[_Draft]:
     handles = [v for v in body.visuals if label_of(v.name) is PartLabel.HANDLE]
     rest = tuple(v for v in body.visuals if v not in handles) or body.visuals
-    label, labelled_by = _mover_label(body, rest, up)
-    drafts = [_Draft(body.name, label, labelled_by, rest, carrier, body.motion, is_mover=True)]
+    label, labelled_by = _moving_label(body, rest, up)
+    drafts = [_Draft(body.name, label, labelled_by, rest, carrier, body.motion, is_moving=True)]
     if len(rest) + len(handles) == len(body.visuals):
         drafts += [_Draft(v.name, PartLabel.HANDLE, "name", (v,), body.link) for v in handles]
     return drafts
 
 
-def _mover_label(body: Body, rest: tuple[Visual, ...], up: int) -> tuple[PartLabel, str]:
+def _moving_label(body: Body, rest: tuple[Visual, ...], up: int) -> tuple[PartLabel, str]:
     """Returns whether a moving body is a door or a drawer, and what says so: its names, or else its joint."""
     spoken = _spoken_label(body, rest)
     stated = spoken if body.motion is None else _label_of_motion(spoken, rest, body.motion, up)

@@ -10,7 +10,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.labels import is_piece, is_whole_mover, label_of
+from grafu.asset.labels import is_piece, is_whole_part, label_of
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
@@ -101,7 +101,7 @@ def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
 def _beginning(name: str) -> str:
     """Returns the longest beginning of a name, up to a number, that names one door or drawer; empty where none does."""
     ends = [match.end() for match in _NUMBERED.finditer(name)]
-    return next((name[:end] for end in reversed(ends) if is_whole_mover(name[:end])), "")
+    return next((name[:end] for end in reversed(ends) if is_whole_part(name[:end])), "")
 
 
 def _box(drafts: list[PartDraft]) -> Box | None:

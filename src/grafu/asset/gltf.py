@@ -16,7 +16,7 @@ from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.json_shapes import JsonObject
-from grafu.asset.labels import is_whole_mover, label_of
+from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
@@ -108,10 +108,10 @@ def _whole_nodes(file: GltfFile, nodes: list[_Node]) -> set[int]:
     above = {i for node in nodes for i, _ in node.chain[:-1]}
     below: dict[int, set[int]] = {}
     for node in nodes:
-        chain = [i for i, name in node.chain if is_whole_mover(name)]
+        chain = [i for i, name in node.chain if is_whole_part(name)]
         for upper, lower in pairwise(chain):
             below.setdefault(upper, set()).add(lower)
-    named = {i for node in nodes for i, name in node.chain if is_whole_mover(name)}
+    named = {i for node in nodes for i, name in node.chain if is_whole_part(name)}
     return {i for i in named & above if len(below.get(i, ())) < 2}
 
 

@@ -190,7 +190,7 @@ def _surfaces(meshes: list[_Mesh], masks: dict[int, np.ndarray]) -> tuple[Surfac
 
 
 def _bodies(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]], file: str) -> tuple[list[Body], list[str]]:
-    """Returns a body per part, what moves with its motion, what hangs on a mover alone with that as its parent."""
+    """Returns a body per part: moving bodies with their motion, what hangs on one of them alone with it as parent."""
     known = {part.pid: part for part in annotation.parts}
     motions: dict[str, Articulation] = {}
     notes: list[str] = []
@@ -231,8 +231,8 @@ def _carriers(
 ) -> dict[str, str]:
     """Returns what carries each part that does not stand by itself, by pid.
 
-    A mover's base carries it where that moves, too. Still parts that hang together and touch one mover and nothing else
-    ride on it; the largest such group is the body, which rides on nothing.
+    A moving body's base carries it where that moves, too. Still parts that hang together and touch one moving body and
+    nothing else ride on it; the largest such group is the body, which rides on nothing.
     """
     found = {}
     for pid, stated in motions.items():
@@ -243,9 +243,9 @@ def _carriers(
     bases = {base for stated in motions.values() for base in stated.base}
     body = max(groups, key=lambda group: sum(_extent(cut[pid]) for pid in group), default=frozenset())
     for group in groups:
-        movers = {other for pid in group for other in annotation.neighbours[pid]} & motions.keys()
-        if len(movers) == 1 and group is not body and not group & bases:
-            found.update(dict.fromkeys(group, movers.pop()))
+        moving_bodies = {other for pid in group for other in annotation.neighbours[pid]} & motions.keys()
+        if len(moving_bodies) == 1 and group is not body and not group & bases:
+            found.update(dict.fromkeys(group, moving_bodies.pop()))
     return found
 
 

@@ -122,7 +122,7 @@ def is_piece(name: str) -> bool:
     return sense_of(name).is_piece
 
 
-def is_whole_mover(name: str) -> bool:
+def is_whole_part(name: str) -> bool:
     """Whether the name is that of one whole door or drawer: no piece, no plural, no container (`drawer_unit`)."""
     sense = sense_of(name)
     whole = sense.label.is_movable and not sense.is_piece and not sense.is_blurred
@@ -142,11 +142,11 @@ def _phrases(said: tuple[str, ...]) -> list[tuple[str, ...]]:
 
 def _sense(said: tuple[str, ...]) -> Sense:
     handle = _last(said, _OF_HANDLES)
-    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVERS))):
+    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVING))):
         return Sense(PartLabel.HANDLE)
-    mover = _last(said, _OF_MOVERS)
-    if mover is not None:
-        found = _as_mover(said, mover)
+    moving = _last(said, _OF_MOVING)
+    if moving is not None:
+        found = _as_moving(said, moving)
         if found is not None:
             return found
     head = _last(said, _OF_OTHERS)
@@ -156,9 +156,9 @@ def _sense(said: tuple[str, ...]) -> Sense:
     return Sense(head[2])
 
 
-def _as_mover(said: tuple[str, ...], mover: tuple[int, int, PartLabel]) -> Sense | None:
+def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sense | None:
     """Returns what a name with a door or drawer in it says, None where another noun is its head."""
-    start, end, label = mover
+    start, end, label = moving
     tail = said[end:]
     if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:
         return None  # `hinge_door_leaf`: the leaf of the hinge that is on the door
@@ -198,7 +198,7 @@ def _rows(labels: frozenset[PartLabel]) -> _Rows:
     return tuple((label, tuple(singular(w) for w in p.lstrip("=").split()), p.startswith("=")) for label, p in phrases)
 
 
-_MOVERS = frozenset({PartLabel.DOOR, PartLabel.DRAWER})
-_OF_MOVERS: Final = _rows(_MOVERS)
+_MOVING = frozenset({PartLabel.DOOR, PartLabel.DRAWER})
+_OF_MOVING: Final = _rows(_MOVING)
 _OF_HANDLES: Final = _rows(frozenset({PartLabel.HANDLE}))
-_OF_OTHERS: Final = _rows(frozenset(PartLabel) - _MOVERS - {PartLabel.HANDLE})
+_OF_OTHERS: Final = _rows(frozenset(PartLabel) - _MOVING - {PartLabel.HANDLE})

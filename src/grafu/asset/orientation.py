@@ -11,7 +11,7 @@ from grafu.vocabulary import PartLabel
 _LYING = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)
 _STANDING = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.DOOR, PartLabel.DIVIDER)
 
-# Movers smaller than this share of the object (a tap, a lever) do not tell where its front is.
+# Moving bodies smaller than this fraction of the object (a tap, a lever) do not tell where its front is.
 _TELLING = 0.2
 # Nor does a bulky part that ends farther inside than this share of the object's largest side.
 _REACHES = 0.05

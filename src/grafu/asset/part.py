@@ -194,7 +194,7 @@ class Asset:
         return replace(self, parts=found.parts, joints=found.joints, notes=notes, annotation=None)
 
     def without_annotation(self) -> "Asset":
-        """Returns the same parts without the joints and riders that the input stated, and what joints alone labelled.
+        """Returns the same parts without the joints and attachments of the input, and without labels from joints alone.
 
         Of an asset as a file is read, these are the parts of the same file without joints. Of one `as_annotated`, that
         some pieces are one part is kept: a method that is given them is told what hangs together, not how it moves.
@@ -214,7 +214,7 @@ def _check_names(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], wh
         raise AssetError(f"part ids must be unique: {whose} repeats one")
     named = {joint.part for joint in joints} | {p.rides_on for p in parts if p.rides_on}
     if not named <= known:
-        raise AssetError(f"joints and riders must name parts: {whose} lacks {sorted(named - known)}")
+        raise AssetError(f"joints and attached parts must name parts: {whose} lacks {sorted(named - known)}")
 
 
 def _without_annotation(part: Part) -> Part:

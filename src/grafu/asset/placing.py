@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from grafu.asset.attached_parts import with_attached
 from grafu.asset.part import AnnotatedJoint, Annotation, Frame, Part
-from grafu.asset.riders import with_riders
 from grafu.geometry.appearance import Surface
 from grafu.vocabulary import JointType
 
@@ -21,7 +21,7 @@ class Placing:
     def parts(self, parts: tuple[Part, ...]) -> tuple[Part, ...]:
         """Returns parts in the object frame, handles riding on what they touch where nothing says on what."""
         placed = (replace(part, surfaces=tuple(map(self._surface, part.surfaces))) for part in parts)
-        return with_riders(tuple(placed))
+        return with_attached(tuple(placed))
 
     def annotation(self, annotation: Annotation) -> Annotation:
         """Returns an annotation in the object frame, slides in metres."""

@@ -15,7 +15,7 @@ import numpy as np
 from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.json_shapes import spelled
-from grafu.asset.labels import is_whole_mover, label_of
+from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
@@ -242,7 +242,7 @@ def _group(tree: _Tree, link: str) -> str:
 
     Links count as the nodes of a scene do, by their names alone: a joint that is made fixed changes nothing.
     """
-    return next((name for name in _upward(tree, link)[:-1] if is_whole_mover(name)), "")
+    return next((name for name in _upward(tree, link)[:-1] if is_whole_part(name)), "")
 
 
 def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4) -> list[Visual]:

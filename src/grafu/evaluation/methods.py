@@ -26,7 +26,7 @@ LEVELS = (0.1, 0.3, 0.5, 1.0)
 
 
 def masked(asset: Asset, share: float, seed: int) -> Asset:
-    """Returns the asset with this share of its labels unknown, rounded to whole parts, and no joints or riders.
+    """Returns the asset with this share of its labels unknown, rounded to whole parts, and no joints or attachments.
 
     Of one seed the parts that are masked at a lower share are masked at every higher one, so that levels differ by
     nothing but what is hidden. The draw depends on the asset's name and its part ids alone.

@@ -71,7 +71,7 @@ def box_of(asset: Asset, members: tuple[str, ...]) -> Box:
 
 
 def _moving_part(request: JointRequest, asset: Asset) -> MovingPart | None:
-    members = (request.moving, *request.riders)
+    members = (request.moving, *request.attached)
     box = box_of(asset, members)
     _, middle, largest = np.sort(box.size)
     if largest < LARGEST * asset.unit or middle < IN_PLANE * asset.unit:

@@ -17,13 +17,13 @@ _HARDWARE = frozenset({"hinge", "rail", "slide", "slider", "runner"})
 
 
 def raw_object(asset: Asset, plan: RealizationPlan) -> ArticulatedObject:
-    """Returns the asset's parts on the plan's own axes: one link per moving part with its riders.
+    """Returns the asset's parts on the plan's own axes: one link per moving part with its attached parts.
 
     Each opens as far as was stated; where nothing was, by a quarter turn or three quarters of its own depth. A part
     that is drawn ajar starts closed. Parts of the plan that the asset does not have are left out.
     """
     requests = _requests(asset, plan)
-    members = {r.moving: (r.moving, *(m for m in r.riders if _has(asset, m))) for r in requests}
+    members = {r.moving: (r.moving, *(m for m in r.attached if _has(asset, m))) for r in requests}
     moving = {member for ids in members.values() for member in ids}
     root = ROOT
     while root in moving or _has(asset, root):
@@ -40,13 +40,13 @@ def _requests(asset: Asset, plan: RealizationPlan) -> list[JointRequest]:
     for request in plan.joints:
         if _has(asset, request.moving) and len(asset.part(request.moving).mesh.faces):
             first.setdefault(request.moving, request)
-    ridden = {rider for request in first.values() for rider in request.riders}
+    ridden = {part for request in first.values() for part in request.attached}
     taken: set[str] = set()
     kept = []
     for request in (r for r in first.values() if r.moving not in ridden):
-        free = tuple(m for m in request.riders if m not in taken)
+        free = tuple(m for m in request.attached if m not in taken)
         taken.update(free)
-        kept.append(replace(request, riders=free))
+        kept.append(replace(request, attached=free))
     return kept
 
 

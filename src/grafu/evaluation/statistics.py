@@ -148,7 +148,7 @@ def compare_measures(
 def measure_folder(folder: Path) -> tuple[tuple[ModelMeasures, ...], tuple[str, ...]]:
     """Returns the measures of every model in a folder, by name, and why the others could not be read.
 
-    A model's functional graph is its contacts and its own joints and riders.
+    A model's functional graph is its contacts and its own joints and attached parts.
     """
     measured, unread = [], []
     for path in sorted(p for p in Path(folder).iterdir() if not p.name.startswith(".")):

@@ -1,4 +1,4 @@
-"""The joints and riders that an asset states, as functional edges, and why some cannot be. It completes nothing.
+"""The joints and attached parts of an asset as functional edges, and why some cannot be. It completes nothing.
 
 The annotation states the motion and which handle rides where. The mount, which it does not state, is the support
 nearest to the pin of a door, or to each flank of a drawer; those that touch the part come before those that do not.
@@ -27,7 +27,7 @@ _NOT_STATED = "the annotation states no joint for it"
 @final
 @dataclass(frozen=True, slots=True)
 class AnnotatedEdges:
-    """The edges that an asset's own joints and riders stand for, and the moving parts that have none.
+    """The edges that an asset's own joints and attached parts stand for, and the moving parts that have none.
 
     All edges of one joint stand together; `refused` also names doors and drawers without a joint.
     """

@@ -11,7 +11,7 @@ from grafu.pipeline.addition_config import AdditionConfig
 from grafu.realization.addition import Addition
 from grafu.realization.carcass.complete import CarcassCompletion, complete_carcass
 from grafu.realization.carcass.lacks import carcass_lacks
-from grafu.realization.drawer_box.complete import DrawerBoxes, complete_drawers, with_riders
+from grafu.realization.drawer_box.complete import DrawerBoxes, complete_drawers, with_attached
 from grafu.realization.plan import RealizationPlan
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.top.complete import TopVerdict, missing_tops
@@ -48,7 +48,7 @@ def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPl
     boxes = config.drawer_boxes
     drawers = complete_drawers(grown.parts, plan, *(() if boxes is None else (boxes,)), build=boxes is not None)
     drawers = replace(drawers, additions=_kept(drawers.additions, config))
-    grown, plan = _with(grown, drawers.additions), with_riders(plan, drawers)
+    grown, plan = _with(grown, drawers.additions), with_attached(plan, drawers)
     if config.carcass is None:
         carcass = CarcassCompletion(carcass_lacks(grown.parts, plan))
     else:

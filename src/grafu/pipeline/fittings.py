@@ -82,7 +82,7 @@ def _accepted(handles: Handles, config: AdditionConfig) -> tuple[Scene, tuple[Ad
     """Returns the scene with the handles that were not rejected, and these."""
     kept = tuple(addition for addition in handles.additions if addition.part.id not in config.rejected)
     gone = {addition.part.id for addition in handles.additions} - {addition.part.id for addition in kept}
-    return handles.scene.without_riders(gone), kept
+    return handles.scene.without_attached(gone), kept
 
 
 def fitted_object(articulated: ArticulatedObject, fittings: Fittings) -> ArticulatedObject:

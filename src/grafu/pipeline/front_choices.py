@@ -42,7 +42,7 @@ def without_replaced(scene: Scene, fronts: Mapping[str, HandleChoice]) -> tuple[
         for member in scene.moving_bodies[moving].members
         if member != moving and scene.parts[member].label is PartLabel.HANDLE
     )
-    return scene.without_riders(gone), gone
+    return scene.without_attached(gone), gone
 
 
 def fit_fronts(

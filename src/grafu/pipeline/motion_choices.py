@@ -18,7 +18,7 @@ from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.realization.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
-from grafu.realization.motion_source import riders_of
+from grafu.realization.motion_source import attached_to
 from grafu.realization.plan import JointChoice, JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import SkipReason
 from grafu.vocabulary import PartLabel
@@ -143,27 +143,27 @@ def plan_with_motions(
     if not motions:
         return plan
     moved = {request.moving for request in plan.joints} | {refusal.part for refusal in plan.refused}
-    attached = ((edge.parent, edge.child) for edge in completion.completed.attachments)
-    riders = riders_of(asset, attached)
+    attachments = ((edge.parent, edge.child) for edge in completion.completed.attachments)
+    attached = attached_to(asset, attachments)
     stated = [part for part, choice in motions.items() if choice.moves is not Moves.NOT]
-    kept = tuple(_without_riders(r, stated) for r in plan.joints if r.moving not in motions)
-    requests = [_request(asset.part(p), motions[p], riders.get(p, ()), completion, asset) for p in stated]
+    kept = tuple(_without_attached(r, stated) for r in plan.joints if r.moving not in motions)
+    requests = [_request(asset.part(p), motions[p], attached.get(p, ()), completion, asset) for p in stated]
     moving_bodies = {request.moving for request in (*kept, *requests)}
-    requests = [_without_riders(request, sorted(moving_bodies - {request.moving})) for request in requests]
+    requests = [_without_attached(request, sorted(moving_bodies - {request.moving})) for request in requests]
     refused = tuple(r for r in plan.refused if r.part not in motions)
     still = (p for p, c in motions.items() if c.moves is Moves.NOT and (p in moved or asset.part(p).label.is_movable))
     rejected = tuple(Refusal(part, REJECTED, SkipReason.REJECTED) for part in still)
     return RealizationPlan((*kept, *requests), (*refused, *rejected))
 
 
-def _without_riders(request: JointRequest, moving_bodies: Sequence[str]) -> JointRequest:
-    return replace(request, riders=tuple(rider for rider in request.riders if rider not in moving_bodies))
+def _without_attached(request: JointRequest, moving_bodies: Sequence[str]) -> JointRequest:
+    return replace(request, attached=tuple(part for part in request.attached if part not in moving_bodies))
 
 
 def _request(
-    part: Part, choice: MotionChoice, riders: tuple[str, ...], completion: GraphCompletion, asset: Asset
+    part: Part, choice: MotionChoice, attached: tuple[str, ...], completion: GraphCompletion, asset: Asset
 ) -> JointRequest:
     graph = completion.completed
     mounts = tuple(edge.parent for edge in _carrying(part.id, graph))
     axis = axis_of_motion(part, choice, asset.box)
-    return JointRequest(part.id, choice.type, axis, USER, None, mounts, riders)
+    return JointRequest(part.id, choice.type, axis, USER, None, mounts, attached)

@@ -28,11 +28,11 @@ Outcomes = tuple[list[Built], list[Skipped], Scene]
 
 
 def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
-    """Returns one request per part (the first), doors before drawers, riders never on their own."""
+    """Returns one request per part (the first), doors before drawers, attached parts never on their own."""
     first: dict[str, JointRequest] = {}
     for request in joints:
         first.setdefault(request.moving, request)
-    ridden = {rider for request in first.values() for rider in request.riders}
+    ridden = {part for request in first.values() for part in request.attached}
     kept = [request for request in first.values() if request.moving not in ridden]
     return sorted(kept, key=lambda r: r.type is not JointType.REVOLUTE)
 

@@ -33,7 +33,7 @@ def with_choices(
             what is chosen for a slide is for hinges alone, or the other way about.
     """
     parts = {part.id: part for part in asset.parts}
-    moving = {part for request in plan.joints for part in (request.moving, *request.riders)}
+    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
     for request in plan.joints:
         _require_still(request.moving, choices.get(request.moving, AUTOMATIC).mount, parts, moving)
     joints = tuple(_chosen(request, choices.get(request.moving, AUTOMATIC), parts, gallery) for request in plan.joints)

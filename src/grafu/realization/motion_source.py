@@ -42,12 +42,12 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
 def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
     """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
     graph = completion.completed
-    riders = riders_of(asset, ((edge.parent, edge.child) for edge in graph.attachments))
+    attached = attached_to(asset, ((edge.parent, edge.child) for edge in graph.attachments))
     known = {part.id for part in asset.parts}
     requests = []
     for hinge in graph.hinges:
         axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
-        rides = riders.get(hinge.child, ())
+        rides = attached.get(hinge.child, ())
         requests.append(
             JointRequest(hinge.child, JointType.REVOLUTE, axis, completion.source, None, (hinge.parent,), rides)
         )
@@ -55,7 +55,7 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
         edges = [rail for rail in graph.rails if rail.child == child]
         axis = rail_to_axis(graph.node(child).box, edges[0].axis)
         mounts = tuple(rail.parent for rail in edges)
-        rides = riders.get(child, ())
+        rides = attached.get(child, ())
         requests.append(JointRequest(child, JointType.PRISMATIC, axis, completion.source, None, mounts, rides))
     refused = tuple(_refusal(r) for r in completion.refused)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
@@ -66,11 +66,11 @@ def _refusal(refused: RefusedMotion) -> Refusal:
     return Refusal(refused.part, refused.why, reason)
 
 
-def riders_of(asset: Asset, attached: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
-    """Returns what rides on each part, whoever says so, riders of riders included."""
+def attached_to(asset: Asset, attachments: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
+    """Returns the parts attached to each part, by the asset or by `attachments`, and those attached to these."""
     known = {part.id for part in asset.parts}
     below: dict[str, list[str]] = {}
-    for parent, child in [*((p.rides_on, p.id) for p in asset.parts if p.rides_on), *attached]:
+    for parent, child in [*((p.rides_on, p.id) for p in asset.parts if p.rides_on), *attachments]:
         if child in known and child not in below.setdefault(parent, []):
             below[parent].append(child)
     return {parent: tuple(_descendants(parent, below)) for parent in below}
@@ -100,8 +100,8 @@ def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
     reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
     if not joint.limited and joint.type is JointType.PRISMATIC:
         reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out, nobody knows
-    riders = riders_of(asset, ()).get(joint.part, ())
-    return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), riders, drawn_at)
+    attached = attached_to(asset, ()).get(joint.part, ())
+    return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), attached, drawn_at)
 
 
 def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float) -> float:

@@ -78,7 +78,7 @@ class JointRequest:
 
     `axis` is an initial guess in the object frame; positive motion along or about it opens. `reference` is the
     opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts
-    that should carry it, best first; empty leaves the choice to the geometry. `riders` move with the part (handles).
+    that should carry it, best first; empty leaves the choice to the geometry. `attached` move with the part (handles).
     `source` says where the motion came from. `drawn_at` is the joint value at which the input draws the part: where it
     is not 0 the part is drawn ajar, and is closed before anything is built. `choice` narrows the search for hardware.
     """
@@ -89,7 +89,7 @@ class JointRequest:
     source: str
     reference: float | None = None
     mounts: tuple[str, ...] = ()
-    riders: tuple[str, ...] = ()
+    attached: tuple[str, ...] = ()
     drawn_at: float = 0.0
     choice: JointChoice = AUTOMATIC
 

@@ -97,7 +97,7 @@ def _closed_scene(
     asset: Asset, requests: Sequence[JointRequest], config: RealizationConfig
 ) -> tuple[Scene, dict[str, tuple[Clearance, ...]]]:
     """Returns the scene with every part that is drawn ajar closed, and what was noted about it."""
-    moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *r.riders)) for r in requests}
+    moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *r.attached)) for r in requests}
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, moving_bodies, asset.unit)
     notes: dict[str, tuple[Clearance, ...]] = {}
     for request in requests:

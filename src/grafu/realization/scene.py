@@ -157,7 +157,7 @@ class Scene:
         """Returns the scene with some parts in a new shape."""
         return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
 
-    def without_riders(self, gone: Collection[str]) -> "Scene":
+    def without_attached(self, gone: Collection[str]) -> "Scene":
         """Returns the scene without some parts that ride on moving bodies."""
         if not gone:
             return self

@@ -34,11 +34,11 @@ class Specimen:
 
     `asset` is what a reader would load: parts may be missing, labels unknown, meshes untidy; it states no joints.
     `whole` is its repaired version: the same parts in the same places and those that were missing, all with true
-    labels, with the true joints (`AnnotatedJoint`, lower 0) and riders. `truth` is the functional graph of `whole`: one
-    node per part in the same order, with boxes, points, contacts, hinges, rails and attachments. `removable` are the
-    parts that a completion may be asked to restore when they are missing: no moving part, none that carries one.
-    `apart` are the pairs that a functional edge of `truth` joins though they do not touch: a drawer and the walls that
-    carry its rails, a centimetre beside it.
+    labels, with the true joints (`AnnotatedJoint`, lower 0) and attached parts. `truth` is the functional graph of
+    `whole`: one node per part in the same order, with boxes, points, contacts, hinges, rails and attachments.
+    `removable` are the parts that a completion may be asked to restore when they are missing: no moving part, none that
+    carries one. `apart` are the pairs that a functional edge of `truth` joins though they do not touch: a drawer and
+    the walls that carry its rails, a centimetre beside it.
 
     Raises:
         GraphError: if the three disagree about their parts.

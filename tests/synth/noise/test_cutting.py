@@ -50,10 +50,10 @@ def test_nothing_is_joined_where_there_is_one_part() -> None:
 
 def test_cuts_name_still_parts_or_drawers() -> None:
     rng = np.random.default_rng(1)
-    movers = {joint.part for joint in TIDY.joints}
+    moving_bodies = {joint.part for joint in TIDY.joints}
     for _ in range(200):
         for cut in draw_cuts(rng, TIDY, TIDY.parts, 1.0):
-            assert cut.part in (movers if cut.way == "box apart" else STILL)
+            assert cut.part in (moving_bodies if cut.way == "box apart" else STILL)
             assert 2 <= cut.count <= 5
 
 

@@ -9,10 +9,10 @@ from grafu.synth.noise.segmentation import (
     in_pieces,
     in_planks,
     is_board,
+    with_attached_joined,
     with_box_apart,
     with_edge_strip,
     with_joined,
-    with_riders_joined,
 )
 from grafu.vocabulary import PartLabel
 from sketches import board, door, drawer, handle, sketch
@@ -45,7 +45,7 @@ def test_only_several_still_parts_are_joined(ids: tuple[str, ...]) -> None:
 
 
 def test_a_handle_within_its_door_is_no_part_any_more() -> None:
-    joined = with_riders_joined(ASSET, ("grip",))
+    joined = with_attached_joined(ASSET, ("grip",))
 
     assert "grip" not in [p.id for p in joined.parts]
     assert joined.part("door").box.low[1] == pytest.approx(-0.04)

@@ -96,7 +96,7 @@ def test_lost_labels_are_unknown_and_names_say_nothing():
     assert all(p.source.name.startswith("Cube.") for p in asset.parts)
 
 
-def test_parts_go_with_their_riders_and_joints():
+def test_parts_go_with_their_attached_parts_and_joints():
     asset = untidy.without_parts(TIDY, ("drawer", "top panel"))
     assert {p.id for p in TIDY.parts} - {p.id for p in asset.parts} == {"drawer", "handle_2", "top_panel"}
     assert [j.part for j in asset.joints] == ["door"]

@@ -76,7 +76,7 @@ def test_untidy_boards_are_met_like_tidy_ones(edit):
 
 def test_what_is_behind_doors_meets_them_closed_and_not_open():
     clashes = clashes_of(make_cabinet(Cabinet(layout=Pair(behind=Drawer(handle="none")))))
-    assert clashes.movers_hit("drawer") == ("door_1", "door_2")
+    assert clashes.bodies_hit("drawer") == ("door_1", "door_2")
     assert clashes.hits("drawer", ("door_1",)) >= {"door_2"}
     assert clashes.hits("drawer", ("door_1", "door_2")) == frozenset()
 

@@ -5,10 +5,10 @@ What the input itself says of its motions is not read. Realization cannot tell w
 
 from dataclasses import replace
 
+from grafu.asset.attached_parts import with_attached
 from grafu.asset.foreign.matching import Match, covered_parts, match_parts
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions
 from grafu.asset.part import AnnotatedJoint, Asset, Part
-from grafu.asset.riders import with_riders
 from grafu.vocabulary import JointType, PartLabel
 
 
@@ -25,15 +25,15 @@ def attach_motions(asset: Asset, foreign: ForeignMotions) -> Asset:
     bare = asset.without_annotation()
     match = match_parts(bare, foreign)
     mains = {joint.part: _main(bare, foreign, match, joint.part) for joint in foreign.joints}
-    riders = _riders(bare, foreign, match, mains)
+    attached = _attached(bare, foreign, match, mains)
     joints = {
         main.id: _annotated(match.placed(joint, main.box), main, foreign.source)
         for joint in foreign.joints
         if (main := mains[joint.part]) is not None
     }
-    parts = [replace(part, rides_on=riders.get(part.id)) for part in _labelled(bare, foreign, match, joints)]
+    parts = [replace(part, rides_on=attached.get(part.id)) for part in _labelled(bare, foreign, match, joints)]
     notes = (*asset.notes, *foreign.notes, *_notes(foreign, match, mains))
-    return replace(bare, parts=with_riders(tuple(parts)), joints=tuple(joints.values()), notes=notes)
+    return replace(bare, parts=with_attached(tuple(parts)), joints=tuple(joints.values()), notes=notes)
 
 
 def _main(asset: Asset, foreign: ForeignMotions, match: Match, body: str) -> Part | None:
@@ -46,7 +46,7 @@ def _main(asset: Asset, foreign: ForeignMotions, match: Match, body: str) -> Par
     return max(pool, key=lambda part: part.mesh.area, default=None)
 
 
-def _riders(asset: Asset, foreign: ForeignMotions, match: Match, mains: dict[str, Part | None]) -> dict[str, str]:
+def _attached(asset: Asset, foreign: ForeignMotions, match: Match, mains: dict[str, Part | None]) -> dict[str, str]:
     """Returns what rides on what: the rest of each body on its main part, and that on the body that carries it."""
     found: dict[str, str] = {}
     for body, main in mains.items():

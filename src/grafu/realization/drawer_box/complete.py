@@ -43,7 +43,7 @@ class DrawerBoxes:
     """What came of all drawers of a plan: what each has, the boards added, and those that could not be, with why.
 
     `loose` names parts of the input that turned out to be boards of a drawer's box: drawer, then part. They must move
-    with it (`with_riders`).
+    with it (`with_attached`).
     """
 
     verdicts: tuple[BoxVerdict, ...] = ()
@@ -93,12 +93,12 @@ def complete_drawers(
     return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
 
 
-def with_riders(plan: RealizationPlan, made: DrawerBoxes) -> RealizationPlan:
+def with_attached(plan: RealizationPlan, made: DrawerBoxes) -> RealizationPlan:
     """Returns the plan in which the boards that were added, and loose ones of the input, move with their drawers."""
     riding: dict[str, list[str]] = {}
     for drawer, part_id in (*made.loose, *((a.part.rides_on or "", a.part.id) for a in made.additions)):
         riding.setdefault(drawer, []).append(part_id)
-    joints = tuple(replace(r, riders=(*r.riders, *riding.get(r.moving, ()))) for r in plan.joints)
+    joints = tuple(replace(r, attached=(*r.attached, *riding.get(r.moving, ()))) for r in plan.joints)
     return replace(plan, joints=joints)
 
 

@@ -72,7 +72,9 @@ def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surrounding
     """Returns the parts with every moving body of a plan closed; parts without faces are left out."""
     known = {part.id: part for part in parts if len(part.mesh.faces)}
     requests = tuple(r for r in plan.joints if r.moving in known)
-    moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *(i for i in r.riders if i in known))) for r in requests}
+    moving_bodies = {
+        r.moving: MovingBody(r.moving, (r.moving, *(i for i in r.attached if i in known))) for r in requests
+    }
     for request in requests:
         if request.drawn_at > 0:
             for member in moving_bodies[request.moving].members:

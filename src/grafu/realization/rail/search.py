@@ -31,7 +31,7 @@ from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType, PartLabel
 
 _FLAT = 0.2  # a board is thinner than this share of its smaller side
-_FLUSH = 1e-3  # metres by which a rider may stand out and still count as behind a drawer's front side
+_FLUSH = 1e-3  # metres by which an attached part may stand out and still count as behind a drawer's front side
 _DEEPER = 3.0  # a shallow drawer before a case so many times as deep is a front with its pull, not a container
 _TRAVEL = 0.77  # of the depth: what rails over 0.9 of a body travel with a lap of 15 %
 
@@ -132,11 +132,13 @@ def slides_in_its_plane(mesh: TriangleMesh, direction: Vec3) -> bool:
 
 
 def carried_mesh(request: JointRequest, scene: Scene) -> TriangleMesh:
-    """Returns a drawer with those riders that do not stand out before its front; handles never count."""
+    """Returns a drawer with those attached parts that do not stand out before its front; handles never count."""
     drawer, slide = scene.parts[request.moving], np.asarray(request.axis.direction)
     front = float((drawer.mesh.vertices @ slide).max()) + _FLUSH
-    riders = [scene.parts[member] for member in scene.moving_bodies[request.moving].members if member != request.moving]
-    behind = [r.mesh for r in riders if r.label is not PartLabel.HANDLE and (r.mesh.vertices @ slide).max() <= front]
+    attached = [
+        scene.parts[member] for member in scene.moving_bodies[request.moving].members if member != request.moving
+    ]
+    behind = [r.mesh for r in attached if r.label is not PartLabel.HANDLE and (r.mesh.vertices @ slide).max() <= front]
     return merge_meshes([drawer.mesh, *behind]) if behind else drawer.mesh
 
 

@@ -44,7 +44,7 @@ def replace_top(
     found = missing_tops(parts, moving_bodies, config, hint)
     if found.missing:
         return ReplacedTop(found, frozenset(), "" if found.addition is not None else found.why)
-    moving = {part for request in moving_bodies for part in (request.moving, *request.riders)}
+    moving = {part for request in moving_bodies for part in (request.moving, *request.attached)}
     old = frozenset(part.id for part in parts if part.id in tops and part.id not in moving)
     if not old:
         why = "no still part of it is called a top panel: correct the category of what is to be replaced"

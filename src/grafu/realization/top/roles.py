@@ -66,7 +66,7 @@ def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest] = ()) -> Role
     """Returns the parts by role, moving bodies closed; None where nothing but handles has a face."""
     known = {part.id: part for part in parts if len(part.mesh.faces)}
     asked = {joint.moving: joint for joint in joints if joint.moving in known}
-    carried = {rider for joint in asked.values() for rider in joint.riders} - asked.keys()
+    carried = {part for joint in asked.values() for part in joint.attached} - asked.keys()
     moving_bodies = [_closed(joint, known) for joint in asked.values()]
     rest = [p for p in known.values() if p.id not in asked and p.id not in carried and p.rides_on is None]
     moving_bodies += [_labelled(p) for p in rest if p.label.is_movable]
@@ -87,7 +87,7 @@ def _labelled(part: Part) -> Closed:
 
 def _closed(joint: JointRequest, known: dict[str, Part]) -> Closed:
     """Returns what a joint moves, moved back to where it is closed."""
-    members = [known[m] for m in (joint.moving, *joint.riders) if m in known]
+    members = [known[m] for m in (joint.moving, *joint.attached) if m in known]
     bodies = [p.mesh for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
     if joint.drawn_at:
         T = motion_about(joint.axis, joint.type)(-joint.drawn_at)

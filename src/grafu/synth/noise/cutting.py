@@ -60,9 +60,9 @@ def draw_joined(
         if able:
             _, labels = GROUPS[pick(rng, able)]
             found.append(_joined(rng, [p for p in still if p.label in labels]))
-    riders = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.rides_on)
-    if riders and chance(rng, handles):
-        found.append(Joined(riders, None))
+    attached = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.rides_on)
+    if attached and chance(rng, handles):
+        found.append(Joined(attached, None))
     return tuple(found)
 
 

@@ -147,7 +147,7 @@ MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
 def draw_untidiness(
     rng: np.random.Generator, tidy: Asset, family: str = "", absent: Collection[str] = ()
 ) -> Untidiness:
-    """Returns what will be untidy about a tidy model with true labels, joints and riders.
+    """Returns what will be untidy about a tidy model with true labels, joints and attached parts.
 
     Args:
         rng: where all chance comes from.

@@ -35,13 +35,13 @@ def with_joined(asset: Asset, ids: Collection[str], label: PartLabel, name: str)
     return replace(asset, parts=parts)
 
 
-def with_riders_joined(asset: Asset, ids: Collection[str]) -> Asset:
-    """Returns the named riders as geometry of what carries them: a handle in its door is no part any more."""
-    riders = [p for p in asset.parts if p.id in ids and p.rides_on]
-    gone = {p.id for p in riders}
+def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
+    """Returns the named attached parts as geometry of what carries them: a handle in its door is no part any more."""
+    attached = [p for p in asset.parts if p.id in ids and p.rides_on]
+    gone = {p.id for p in attached}
     parts = []
     for part in asset.parts:
-        own = [s for rider in riders if rider.rides_on == part.id for s in rider.surfaces]
+        own = [s for other in attached if other.rides_on == part.id for s in other.surfaces]
         if part.id not in gone:
             parts.append(replace(part, surfaces=(*part.surfaces, *own)) if own else part)
     return replace(asset, parts=tuple(parts))

@@ -21,10 +21,10 @@ from grafu.synth.noise.segmentation import (
     in_pieces,
     in_planks,
     is_board,
+    with_attached_joined,
     with_box_apart,
     with_edge_strip,
     with_joined,
-    with_riders_joined,
 )
 from grafu.synth.noise.tessellation import Density
 from grafu.synth.noise.untidy import with_anchored_sheets
@@ -51,7 +51,7 @@ class Joined:
     """Still parts in one: all of `ids` become one part with this label; handles vanish into what carries them."""
 
     ids: tuple[str, ...]
-    label: PartLabel | None  # none: the ids are riders, and join what carries them
+    label: PartLabel | None  # none: the ids are attached parts, and join what carries them
     named: bool = True  # otherwise the input says no label for it
 
 
@@ -143,7 +143,7 @@ def apply_untidiness(tidy: Asset, untidiness: Untidiness) -> tuple[Asset, tuple[
 
 
 def as_given(whole: Asset, untidiness: Untidiness, removable: Collection[str]) -> tuple[Asset, tuple[Defect, ...]]:
-    """Returns what a reader would load of the whole: without missing parts, joints and riders, labels as they survive.
+    """Returns what a reader would load of the whole: without missing parts, joints, attachments; labels that survive.
 
     Only `removable` parts go missing, and never all still parts.
     """
@@ -187,7 +187,7 @@ def _has(asset: Asset, part_id: str) -> bool:
 def _recut(asset: Asset, untidiness: Untidiness) -> Asset:
     for k, group in enumerate(untidiness.joined):
         if group.label is None:
-            asset = with_riders_joined(asset, group.ids)
+            asset = with_attached_joined(asset, group.ids)
             continue
         ids = [p.id for p in asset.parts if p.id in group.ids]
         asset = with_joined(asset, ids, group.label, _joined_id(k)) if len(ids) > 1 else asset

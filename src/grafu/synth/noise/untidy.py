@@ -109,7 +109,7 @@ def with_merged(asset: Asset, where: Collection[str], name: str = "body") -> Ass
 
 
 def with_shifted(asset: Asset, part_id: str, offset: Vec3) -> Asset:
-    """Returns the asset with one part, its joint and its riders shifted: floating, or sunk into a neighbour."""
+    """Returns the asset with one part, its joint and its attached parts shifted: floating, or sunk into a neighbour."""
     T = translation(offset)
     moving = {p.id for p in asset.parts if part_id in (p.id, p.rides_on)}
     parts = (

@@ -1,4 +1,4 @@
-"""Pieces of made furniture and the asset that they make up: boards, names, riders, true joints, the centred frame."""
+"""Pieces of made furniture and the asset that they make up: boards, names, attachments, joints, the centred frame."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -33,21 +33,21 @@ class Motion:
 @final
 @dataclass(frozen=True)
 class Piece:
-    """A part to be: `stem` becomes its name, numbered where it repeats; `riders` move with it."""
+    """A part to be: `stem` becomes its name, numbered where it repeats; `attached` move with it."""
 
     label: PartLabel
     stem: str
     surfaces: tuple[Surface, ...]
     motion: Motion | None = None
-    riders: tuple["Piece", ...] = ()  # riders carry no riders of their own
+    attached: tuple["Piece", ...] = ()  # attached parts carry no attached part of their own
 
     def transformed(self, T: Mat4) -> "Piece":
-        """Returns the piece, its motion and its riders mapped by a rigid T."""
+        """Returns the piece, its motion and its attached parts mapped by a rigid T."""
         return replace(
             self,
             surfaces=tuple(surface.transformed(T) for surface in self.surfaces),
             motion=self.motion.transformed(T) if self.motion else None,
-            riders=tuple(rider.transformed(T) for rider in self.riders),
+            attached=tuple(part.transformed(T) for part in self.attached),
         )
 
 
@@ -71,9 +71,9 @@ def _with_carriers(pieces: Sequence[Piece]) -> Iterator[tuple[Piece, int | None]
     position = 0
     for piece in pieces:
         yield piece, None
-        for rider in piece.riders:
-            yield rider, position
-        position += 1 + len(piece.riders)
+        for part in piece.attached:
+            yield part, position
+        position += 1 + len(piece.attached)
 
 
 def _numbered(stems: Sequence[str]) -> list[str]:

@@ -21,15 +21,15 @@ def articulated_of(whole: Asset) -> ArticulatedObject:
         ArticulationError: if an upper limit is negative or not finite.
         ValueError: if two joints name one part, or one names a part that rides on another.
     """
-    movers = {joint.part for joint in whole.joints}
-    riding = sorted(i for i in movers if whole.part(i).rides_on)
-    if len(movers) < len(whole.joints) or riding:
+    moving_bodies = {joint.part for joint in whole.joints}
+    riding = sorted(i for i in moving_bodies if whole.part(i).rides_on)
+    if len(moving_bodies) < len(whole.joints) or riding:
         raise ValueError(f"each joint of `{whole.name}` must have a part of its own that rides on nothing: {riding}")
     root = _free_name("body", {part.id for part in whole.parts})
-    still = [part for part in whole.parts if (part.rides_on or part.id) not in movers]
+    still = [part for part in whole.parts if (part.rides_on or part.id) not in moving_bodies]
     links = [Link(root, tuple(_visual(part) for part in still))]
     clashes, waits = clashes_of(whole), dict[str, tuple[str, ...]]()
-    for joint in sorted(whole.joints, key=lambda j: len(clashes.movers_hit(j.part))):
+    for joint in sorted(whole.joints, key=lambda j: len(clashes.bodies_hit(j.part))):
         waits[joint.part] = _waits_for(joint.part, clashes, waits)
     for joint in whole.joints:
         members = [part for part in whole.parts if joint.part in (part.id, part.rides_on)]
@@ -40,7 +40,7 @@ def articulated_of(whole: Asset) -> ArticulatedObject:
 
 def _waits_for(part: str, clashes: Clashes, waits: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
     """Returns the moving parts that must be open before a part moves, none of which waits for that part itself."""
-    others = [other for other in clashes.movers_hit(part) if part not in all_before(other, waits)]
+    others = [other for other in clashes.bodies_hit(part) if part not in all_before(other, waits)]
     if not others:
         return ()
     still_hit = {clashes.carrier(hit) for hit in clashes.hits(part, others)}

@@ -28,7 +28,7 @@ from grafu.vocabulary import JointType, PartLabel
 FaultKind = Literal[
     "collision",  # a moving part cuts into another on its way, those it waits for being open
     "label",  # a door or drawer without a joint, a joint on something else, or of the wrong type; a label not declared
-    "rider",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
+    "attached part",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
     "limit",  # an opening that no such furniture has, or that does not lead out
     "size",  # a door or drawer too small to be one
     "double",  # two parts with one box
@@ -43,7 +43,7 @@ FaultKind = Literal[
 DOOR_OPENING = (radians(15), radians(185))
 LEAST_SLIDE = 0.03
 LEAST_DOOR, LEAST_DRAWER = 0.08, 0.03  # metres across a door, and in height: a keyboard's tray is hardly higher
-RIDER_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.riders`
+ATTACHED_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.attached`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
 _BESIDE = 0.05  # metres from a drawer within which parts are its case, and the share of its height that they share
 _OUT = 0.3  # share of its way that a drawer must come out of its case: those behind doors begin within it
@@ -52,7 +52,7 @@ _SAME = 1e-4  # metres within which two boxes are one
 BoxRows = Float[np.ndarray, "n 2 3"]
 _EXPLAINS: dict[FaultKind, frozenset[DefectKind]] = {
     "collision": frozenset({"interpenetrating", "ajar", "floating"}),
-    "rider": frozenset({"floating"}),
+    "attached part": frozenset({"floating"}),
     "mount": frozenset({"floating"}),
     "label": frozenset({"mislabelled"}),
     "parts": frozenset({"missing"}),
@@ -75,11 +75,11 @@ def faults_of(
     """Returns all that is wrong with a made model; nothing, where it is sound.
 
     Args:
-        whole: the model with true labels, joints (lower 0) and riders.
+        whole: the model with true labels, joints (lower 0) and attached parts.
         articulated: what `articulated_of` gives for it (none: it is worked out).
         truth: its functional graph (none: the graph is not judged).
     """
-    wrong = (*_label_faults(whole), *_rider_faults(whole))
+    wrong = (*_label_faults(whole), *_attached_faults(whole))
     if wrong:  # nothing below has a meaning
         return wrong
     articulated = articulated or articulated_of(whole)
@@ -126,29 +126,29 @@ def _label_faults(whole: Asset) -> Iterator[Fault]:
             yield Fault("label", (joint.part,), f"a {label} with a {joint.type} joint")
 
 
-def _rider_faults(whole: Asset) -> Iterator[Fault]:
-    movers = {joint.part for joint in whole.joints}
+def _attached_faults(whole: Asset) -> Iterator[Fault]:
+    moving_bodies = {joint.part for joint in whole.joints}
     for part in whole.parts:
         if part.rides_on is None:
             if part.label is PartLabel.HANDLE:
-                yield Fault("rider", (part.id,), "a handle that rides on nothing")
-        elif part.rides_on not in movers or part.id in movers:
-            yield Fault("rider", (part.id,), f"it rides on {part.rides_on}")
+                yield Fault("attached part", (part.id,), "a handle that rides on nothing")
+        elif part.rides_on not in moving_bodies or part.id in moving_bodies:
+            yield Fault("attached part", (part.id,), f"it rides on {part.rides_on}")
         else:
             gap = _gap_to_link(part, whole)
-            if gap > RIDER_REACH:
-                yield Fault("rider", (part.id,), f"{gap:.3f} m off {part.rides_on} and all that rides on it")
+            if gap > ATTACHED_REACH:
+                yield Fault("attached part", (part.id,), f"{gap:.3f} m off {part.rides_on} and all that rides on it")
 
 
-def _gap_to_link(rider: Part, whole: Asset) -> float:
-    """Returns the distance between the boxes of a rider and the nearest part that moves with it."""
-    others = (p for p in whole.parts if p is not rider and rider.rides_on in (p.id, p.rides_on))
-    return min(rider.box.gap(other.box) for other in others)
+def _gap_to_link(part: Part, whole: Asset) -> float:
+    """Returns the distance between the boxes of an attached part and the nearest part that moves with it."""
+    others = (p for p in whole.parts if p is not part and part.rides_on in (p.id, p.rides_on))
+    return min(part.box.gap(other.box) for other in others)
 
 
 def _limit_faults(whole: Asset) -> Iterator[Fault]:
-    movers = {joint.part for joint in whole.joints}
-    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in movers])
+    moving_bodies = {joint.part for joint in whole.joints}
+    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in moving_bodies])
     still = still.reshape(-1, 2, 3)
     for joint in whole.joints:
         if joint.lower != 0.0:

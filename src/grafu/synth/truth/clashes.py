@@ -59,8 +59,8 @@ class Clashes:
             self._swept[key] = self._sweep(self._joints[part], key[1])
         return self._swept[key]
 
-    def movers_hit(self, part: str) -> tuple[str, ...]:
-        """Returns the other moving parts that a moving part runs into, they or their riders, where all are closed."""
+    def bodies_hit(self, part: str) -> tuple[str, ...]:
+        """Returns the other moving parts that a moving part hits, attached parts included, where all are closed."""
         return tuple(sorted({self.carrier(other) for other in self.hits(part)} & self._joints.keys()))
 
     def carrier(self, part: str) -> str:
@@ -132,17 +132,17 @@ class _Pieces:
         """Returns the id of the part that a piece belongs to."""
         return self._ids[self._parts[row]]
 
-    def rows_of(self, mover: str) -> np.ndarray:
+    def rows_of(self, moving: str) -> np.ndarray:
         """Returns the pieces of a moving part and of what rides on it."""
-        return np.flatnonzero(self.carriers == self._numbers[mover])
+        return np.flatnonzero(self.carriers == self._numbers[moving])
 
     def posed(self, poses: dict[str, Mat4]) -> BoxStack:
         """Returns the boxes of all pieces, some moving parts posed."""
         if not poses:
             return self.boxes
         centers, rotations = self.boxes.centers.copy(), self.boxes.rotations.copy()
-        for mover, T in poses.items():
-            rows = self.rows_of(mover)
+        for moving, T in poses.items():
+            rows = self.rows_of(moving)
             there = self.boxes[rows].moved(T)
             centers[rows], rotations[rows] = there.centers, there.rotations
         return BoxStack(centers, self.boxes.halves, rotations)

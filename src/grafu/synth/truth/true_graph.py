@@ -32,7 +32,7 @@ ODD = 0.03  # metres added for odds and ends (runners, brackets): what they are 
 
 
 def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGraph:
-    """Returns the functional graph of an asset with true labels, joints and riders; `points` on each node.
+    """Returns the functional graph of an asset with true labels, joints and attached parts; `points` on each node.
 
     A joint that the codes cannot say (a sliding door) has no edge.
 

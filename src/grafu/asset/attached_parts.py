@@ -15,7 +15,7 @@ REACH = 0.01
 _MOST_POINTS, _MOST_FACES = 300, 3000
 
 
-def with_riders(parts: tuple[Part, ...], reach: float = REACH) -> tuple[Part, ...]:
+def with_attached(parts: tuple[Part, ...], reach: float = REACH) -> tuple[Part, ...]:
     """Returns the parts, each handle that rides on nothing yet set to ride on the nearest door or drawer in reach.
 
     A handle that lies nearer to a static part than to any door or drawer rides on nothing.
