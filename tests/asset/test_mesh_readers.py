@@ -1,5 +1,6 @@
 import subprocess
 import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -206,6 +207,18 @@ def test_open_shells_doubled_faces_and_turned_normals_are_kept(tmp_path):
     rows = [f"v {x} {y} {z}" for x, y, z in open_box.vertices] + [f"f {a} {b} {c}" for a, b, c in faces + 1]
     (folder / "shelf-20.obj").write_text("\n".join(rows))
     assert len(load_asset(folder).part("shelf_20").mesh.faces) == 20
+
+
+@pytest.mark.parametrize("number", ["1e300", "nan", "1e400"])
+def test_numpy_does_not_warn_of_numbers_that_damage_made(tmp_path, number):
+    text = "".join(f"vertex {number} {number} {k}\nvertex {k} 0 -{number}\nvertex 0 {k} 0\n" for k in range(2))
+    facets = f"facet normal 0 0 1\nouter loop\n{text}endloop\nendfacet\n"
+    (tmp_path / "a.stl").write_text(f"solid x\n{facets}endsolid x\n")
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        with pytest.raises(UnreadableAsset, match="finite coordinates"):
+            load_asset(tmp_path / "a.stl")
+    assert not heard
 
 
 def test_what_a_library_logs_of_a_damaged_file_is_not_printed(tmp_path):

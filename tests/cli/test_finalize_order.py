@@ -5,18 +5,22 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from grafu.cli.finalize import finalize
 from grafu.cli.main import main
 from grafu.export.blend.transport import unpacked
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.realization.plan import JointChoice
+from spoiled_files import DAMAGED, SPOILS
 
 SAMPLE = Path(__file__).parents[2] / "samples" / "chest.glb"
 SETTINGS = Settings(motion=MotionSource.RULE).with_joint("lid", JointChoice(count=2))
 
 
-def finalized(folder: Path, **changes) -> tuple[int, list[str]]:
-    order = {
+def order_in(folder: Path) -> dict[str, object]:
+    return {
         "source": str(SAMPLE),
         "settings": str(folder / "settings.json"),
         "out": str(folder / "out"),
@@ -24,8 +28,11 @@ def finalized(folder: Path, **changes) -> tuple[int, list[str]]:
         "overwrite": False,
         "object": str(folder / "object.packed"),
     }
+
+
+def finalized(folder: Path, **changes) -> tuple[int, list[str]]:
     (folder / "settings.json").write_text(json.dumps(SETTINGS.to_json()))
-    (folder / "order.json").write_text(json.dumps(order | changes))
+    (folder / "order.json").write_text(json.dumps(order_in(folder) | changes))
     command = [sys.executable, "-m", "grafu.cli.finalize", str(folder / "order.json")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
     return done.returncode, done.stdout.splitlines()
@@ -43,6 +50,18 @@ def test_it_writes_what_the_command_writes_and_hands_the_object_over(tmp_path):
     assert (ours / "model.glb").read_bytes() == (commands / "model.glb").read_bytes()
     made = unpacked((tmp_path / "object.packed").read_bytes())
     assert [joint.child for joint in made.moving_joints] == ["lid"]
+
+
+@pytest.mark.parametrize("name", ["order.json", "settings.json"])
+@pytest.mark.parametrize("what", [*SPOILS, *DAMAGED])
+def test_an_order_or_settings_that_cannot_be_read_are_one_line(tmp_path, name, what):
+    (tmp_path / "settings.json").write_text(json.dumps(SETTINGS.to_json()))
+    (tmp_path / "order.json").write_text(json.dumps(order_in(tmp_path)))
+    SPOILS[what](tmp_path / name) if what in SPOILS else (tmp_path / name).write_bytes(DAMAGED[what])
+    why = finalize(tmp_path / "order.json")
+    assert what in why if what in SPOILS else "grafu" in why
+    assert "\n" not in why
+    assert not (tmp_path / "out").exists()
 
 
 def test_what_is_wrong_is_one_line_and_nothing_is_written(tmp_path):

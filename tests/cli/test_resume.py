@@ -1,18 +1,22 @@
 """`functionalize --resume`: what is done stays and is shown; what was made otherwise is refused."""
 
 import shutil
+from base64 import b64encode
+from io import BytesIO
 from pathlib import Path
 
 import pytest
 from obj_inputs import write_cabinet
+from PIL import Image
 
 from folders import contents
 from grafu.cli.earlier import finished_in
-from grafu.cli.job import Failed, Job, JobOptions, Succeeded, run_job
+from grafu.cli.job import Failed, Job, JobOptions, Succeeded, run_job, small_picture_in
 from grafu.cli.main import main
 from grafu.cli.run_page import write_index
 from grafu.export.formats import FORMATS
 from grafu.export.marker import Marker, read_marker
+from spoiled_files import DAMAGED, SPOILS
 
 
 @pytest.fixture(scope="module")
@@ -143,6 +147,48 @@ def test_a_run_that_goes_on_shows_all(done: Job, tmp_path: Path, capsys: pytest.
     assert all(f'href="{name}/report.html"' in page for name in ("cabinet", "second", "third"))
     assert "mine" not in page
     assert page.count("<img") == 3
+
+
+@pytest.fixture
+def copied(done: Job, tmp_path: Path) -> Job:
+    shutil.copytree(done.folder, tmp_path / "out" / "cabinet")
+    return Job(done.input, done.name, JobOptions(tmp_path / "out", formats=("urdf",), resume=True))
+
+
+@pytest.mark.parametrize("name", ["report.json", "settings.json", ".grafu.json"])
+@pytest.mark.parametrize("what", [*SPOILS, *DAMAGED])
+def test_damaged_results_are_refused_or_made_again(copied: Job, name: str, what: str) -> None:
+    path = copied.folder / name
+    SPOILS[what](path) if what in SPOILS else path.write_bytes(DAMAGED[what])
+    result = run_job(copied)
+
+    assert isinstance(result, Failed)
+    assert result.users_fault
+    assert "choose another --out" in result.why or "move `" in result.why
+
+
+@pytest.mark.parametrize("what", [*SPOILS, "no picture", "a bomb"])
+def test_a_page_that_holds_no_picture_costs_no_model(copied: Job, what: str) -> None:
+    path = copied.folder / "report.html"
+    page = '<img src="data:image/webp;base64,{}" alt="x: open">'
+    if what in SPOILS:
+        SPOILS[what](path)
+    else:
+        bomb = BytesIO()
+        Image.new("L", (16_000, 12_000)).save(bomb, "WEBP", quality=1, method=0)
+        path.write_text(page.format("AAA" if what == "no picture" else b64encode(bomb.getvalue()).decode()))
+
+    assert small_picture_in(copied.folder) == b""
+    assert [name for name, _ in finished_in(copied.options.out)] == ["cabinet"]
+
+
+@pytest.mark.parametrize("what", SPOILS)
+def test_what_is_no_page_in_its_place_stays(done: Job, tmp_path: Path, what: str) -> None:
+    path = tmp_path / "index.html"
+    path.write_text("mine")
+    SPOILS[what](path)
+
+    assert write_index([Succeeded(done, r, 1.0) for _, r in finished_in(done.options.out)], tmp_path) is None
 
 
 def test_a_page_that_is_not_ours_stays(done: Job, tmp_path: Path) -> None:

@@ -37,8 +37,8 @@ def test_options_that_settings_hold_are_refused_beside_them(tmp_path, capsys, op
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("{", "must be a JSON file"),
-        ("[" * 100_000, "must be a JSON file"),
+        ("{", "is not JSON: expected settings of the form grafu.settings/1"),
+        ("[" * 100_000, "JSON nested too deeply"),
         ("[]", "must be a JSON object"),
     ],
     ids=["half", "deep", "a list"],

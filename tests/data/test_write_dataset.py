@@ -12,6 +12,7 @@ from grafu.data.stream import stream_shards
 from grafu.data.write import models_written, write_dataset
 from grafu.data.write_plan import MANIFEST, DatasetPlan
 from grafu.errors import ExportError, UnreadableAsset
+from spoiled_files import DAMAGED, SPOILS
 
 PLAN = DatasetPlan(seed=2, count=14, points=16, models_per_shard=4)
 
@@ -91,6 +92,16 @@ def test_another_generator_is_refused(tmp_path: Path, monkeypatch: pytest.Monkey
         list(write_dataset(PLAN, tmp_path))
 
 
+@pytest.mark.parametrize("what", [*SPOILS, *DAMAGED])
+def test_a_manifest_that_cannot_be_read_is_refused_in_one_line(tmp_path: Path, what: str) -> None:
+    list(write_dataset(DatasetPlan(2, 1, 16, 4), tmp_path / "set"))
+    path = tmp_path / "set" / MANIFEST
+    SPOILS[what](path) if what in SPOILS else path.write_bytes(DAMAGED[what])
+    with pytest.raises(ExportError, match=r"choose another --out|holds") as error:
+        list(write_dataset(PLAN, tmp_path / "set"))
+    assert "\n" not in str(error.value)
+
+
 def test_overwrite_starts_again(whole: dict[str, bytes], tmp_path: Path) -> None:
     list(write_dataset(DatasetPlan(9, 17, 16, 4), tmp_path))
     assert all(s.fresh for s in write_dataset(PLAN, tmp_path, overwrite=True))
@@ -110,7 +121,7 @@ def test_a_damaged_data_set_is_refused(tmp_path: Path) -> None:
     shard.write_bytes(shard.read_bytes()[:500])
     with pytest.raises(UnreadableAsset, match=r"shard_000001\.npz` is no whole file"):
         list(write_dataset(PLAN, tmp_path))
-    for text, said in (("{}", "must be of the form"), ("no json", "cannot be read")):
+    for text, said in (("{}", "must be of the form"), ("no json", "is not JSON")):
         (tmp_path / MANIFEST).write_text(text)
         with pytest.raises(ExportError, match=said):
             list(write_dataset(PLAN, tmp_path))

@@ -22,6 +22,7 @@ from grafu.training.source import RESERVED_SEEDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import hssd_model
 from small_assets import AS_IT_IS, Y_UP, obj_text, write_glb, write_obj_folder, write_pnm, write_urdf, yaw
+from spoiled_files import SPOILS
 
 SEED = 31
 COUNT = 3
@@ -178,6 +179,14 @@ def test_the_category_of_a_model_is_what_its_data_set_says(tmp_path):
     hssd_model(KINDS["overlay pair"]()).save(tmp_path, "3")
     found = [category_of(ref) for ref in find_models(tmp_path)]
     assert found == ["StorageFurniture", "partnet-mobility", "hssd"]
+
+
+@pytest.mark.parametrize("what", SPOILS)
+def test_a_category_that_cannot_be_read_is_none(tmp_path, what):
+    write_pnm(tmp_path / "1")
+    (tmp_path / "1" / "meta.json").write_text(json.dumps({"model_cat": "StorageFurniture"}))
+    SPOILS[what](tmp_path / "1" / "meta.json")
+    assert category_of(ModelRef("1", "partnet-mobility", tmp_path / "1")) == "partnet-mobility"
 
 
 def test_the_truth_of_a_folder_with_joints_is_its_own(tmp_path):

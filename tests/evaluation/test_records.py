@@ -11,7 +11,9 @@ from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.methods import Method
 from grafu.evaluation.perform import perform
 from grafu.evaluation.records import NAME, MadeFacts, Row, append_rows, begin_rows, done, read_rows
-from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, TwinTask, key_of
+from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, TwinTask, _state_of, key_of
+from small_assets import write_pnm
+from spoiled_files import SPOILS
 
 
 def row(key: str, value: float = 1.0, error: str = "") -> Row:
@@ -142,3 +144,35 @@ def test_rows_of_others_stay(tmp_path: Path, anew: bool) -> None:
     with pytest.raises(ExportError, match="no rows of grafu's"):
         begin_rows(tmp_path / NAME, anew)
     assert (tmp_path / NAME).read_text() == '{"city": "Paris"}\n'
+
+
+@pytest.mark.parametrize("what", SPOILS)
+def test_rows_that_are_no_plain_file_are_refused_in_one_line(tmp_path: Path, what: str) -> None:
+    path = tmp_path / "run" / NAME
+    path.parent.mkdir()
+    append_rows(path, [row("a")])
+    SPOILS[what](path)
+    for read in (read_rows, begin_rows):
+        with pytest.raises(ExportError, match=f"{what}.*choose another --out"):
+            read(path)
+
+
+def test_no_row_goes_where_a_link_leads(tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / NAME).symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(ExportError, match="link that leads out"):
+        begin_rows(tmp_path / "run" / NAME)
+
+
+@pytest.mark.parametrize("what", SPOILS)
+def test_a_key_opens_nothing_that_no_reader_would(tmp_path: Path, what: str) -> None:
+    model = write_pnm(tmp_path / "model")
+    path = model / "mobility_v2.json"
+    facts = [ModelTask(ModelRef("m", "partnet-mobility", model)).facts()]
+    SPOILS[what](path)
+    for text in ("one", "two") if path.is_symlink() else ("",):
+        if text:
+            path.write_text(text)  # where the link leads: of that nothing is read
+        _state_of.cache_clear()
+        facts.append(ModelTask(ModelRef("m", "partnet-mobility", model)).facts())
+    assert facts[0] != facts[1] == facts[-1]

@@ -20,7 +20,13 @@ from fuzz.case import Case, Reader
 from fuzz.entries import Odd
 from grafu.errors import OptionError, UnreadableAsset
 
-FILES = {"model.obj": b"v 0 0 0\n", "out": Odd("link", "../outside"), "pipe": Odd("fifo")}
+NAMED = "named.obj"
+FILES = {
+    "model.obj": b"v 0 0 0\n",
+    "out": Odd("link", "../outside"),
+    "pipe": Odd("fifo"),
+    NAMED: Odd("link", "../outside/secret.obj"),
+}
 Does = Callable[[Path, Path], Any]
 
 
@@ -105,6 +111,7 @@ COMMAND: dict[str, Does] = {
     "says 'Traceback'": lambda entry, out: _end(0, "Traceback (most recent call last):\n"),
     "says 'Warning:'": lambda entry, out: __import__("warnings").warn("odd", stacklevel=1) or 0,
     "says 'out of memory'": lambda entry, out: _end(2, "grafu: out of memory\n"),
+    "opens outside the input: ": lambda entry, out: len((entry.parent / "out" / "secret.mtl").read_bytes()),
     "prints control characters": lambda entry, out: _end(0, "", "\x1b[31mred\n"),
     "raises UnicodeEncodeError": lambda entry, out: _end(0, "", "\ud800"),
     "changes `out`": lambda entry, out: (out / "half").write_bytes(b"x") and _end(2, "grafu: no\n"),
@@ -118,6 +125,7 @@ INNOCENT: dict[str, Does] = {
 INNOCENT_COMMANDS: dict[str, Does] = {
     "done": lambda entry, out: (out / "report.json").write_text("[1]") and _end(0, "", "all is well\n"),
     "refused": lambda entry, out: _end(2, "grafu: give another\n"),
+    "done by a link": lambda entry, out: _end(0, "", (entry.parent / NAMED).read_text()),
 }
 
 
@@ -128,7 +136,7 @@ def _reader(does: Does) -> Reader:
 def _command(does: Does) -> Reader:
     def arguments(entry: Path, out: Path, chance: Random) -> list[str]:
         patch("grafu.cli.main.main", lambda _: does(entry, out)).start()
-        return ["x"]
+        return ["x", str(entry.with_name(NAMED))]
 
     return Reader(lambda entry, _: None, arguments)
 

@@ -27,7 +27,7 @@ def test_every_rule_that_is_broken_is_told_and_nothing_else(limits):
     answers = run_cases(Plan(0, tuple(planted), jobs=2, limits=limits, cases="fuzz.planted"))
     for answer, (name, *_) in zip(answers, (PLANTED[index] for index in planted), strict=True):
         if name.startswith("innocent: "):
-            assert (answer.outcome, answer.broken) == (name.removeprefix("innocent: "), ()), name
+            assert (answer.outcome, answer.broken) == (name.removeprefix("innocent: ").split()[0], ()), name
         elif name != NATIVE or sys.platform.startswith("linux"):
             assert answer.outcome == "broken", name
             assert any(name in why for why in answer.broken), (name, answer.broken)

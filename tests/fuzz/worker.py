@@ -99,7 +99,7 @@ def _run(case: Any, reader: Any, limits: Limits, place: Path, supervised: bool) 
     arguments = reader.arguments(entry, out, case.chance()) if case.by_command else []
     before = {name: rules.listing(place / name) for name in ("input", "out", "tmp", "cwd")}
     canary = Canary(place / "outside")
-    meant = (Path(os.path.realpath(entry)),) if entry.is_symlink() else ()  # what the user names may lead anywhere
+    meant = _meant([str(entry), *arguments])
     held = guard.Guard((place / "input", place / "cwd", *meant), (out, place / "tmp"))
     _reset_peak()
     started = _processor()
@@ -122,6 +122,11 @@ def _run(case: Any, reader: Any, limits: Limits, place: Path, supervised: bool) 
     return Answer(
         case.index, str(case), case.start, "broken" if broken else outcome, tuple(broken), seconds, peak, said[-2000:]
     )
+
+
+def _meant(named: list[str]) -> list[Path]:
+    """Returns where links lead that the user names: these may lead anywhere."""
+    return [Path(os.path.realpath(name)) for name in named if os.path.islink(name)]
 
 
 def _by_library(reader: Any, entry: Path, chance: Any) -> tuple[str, str, list[str]]:

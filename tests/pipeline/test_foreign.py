@@ -169,3 +169,8 @@ def test_limits_hold_for_a_predicted_graph_too(tmp_path: Path) -> None:
     path.write_text('{"nodes": {"a": {"slot": 0}, "b": {"slot": 1}}, "edges": []}')
     with pytest.raises(AssetTooLarge, match="--limit values=7"):
         read_foreign(path, limits=Limits().with_limit("values", 5))
+
+
+def test_a_robot_of_more_parts_than_are_read_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(AssetTooLarge, match="parts: at most 3 are read"):
+        read_foreign(write_urdf(tmp_path / "robot"), limits=Limits().with_limit("parts", 3))

@@ -8,9 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from grafu.errors import FunctionalizationError
 from grafu.export.blend.transport import unpacked
+from grafu.pipeline import interactive
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import SCHEMA
+from spoiled_files import DAMAGED, SPOILS
 
 SAMPLE = Path(__file__).parents[2] / "samples" / "sideboard.glb"
 
@@ -43,3 +46,13 @@ def test_what_is_wrong_is_said_in_one_line_and_nothing_is_written(tmp_path, sett
     assert code == 2
     assert said[-1].startswith("error ")
     assert not (tmp_path / "object.packed").exists()
+
+
+@pytest.mark.parametrize("what", [*SPOILS, *DAMAGED])
+def test_settings_that_cannot_be_read_are_one_line(tmp_path, what):
+    path = tmp_path / "settings.json"
+    path.write_text("{}")
+    SPOILS[what](path) if what in SPOILS else path.write_bytes(DAMAGED[what])
+    with pytest.raises(FunctionalizationError, match=what if what in SPOILS else "settings") as error:
+        interactive.run(SAMPLE, path, tmp_path)
+    assert "\n" not in str(error.value)

@@ -1,6 +1,7 @@
 """Folders of results read back, whole and broken: every refusal is one line that says what to do."""
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.result_folder import read_result
 from grafu.templates.gallery import builtin_gallery
 from small_assets import write_glb
+from spoiled_files import DAMAGED, SPOILS
 
 
 @pytest.fixture(scope="module")
@@ -117,7 +119,7 @@ def swap_glb(folder):
         (lambda f: (f / "report.json").write_bytes(b"\xff\xfe"), "is no report of grafu"),
         (break_glb, "model.glb"),
         (swap_glb, "of different runs"),
-        (lambda f: (f / "settings.json").write_text("["), "is no settings file"),
+        (lambda f: (f / "settings.json").write_text("["), "expected settings of the form grafu.settings/1"),
         (lambda f: edit(f / "settings.json", schema="grafu.settings/9"), "grafu.settings/1"),
         (lambda f: edit(f / "settings.json", hinges="x"), "there is no setting `hinges`"),
     ],
@@ -128,6 +130,31 @@ def test_what_is_broken_is_one_line(result, spoil, words):
         read_result(result)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["report.json", "settings.json", "model.glb"])
+@pytest.mark.parametrize("words", SPOILS)
+def test_what_is_no_plain_file_of_the_folder_is_not_opened(result, name, words):
+    SPOILS[words](result / name)
+    with pytest.raises(FunctionalizationError) as caught:
+        read_result(result)
+    said = {"model.glb": f"{words}|has no model.glb|outside|MiB", "report.json": f"{words}|has no report.json"}
+    assert re.search(said.get(name, words), str(caught.value))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["report.json", "settings.json"])
+@pytest.mark.parametrize("held", DAMAGED)
+def test_what_is_damaged_is_one_line(result, name, held):
+    (result / name).write_bytes(DAMAGED[held])
+    with pytest.raises(FunctionalizationError, match="grafu") as caught:
+        read_result(result)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_result_in_a_linked_folder_is_read(result, tmp_path):
+    (tmp_path / "link").symlink_to(result)
+    assert read_result(tmp_path / "link").report.joints
 
 
 def test_a_path_that_is_no_folder_is_one_line(result):

@@ -15,6 +15,7 @@ from grafu.training import ablation_run
 from grafu.training.ablation import Experiment
 from grafu.training.ablation_run import AblationRun, begin_ablation, do_run, do_runs, known_figures
 from grafu.training.checkpoint import load_best
+from spoiled_files import DAMAGED, SPOILS
 
 
 def a_run(folder: Path, name: str = "full", steps: int = 2, seed: int = 1) -> AblationRun:
@@ -51,12 +52,20 @@ def test_a_folder_with_another_run_is_refused(tmp_path: Path) -> None:
             known_figures(other)
 
 
-@pytest.mark.parametrize(("name", "text"), [("figures.json", "{}"), ("figures.json", "{"), ("config.json", "")])
-def test_damaged_files_are_refused(tmp_path: Path, name: str, text: str) -> None:
+def test_damaged_files_are_refused(tmp_path: Path) -> None:
     run = a_run(tmp_path)
     list(do_run(run))
-    (run.folder / name).write_text(text)
-    with pytest.raises(UnreadableAsset, match="remove"):
+    figures, config = run.folder / "figures.json", run.folder / "config.json"
+    no_numbers = [b'{"schema": "grafu.ablation/1"}', b'{"schema": "grafu.ablation/1", "figures": {"score": "x"}}']
+    for path, texts in ((figures, [b"{}", *no_numbers, *DAMAGED.values()]), (config, [*DAMAGED.values()])):
+        whole = path.read_bytes()
+        for text in texts:
+            path.write_bytes(text)
+            with pytest.raises(UnreadableAsset, match=r"remove|config"):
+                known_figures(run)
+        path.write_bytes(whole)
+    SPOILS["link that leads out"](figures)
+    with pytest.raises(UnreadableAsset, match="link that leads out"):
         known_figures(run)
 
 

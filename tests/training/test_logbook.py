@@ -2,7 +2,11 @@
 
 from pathlib import Path
 
+import pytest
+
+from grafu.errors import AssetError
 from grafu.training.logbook import STEPS, VALIDATION, Logbook
+from spoiled_files import SPOILS
 
 
 def lines(path: Path) -> list[str]:
@@ -30,3 +34,18 @@ def test_a_new_run_begins_a_new_log(tmp_path: Path) -> None:
     fresh.step(10, {"other": 2.0})
     fresh.close()
     assert lines(tmp_path / STEPS) == ["step,other", "10,2"]
+
+
+@pytest.mark.parametrize("what", SPOILS)
+def test_a_log_that_is_no_plain_file_is_refused(tmp_path: Path, what: str) -> None:
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / STEPS).write_text("step,total\n10,1\n")
+    SPOILS[what](tmp_path / "run" / STEPS)
+    with pytest.raises(AssetError, match=what):
+        Logbook(tmp_path / "run", 10)
+
+
+def test_a_log_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    (tmp_path / STEPS).write_bytes(b"step\n\xff\n")
+    with pytest.raises(AssetError, match=r"train.csv is damaged .*; remove it"):
+        Logbook(tmp_path, 10)

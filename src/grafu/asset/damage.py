@@ -6,12 +6,14 @@ It stands around the library's call alone. Around our own code it would hide our
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import numpy as np
+
 from grafu.errors import UnreadableAsset
 
 
 @contextmanager
 def library_call(where: object, expected: str) -> Iterator[None]:
-    """Turns any exception of a library inside the block into one clear line.
+    """Turns any exception of a library inside the block into one clear line; NumPy warns of no number in it.
 
     Args:
         where: the file, for the message.
@@ -21,7 +23,8 @@ def library_call(where: object, expected: str) -> Iterator[None]:
         UnreadableAsset: where the library raised anything but an interruption or want of memory.
     """
     try:
-        yield
+        with np.errstate(all="ignore"):  # numbers that damage made huge, or none
+            yield
     except MemoryError:
         raise
     except Exception:

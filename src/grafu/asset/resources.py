@@ -85,7 +85,7 @@ class ModelFiles:
         except TooManyBytes as error:
             raise self._too_large(path, error.size) from None
         except (OSError, ValueError) as error:
-            raise UnreadableAsset(f"{path} cannot be read ({_reason(error)}): expected a readable file") from None
+            raise UnreadableAsset(f"{path} cannot be read ({reason_of(error)}): expected a readable file") from None
         self.tally.add(path, bytes=len(data))
         return data
 
@@ -143,7 +143,8 @@ def _is_dir(path: Path) -> bool:
         return False
 
 
-def _reason(error: OSError | ValueError) -> str:
+def reason_of(error: OSError | ValueError) -> str:
+    """Returns in words why a file could not be opened."""
     if isinstance(error, OSError):
         return error.strerror or str(error)
     return "its name is one that no file can have"

@@ -1,21 +1,18 @@
 """What earlier runs wrote: for a run that goes on from there, and for the page of all models. It changes nothing."""
 
-import json
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
-from pydantic import ValidationError
-
-from grafu.errors import ExportError
+from grafu.errors import AssetError, ExportError, OptionError
 from grafu.export.files import require_free
 from grafu.export.marker import Marker, read_marker
 from grafu.export.whole_file import is_hidden_name
 from grafu.pipeline.report_schema import Report
-from grafu.pipeline.settings import Settings, settings_from_json
+from grafu.pipeline.result_folder import REPORT, read_report, read_settings
+from grafu.pipeline.settings import Settings
 
-REPORT = "report.json"
 _INSTEAD = "choose another --out, or give --overwrite"
 
 
@@ -75,14 +72,16 @@ def _is_finished(folder: Path) -> bool:
 
 def _report_in(folder: Path) -> Report | None:
     try:
-        return Report.model_validate_json((folder / REPORT).read_bytes())
-    except (OSError, ValidationError):
+        return read_report(folder)
+    except AssetError:
         return None
 
 
 def _settings_in(folder: Path) -> Settings | None:
-    path = folder / "settings.json"
-    return settings_from_json(json.loads(path.read_bytes())) if path.is_file() else None
+    try:
+        return read_settings(folder)
+    except (AssetError, OptionError) as error:
+        raise ExportError(f"{error}: {_INSTEAD}") from None
 
 
 def _for_any_model(settings: Settings | None) -> dict[str, Any]:

@@ -8,44 +8,74 @@ code is 0, or 2.
 
 import json
 import sys
+from dataclasses import dataclass
 from pathlib import Path
+from typing import final
 
+from pydantic import TypeAdapter
+
+from grafu.asset.own_files import read_own
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
 from grafu.cli.messages import one_line
-from grafu.errors import FunctionalizationError
+from grafu.errors import FunctionalizationError, OptionError
 from grafu.export.blend.transport import packed
 from grafu.export.formats import exporter_for
 from grafu.export.output_names import output_name, why_not_apart
 from grafu.pipeline.motion_source import MotionChoice
-from grafu.pipeline.settings import settings_from_json
+from grafu.pipeline.settings import settings_from_bytes
 from grafu.visible import visible
+
+
+@final
+@dataclass(frozen=True)
+class Order:
+    """What the file holds."""
+
+    source: Path
+    settings: Path
+    out: Path
+    formats: tuple[str, ...]
+    object: Path
+    overwrite: bool = False
 
 
 def finalize(order_file: Path) -> str:
     """Does what an order says; returns why it could not be done, empty where it was."""
-    order = json.loads(order_file.read_text(encoding="utf-8"))
     try:
-        settings = settings_from_json(json.loads(Path(order["settings"]).read_text(encoding="utf-8")))
-        for name in order["formats"]:
+        order = _order(order_file)
+        settings = settings_from_bytes(read_own(order.settings, "settings of grafu"), order.settings)
+        for name in order.formats:
             exporter_for(name)
-        source = Path(order["source"])
-        name = output_name(source)
+        name = output_name(order.source)
     except FunctionalizationError as error:
         return one_line(str(error))
     options = JobOptions(
-        out=Path(order["out"]),
+        out=order.out,
         motion=MotionChoice(settings.motion),
         load=settings.reading.options,
-        formats=tuple(order["formats"]),
+        formats=order.formats,
         settings=settings,
-        overwrite=order["overwrite"],
+        overwrite=order.overwrite,
     )
-    job, target = Job(source, name, options), Path(order["object"])
-    if why := why_not_apart(job.folder, [source]):
+    job = Job(order.source, name, options)
+    if why := why_not_apart(job.folder, [order.source]):
         return why
-    listener = Listener(lambda stage: _say(f"stage {stage}"), lambda made: _write(target, packed(made)))
+    listener = Listener(lambda stage: _say(f"stage {stage}"), lambda made: _write(order.object, packed(made)))
     result = run_job(job, listener)
     return result.why if isinstance(result, Failed) else ""
+
+
+def _order(path: Path) -> Order:
+    """Returns what a file orders.
+
+    Raises:
+        AssetError: if it cannot be read.
+        OptionError: if it is damaged, or orders something else.
+    """
+    try:
+        return TypeAdapter(Order).validate_python(json.loads(read_own(path, "an order")))
+    except (ValueError, RecursionError) as error:
+        raise OptionError(f"{path} is no order of grafu: {' '.join(str(error).split())}") from None
 
 
 def _write(path: Path, data: bytes) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, final
 from grafu.asset.options import LoadOptions
 from grafu.cli.limit_options import too_large
 from grafu.cli.messages import internal_fault, one_line
-from grafu.errors import ExportError, FunctionalizationError
+from grafu.errors import AssetError, ExportError, FunctionalizationError
 from grafu.pipeline.motion_source import MotionChoice, MotionSource
 from grafu.processes.limits import Limits
 from grafu.templates.available import open_gallery
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
 
 MODEL_PAGE = "report.html"
+_MOST_PAGE = 256 * 2**20  # bytes of a page that a picture is taken from
 
 
 @final
@@ -159,11 +160,12 @@ def _resumed(job: Job) -> Job | Succeeded:
 
 def small_picture_in(folder: Path) -> bytes:
     """Returns a small picture from the page of a model that an earlier run made; empty where there is none."""
+    from grafu.asset.own_files import read_own
     from grafu.viewer.pictures import thumbnail_of_page
 
     try:
-        return thumbnail_of_page((folder / MODEL_PAGE).read_text("utf-8"))
-    except (OSError, ValueError):  # no page, or a damaged one
+        return thumbnail_of_page(read_own(folder / MODEL_PAGE, "a page of grafu", _MOST_PAGE))
+    except AssetError:  # no page, or a damaged one
         return b""
 
 

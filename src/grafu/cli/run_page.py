@@ -38,9 +38,15 @@ def write_index(results: Sequence[JobResult], out: Path) -> Path | None:
 
 def is_free_for_page(path: Path) -> bool:
     """Whether a page may be written there: nothing is there, or a page of ours."""
-    from grafu.viewer.shell import is_page_of_ours
+    from grafu.asset.regular_files import read_head
+    from grafu.viewer.shell import HEAD_BYTES, is_page_of_ours
 
-    return not os.path.lexists(path) or (path.is_file() and is_page_of_ours(path.read_bytes()))
+    if not os.path.lexists(path):
+        return True
+    try:
+        return not path.is_symlink() and is_page_of_ours(read_head(path, HEAD_BYTES))
+    except OSError:
+        return False
 
 
 def _entries(results: Sequence[JobResult], out: Path) -> "list[RunEntry]":

@@ -1,7 +1,6 @@
 """The option `--settings`: a file of settings instead of the options that say the same. It runs nothing."""
 
 import argparse
-import json
 from typing import TYPE_CHECKING
 
 from grafu.asset.options import Limits
@@ -23,14 +22,14 @@ def read_settings(options: argparse.Namespace) -> "Settings":
         OptionError: if the file cannot be read or is wrong, or another option says what it says.
     """
     from grafu.asset.resources import read_bytes
-    from grafu.pipeline.settings import settings_from_json
+    from grafu.pipeline.settings import settings_from_bytes
 
     _require_alone(options)
     try:
-        data = json.loads(read_bytes(options.settings, _LIMITS))
-    except (AssetError, ValueError, RecursionError) as error:
-        raise OptionError(f"`--settings` must be a JSON file: {options.settings}: {error}") from None
-    return settings_from_json(data)
+        data = read_bytes(options.settings, _LIMITS)
+    except AssetError as error:
+        raise OptionError(f"`--settings` must be a JSON file: {error}") from None
+    return settings_from_bytes(data, options.settings)
 
 
 def _require_alone(options: argparse.Namespace) -> None:

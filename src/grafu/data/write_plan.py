@@ -14,13 +14,14 @@ from typing import Any, Literal, final
 
 import numpy as np
 
+from grafu.asset.own_files import read_own_json
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
 from grafu.data.furfun.split import SPLIT_NAMES
 from grafu.data.shards import MODELS_PER_SHARD
 from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
 from grafu.data.shards_record import record_of
 from grafu.data.stream import shard_paths
-from grafu.errors import ExportError, UnreadableAsset
+from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import write_whole
 from grafu.graph.arrays import LABELS
 from grafu.synth.generate import make_specimen
@@ -187,10 +188,7 @@ def _written(folder: Path) -> list[Path]:
 
 
 def _read_manifest(folder: Path) -> dict[str, Any]:
-    try:
-        stated = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise UnreadableAsset(f"`{folder / MANIFEST}` cannot be read ({error})") from error
+    stated = read_own_json(folder / MANIFEST, f"a data set of grafu, of the form `{SCHEMA}`")
     if not isinstance(stated, dict) or stated.get("schema") != SCHEMA or not isinstance(stated.get("seed"), int):
         raise UnreadableAsset(f"`{folder / MANIFEST}` must be of the form `{SCHEMA}`")
     return stated
@@ -200,7 +198,7 @@ def _stated(folder: Path) -> dict[str, Any]:
     """Returns the manifest of the data set that is there; what has none of ours is none of ours, and is kept."""
     try:
         return _read_manifest(folder)
-    except UnreadableAsset as error:
+    except AssetError as error:
         raise ExportError(f"{error}: choose another --out") from error
 
 

@@ -4,7 +4,6 @@ A dataset is a folder (PartNet-Mobility, HSSD with S2O annotations, URDF, GLB, m
 mixture of them), one model, or `synth:SEED:COUNT`: furniture that is made on the spot.
 """
 
-import json
 from collections import Counter
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -13,9 +12,11 @@ from pathlib import Path
 from typing import Final, Literal, final, get_args
 
 from grafu.asset.hssd import is_hssd
+from grafu.asset.json_files import read_json
 from grafu.asset.load import detect, load_asset
 from grafu.asset.part import Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility
+from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.layout import LayoutKind
 from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.evaluation.dataset_release import is_release, read_release_model, release_models
@@ -201,8 +202,8 @@ def _made_asset(specimen: Specimen) -> Asset:
 
 def _stated_category(folder: Path) -> str:
     try:
-        meta = json.loads((folder / "meta.json").read_bytes())
-    except (OSError, ValueError, RecursionError):
+        meta = read_json(folder / "meta.json", ModelFiles(folder), "the facts of a PartNet-Mobility model")
+    except AssetError:
         return ""
     return str(meta.get("model_cat") or "") if isinstance(meta, dict) else ""
 

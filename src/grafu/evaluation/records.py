@@ -4,13 +4,15 @@ Lengths are metres, angles radians, points and directions in the object frame. A
 the last of a key counts.
 """
 
+import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
-from grafu.errors import ExportError
+from grafu.asset.own_files import read_own
+from grafu.errors import AssetError, ExportError
 from grafu.evaluation.completeness import Completeness
 from grafu.evaluation.measures import PartMeasure
 from grafu.evaluation.moving_parts import MovingPart
@@ -185,6 +187,7 @@ def _vector(values: Vec3) -> Vector:
 
 
 NAME = "rows.jsonl"
+_MOST_BYTES = 512 * 2**20
 _BEGINNING = b'{"key":'  # of every line, whatever the version
 
 
@@ -194,12 +197,8 @@ def read_rows(path: Path) -> dict[str, Row]:
     Raises:
         ExportError: if there is a file that cannot be read.
     """
-    try:
-        lines = path.read_bytes().split(b"\n") if path.exists() else []
-    except OSError as error:
-        raise ExportError(f"`{path}` cannot be read ({error.strerror}): choose another --out") from None
     found: dict[str, Row] = {}
-    for line in lines:
+    for line in _lines(path):
         try:
             row = Row.model_validate_json(line)
         except ValidationError:
@@ -216,7 +215,7 @@ def begin_rows(path: Path, anew: bool = False) -> dict[str, Row]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        held = path.read_bytes().split(b"\n") if path.exists() else []
+        held = _lines(path)
         if any(held) and not any(line.startswith(_BEGINNING[: len(line)]) for line in held if line):
             raise ExportError(f"`{path}` holds no rows of grafu's, so it is kept: choose another --out")
         if anew:
@@ -224,6 +223,13 @@ def begin_rows(path: Path, anew: bool = False) -> dict[str, Row]:
     except OSError as error:
         raise ExportError(f"cannot write into `{path.parent}` ({error.strerror}): choose another --out") from None
     return read_rows(path)
+
+
+def _lines(path: Path) -> list[bytes]:
+    try:
+        return read_own(path, "rows of grafu", _MOST_BYTES).split(b"\n") if os.path.lexists(path) else []
+    except AssetError as error:
+        raise ExportError(f"{error}: choose another --out") from None
 
 
 def append_rows(path: Path, rows: Iterable[Row]) -> None:

@@ -9,7 +9,10 @@ from hashlib import sha256
 from pathlib import Path
 from typing import final
 
+from grafu.asset.options import Limits
+from grafu.asset.resources import ModelFiles
 from grafu.completion.session import SHIPPED_WEIGHTS
+from grafu.errors import AssetError
 from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.methods import Method
 from grafu.version import __version__
@@ -127,5 +130,13 @@ def _state_of(path: Path) -> str:
         size = file.stat().st_size
         said.update(f"{file.relative_to(path) if file != path else file.name}\0{size}\0".encode())
         if size <= _SMALL:
-            said.update(file.read_bytes())
+            said.update(_content(file, path))
     return said.hexdigest()[:16]
+
+
+def _content(file: Path, given: Path) -> bytes:
+    """Returns what a model's file holds; of one that no reader would open, nothing."""
+    try:
+        return ModelFiles(given, Limits(max_bytes=_SMALL)).read(file)
+    except AssetError:
+        return b""

@@ -32,7 +32,7 @@ def read_glb_object(path: Path, limits: Limits = _LIMITS) -> ArticulatedObject:
         AssetTooLarge: if it has more bytes or faces than the limits allow.
         ArticulationError: if what it states is no tree.
     """
-    file = read_gltf_file(path, ModelFiles(path, limits))
+    file = read_gltf_file(path, ModelFiles(path.parent, limits))
     with file.guarded():
         return _Reader(file).read()
 

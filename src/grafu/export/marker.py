@@ -13,10 +13,12 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, final
 
+from grafu.asset.own_files import read_own_json
 from grafu.asset.own_results import MARKER
-from grafu.errors import ExportError
+from grafu.errors import AssetError, ExportError
 
 SCHEMA: Final = "grafu.output/1"
+_MOST_BYTES: Final = 16 * 2**20
 
 
 @final
@@ -60,8 +62,8 @@ def read_marker(folder: Path) -> Marker | None:
     if not path.is_file():
         return None
     try:
-        stated = json.loads(path.read_bytes())
-    except (OSError, ValueError, RecursionError):
+        stated = read_own_json(path, "the marker of a folder that grafu wrote", _MOST_BYTES)
+    except AssetError:
         stated = None
     if not _is_marker(stated):
         raise ExportError(f"`{path}` is damaged, so nobody knows which files are grafu's: move `{folder}` away")

@@ -5,7 +5,6 @@ Into FOLDER go `object.packed` (`grafu.export.blend.transport`), `report.json`, 
 failed; the exit code is then 2. It writes nothing else, and can be killed at any time.
 """
 
-import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from grafu.asset.load import load_asset
+from grafu.asset.own_files import read_own
 from grafu.asset.part import Asset
 from grafu.errors import FunctionalizationError
 from grafu.export.blend.transport import packed
@@ -20,7 +20,7 @@ from grafu.geometry.transform import transform_points
 from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.report import report_of
-from grafu.pipeline.settings import settings_from_json
+from grafu.pipeline.settings import settings_from_bytes
 from grafu.realization.cache import NO_CACHE, Cache
 from grafu.realization.interior.turned import compartments_of
 from grafu.templates.gallery import builtin_gallery
@@ -35,7 +35,7 @@ def run(source: Path, settings_file: Path, folder: Path, cache: Cache = NO_CACHE
     Raises:
         FunctionalizationError: if the input or a setting is at fault.
     """
-    settings = settings_from_json(json.loads(settings_file.read_text(encoding="utf-8")))
+    settings = settings_from_bytes(read_own(settings_file, "settings of grafu"), settings_file)
     _say("load")
     asset = load_asset(source, settings.reading.options)
     asset = cache.value("asset", _itself, asset)  # the same object: what was worked out on its meshes stays

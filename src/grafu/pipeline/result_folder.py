@@ -3,7 +3,7 @@
 It changes nothing and runs nothing.
 """
 
-import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import final
@@ -11,10 +11,11 @@ from typing import final
 from pydantic import ValidationError
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.errors import OptionError, UnreadableAsset
+from grafu.asset.own_files import read_own
+from grafu.errors import UnreadableAsset
 from grafu.export.glb_object import read_glb_object
 from grafu.pipeline.report_schema import Report
-from grafu.pipeline.settings import Reading, Settings, settings_from_json
+from grafu.pipeline.settings import Reading, Settings, settings_from_bytes
 
 REPORT, MODEL, SETTINGS, SOURCE = "report.json", "model.glb", "settings.json", "source.glb"
 _NAMED = 4  # results of a folder that a refusal names
@@ -48,15 +49,37 @@ def read_result(folder: Path) -> ResultFolder:
         OptionError: if its settings are wrong.
     """
     _require_result(folder)
-    try:
-        report = Report.model_validate_json((folder / REPORT).read_bytes())
-    except (OSError, ValidationError) as error:
-        raise UnreadableAsset(f"{folder / REPORT} is no report of grafu: {_first_line(error)}") from None
+    report = read_report(folder)
     made = read_glb_object(folder / MODEL)
     if {joint.id for joint in made.moving_joints} != {joint.id for joint in report.joints}:
         raise UnreadableAsset(f"{MODEL} and {REPORT} in {folder} are of different runs: their joints differ")
     source = _source_of(folder, report)
     return ResultFolder(made, report, _settings_of(folder, report), source, _why_fixed(report, source))
+
+
+def read_report(folder: Path) -> Report:
+    """Returns the report in a folder of results.
+
+    Raises:
+        UnreadableAsset: if it is missing, cannot be read, or is damaged.
+        AssetTooLarge: if it is larger than any report.
+    """
+    data = read_own(folder / REPORT, "a report of grafu")
+    try:
+        return Report.model_validate_json(data)
+    except ValidationError as error:
+        raise UnreadableAsset(f"{folder / REPORT} is no report of grafu: {_first_line(error)}") from None
+
+
+def read_settings(folder: Path) -> Settings | None:
+    """Returns the settings in a folder of results, None where it holds none.
+
+    Raises:
+        AssetError: if they cannot be read.
+        OptionError: if they are damaged.
+    """
+    path = folder / SETTINGS
+    return settings_from_bytes(read_own(path, "settings of grafu"), path) if os.path.lexists(path) else None
 
 
 def _require_result(folder: Path) -> None:
@@ -74,12 +97,8 @@ def _require_result(folder: Path) -> None:
 
 
 def _settings_of(folder: Path, report: Report) -> Settings:
-    path = folder / SETTINGS
-    if path.is_file():
-        try:
-            return settings_from_json(json.loads(path.read_text(encoding="utf-8")))
-        except (OSError, ValueError) as error:
-            raise OptionError(f"{path} is no settings file: {_first_line(error)}") from None
+    if stated := read_settings(folder):
+        return stated
     frame, source = report.frame, report.motion.source
     reading = Reading(up=frame.up, front=frame.front, scale=frame.scale)
     return Settings(reading=reading) if source.is_foreign else Settings(source, reading)
@@ -99,5 +118,5 @@ def _why_fixed(report: Report, source: Path | None) -> str:
     return ""
 
 
-def _first_line(error: Exception) -> str:
+def _first_line(error: ValidationError) -> str:
     return str(error).splitlines()[0]

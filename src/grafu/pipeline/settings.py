@@ -11,6 +11,7 @@ from typing import Any, final
 
 from pydantic import TypeAdapter, ValidationError
 
+from grafu.asset.json_files import parse_json
 from grafu.asset.options import Division, Labelling, LoadOptions
 from grafu.errors import AssetError, OptionError
 from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
@@ -121,6 +122,19 @@ class Settings:
     def to_json(self) -> dict[str, Any]:
         """Returns plain JSON values, every setting written out: what later versions do by default changes nothing."""
         return {"schema": SCHEMA, **_adapter().dump_python(self, mode="json")}
+
+
+def settings_from_bytes(data: bytes, where: object) -> Settings:
+    """Returns the settings that a file holds; `where` names it.
+
+    Raises:
+        OptionError: if it is no JSON, or as by `settings_from_json`.
+    """
+    try:
+        stated = parse_json(data, where, f"settings of the form {SCHEMA}")
+    except AssetError as error:
+        raise OptionError(str(error)) from None
+    return settings_from_json(stated)
 
 
 def settings_from_json(data: object) -> Settings:

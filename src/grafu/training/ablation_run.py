@@ -19,7 +19,9 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import final
 
-from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
+from grafu.asset.json_shapes import finite
+from grafu.asset.own_files import read_own_json
+from grafu.errors import AssetError, ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.whole_file import write_whole
 from grafu.processes.lifetime import end_with_parent, started_by_main_thread
 from grafu.processes.signals import interrupts_later
@@ -80,9 +82,12 @@ def known_figures(run: AblationRun) -> dict[str, float] | None:
     if not path.is_file():
         return None
     stated = _read(path)
-    if not isinstance(stated, dict) or stated.get("schema") != SCHEMA:
+    figures = stated.get("figures") if isinstance(stated, dict) and stated.get("schema") == SCHEMA else None
+    if not isinstance(figures, dict) or not all(
+        value is None or finite(value) is not None for value in figures.values()
+    ):
         raise UnreadableAsset(f"`{path}` must be of the form `{SCHEMA}`: remove it")
-    return {name: math.nan if value is None else float(value) for name, value in stated["figures"].items()}
+    return {name: math.nan if value is None else float(value) for name, value in figures.items()}
 
 
 def do_run(run: AblationRun) -> Generator[RunEvent, None, None]:
@@ -116,9 +121,9 @@ def _train(run: AblationRun) -> Generator[RunEvent, None, None]:
 
 def _read(path: Path) -> object:
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise UnreadableAsset(f"`{path}` cannot be read: remove its folder, or choose another --out") from error
+        return read_own_json(path, "a file of an ablation")
+    except AssetError as error:
+        raise UnreadableAsset(f"{error}: remove its folder, or choose another --out") from None
 
 
 def begin_ablation(folder: Path, asked: Mapping[str, str]) -> None:

@@ -4,7 +4,6 @@ DIR/last.pt    everything that the next step depends on
 DIR/best.pt    the weights that did best in validation, their config and figures
 """
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -15,7 +14,8 @@ import torch
 from pydantic import TypeAdapter, ValidationError
 from torch import Tensor
 
-from grafu.errors import ExportError, UnreadableAsset
+from grafu.asset.own_files import read_own_json
+from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu
 from grafu.training.averaging import AveragedWeights
@@ -111,8 +111,8 @@ def require_own(folder: Path, *names: str) -> None:
     held = [name for name in (config.name, BEST, *names) if (folder / name).exists()]
     try:
         if held:
-            read_config(json.loads(config.read_text(encoding="utf-8")), config)
-    except (OSError, ValueError, UnreadableAsset):
+            read_config(read_own_json(config, "the config of a run"), config)
+    except AssetError:
         raise ExportError(f"`{folder}` holds `{held[0]}` and no run of grafu's: choose another --out") from None
 
 

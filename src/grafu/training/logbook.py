@@ -5,14 +5,19 @@ forgets the lines after the step that it goes on from: each step stands once.
 """
 
 import csv
+import os
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from io import StringIO
 from pathlib import Path
 from time import perf_counter
 from typing import Any, final
 
 from torch import Tensor
+
+from grafu.asset.own_files import read_own
+from grafu.errors import UnreadableAsset
 
 
 @final
@@ -54,6 +59,7 @@ class Meter:
 
 
 STEPS, VALIDATION = "train.csv", "validation.csv"
+_MOST_BYTES = 512 * 2**20
 
 
 @final
@@ -61,6 +67,9 @@ class Logbook:
     """Writes to the folder of a run; `step` is the number of steps that are done.
 
     TensorBoard's files go into `DIR/tensorboard` where it is installed.
+
+    Raises:
+        AssetError: if a file of its own in the folder cannot be read.
     """
 
     def __init__(self, folder: Path, step: int = 0) -> None:
@@ -105,16 +114,25 @@ def _header(path: Path) -> list[str] | None:
 
 
 def _forget_after(path: Path, step: int) -> None:
-    if not path.exists():
+    """Raises UnreadableAsset if there is a file that is no table of a run."""
+    if not os.path.lexists(path):
         return
-    with path.open(newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    kept = rows[:1] + [row for row in rows[1:] if row and row[0].isdigit() and int(row[0]) <= step]
+    rows = _rows(path)
+    kept = rows[:1] + [
+        row for row in rows[1:] if row and row[0].isdecimal() and len(row[0]) < 19 and int(row[0]) <= step
+    ]
     if step == 0 or not rows:
         path.unlink()
         return
     with path.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows(kept)
+
+
+def _rows(path: Path) -> list[list[str]]:
+    try:
+        return list(csv.reader(StringIO(read_own(path, "a table of a run", _MOST_BYTES).decode(), newline="")))
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise UnreadableAsset(f"{path} is damaged ({error}): expected a table of a run; remove it") from None
 
 
 def _board(folder: Path, step: int) -> Any:

@@ -15,6 +15,7 @@ import numpy as np
 from PIL import Image
 
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
+from grafu.asset.damage import library_call
 from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset
 from grafu.geometry.appearance import Texture
@@ -71,7 +72,10 @@ THUMBNAIL = (112, 84)
 MIME = "image/webp"
 _STYLE = PictureStyle(background="transparent")
 _QUALITY = 82
-_OPENED = re.compile(rf'<img src="data:{MIME};base64,(?P<data>[A-Za-z0-9+/=]+)"[^>]* alt="[^">]*: open"')
+_OPENED = re.compile(
+    rf'<img src="data:{MIME};base64,(?P<data>[A-Za-z0-9+/=]+)"[^>]{{0,99}} alt="[^">]{{0,9999}}: open"'.encode()
+)
+_MOST_PIXELS = 2000 * 2000  # of a picture of ours
 
 
 @final
@@ -112,14 +116,21 @@ def thumbnail(stills: Stills, size: tuple[int, int] = THUMBNAIL) -> bytes:
     return _small(stills.opened, size)
 
 
-def thumbnail_of_page(page: str) -> bytes:
-    """Returns the open picture of a model's page, made small for a list; empty where the page holds none."""
+def thumbnail_of_page(page: bytes) -> bytes:
+    """Returns the open picture of a model's page, made small for a list; empty where the page holds none.
+
+    Raises:
+        UnreadableAsset: if the picture is damaged.
+    """
     found = _OPENED.search(page)
-    return _small(b64decode(found["data"]), THUMBNAIL) if found else b""
+    with library_call("the picture in a page", "a small WebP"):
+        return _small(b64decode(found["data"]), THUMBNAIL) if found else b""
 
 
 def _small(picture: bytes, size: tuple[int, int]) -> bytes:
-    with Image.open(BytesIO(picture)) as image:
+    with Image.open(BytesIO(picture), formats=("WEBP",)) as image:
+        if image.width * image.height > _MOST_PIXELS:
+            raise ValueError(f"it has {image.width} x {image.height} pixels")
         return _encoded(image.convert("RGBA").resize(size, Image.Resampling.LANCZOS))
 
 

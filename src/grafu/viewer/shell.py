@@ -18,6 +18,8 @@ def light_of(colour: str) -> Html:
 
 
 GENERATOR = f"grafu {__version__}"
+HEAD_BYTES = 4096
+"""What of a page says whose it is."""
 
 
 def whole_page(title: str, body: Html, styles: tuple[str, ...], scripts: tuple[str, ...]) -> str:
@@ -43,8 +45,8 @@ def whole_page(title: str, body: Html, styles: tuple[str, ...], scripts: tuple[s
 
 
 def is_page_of_ours(data: bytes) -> bool:
-    """Whether a file is a page that this module made, of whatever version."""
-    return b'<meta name="generator" content="grafu ' in data[:4096]
+    """Whether a file, of which the first `HEAD_BYTES` do, is a page that this module made, of whatever version."""
+    return b'<meta name="generator" content="grafu ' in data[:HEAD_BYTES]
 
 
 def section(title: str, *content: str, lead: str = "", name: str = "") -> Html:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grafu.asset.foreign import agreement
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.frames import quarter_turns
 from grafu.asset.foreign.matching import match_parts
@@ -259,3 +260,30 @@ def test_a_prediction_that_contradicts_itself_is_refused(
     axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
     with pytest.raises(AssetError, match=why):
         ForeignMotions("urdf", "f", listed, tuple(ForeignJoint(j, JointType.REVOLUTE, axis) for j in joints))
+
+
+def test_thousands_of_copies_of_a_part_are_not_all_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    foreign = predicted(CABINET, way(TURNS[5], 3.0))
+    still = next(part for part in foreign.parts if part.name == "their_shelf")
+    copies = tuple(replace(still, name=f"copy_{k}") for k in range(2_000))
+    compared, plain = [0], agreement._Shape.distances
+
+    def counted(self, points, far):  # type: ignore[no-untyped-def]
+        compared[0] += 1
+        return plain(self, points, far)
+
+    monkeypatch.setattr(agreement._Shape, "distances", counted)
+    require_same_joints(attach_motions(CABINET, replace(foreign, parts=(*foreign.parts, *copies))), CABINET)
+    assert compared[0] <= agreement._TRIED * len(CABINET.parts) * 30  # some thirty frames
+
+
+def test_bodies_of_a_long_chain_are_those_that_carry_its_parts() -> None:
+    mesh = CABINET.parts[0].mesh
+    names = [f"part_{k}" for k in range(5_000)]
+    parts = [ForeignPart(n, mesh, parent=above) for n, above in zip(names, [None, *names], strict=False)]
+    joints = tuple(ForeignJoint(names[k], JointType.REVOLUTE, CABINET.joints[0].axis) for k in (1_000, 4_000))
+    foreign = ForeignMotions("urdf", "their.file", (*parts[::-1],), joints)
+
+    expected = {n: None if k < 1_000 else names[1_000] if k < 4_000 else names[4_000] for k, n in enumerate(names)}
+    assert foreign.body_of == expected
+    assert list(foreign.body_of) == names[::-1]

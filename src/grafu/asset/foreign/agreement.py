@@ -30,6 +30,7 @@ _LOOSE_BOX, _LOOSE_MESH = 0.02, 1e-4  # what a part's likeness to the whole pred
 _SLACK = 0.005  # share of the size by which boxes are grown before they are compared: sheets have volume then
 _REGRESSED = 0.1  # up to which boxes that lie apart are still taken in order: regressed ones err by 0.06 to 0.08
 _FEW = 100  # points that are as quickly taken all
+_TRIED = 100  # predicted parts that are compared with one of the asset's: those that may be likest, by their boxes
 _UNMATCHED = 0.25  # what a predicted body that covers no part adds, in shares of the size
 
 LEAST_OVERLAP = 0.3
@@ -80,8 +81,9 @@ class Comparison:
     def _compared(self, part_of: tuple[str | None, ...], T_object_foreign: Mat4) -> Agreement:
         """Returns how well the bodies agree where each part is covered so."""
         residuals, overlaps = [], []
+        covered = self._covered(part_of)
         for body in self._bodies:
-            mine, theirs = self._box_of(body, part_of), self._foreign_box(body, T_object_foreign)
+            mine, theirs = covered.get(body), self._foreign_box(body, T_object_foreign)
             residuals.append(_faces_apart(mine, theirs) / self.asset.unit if mine else _UNMATCHED)
             overlaps.append(mine.intersection_over_union(theirs, _SLACK * self.asset.unit) if mine else 0.0)
         return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
@@ -90,14 +92,16 @@ class Comparison:
         """Returns boxes of the asset with those of the prediction in this frame: of parts in order, else of bodies."""
         if self._order:
             return self._ordered_boxes(T_object_foreign)
-        pairs = (
-            (self._box_of(body, agreed.part_of), self._foreign_box(body, T_object_foreign)) for body in self._bodies
-        )
-        return [(mine, theirs) for mine, theirs in pairs if mine is not None]
+        covered = self._covered(agreed.part_of)
+        return [(covered[body], self._foreign_box(body, T_object_foreign)) for body in self._bodies if body in covered]
 
-    @property
-    def _bodies(self) -> tuple[str | None, ...]:
-        return tuple(dict.fromkeys(self.foreign.body_of.values()))
+    @cached_property
+    def _bodies(self) -> dict[str | None, np.ndarray]:
+        """The predicted bodies, each with the corners of its parts' hulls."""
+        parts: dict[str | None, list[np.ndarray]] = {}
+        for name, body in self.foreign.body_of.items():
+            parts.setdefault(body, []).append(self._outlines[name])
+        return {body: np.vstack(outlines) for body, outlines in parts.items()}
 
     def whole_overlap(self, T_object_foreign: Mat4) -> float:
         """Returns the intersection over union of the two as a whole."""
@@ -140,7 +144,7 @@ class Comparison:
         for k, points in enumerate(self._asked):
             there = transform_points(T_foreign_object, points)
             best, cost = 0, np.inf
-            for f in np.argsort(gaps[k] + small[k], kind="stable").tolist():
+            for f in np.argsort(gaps[k] + small[k], kind="stable")[:_TRIED].tolist():
                 if gaps[k, f] + small[k, f] >= cost:  # no point is nearer than the boxes are
                     continue
                 own = float(self._shapes[f].distances(there, _FAR * unit).mean()) + small[k, f]
@@ -148,17 +152,16 @@ class Comparison:
             found.append(self.foreign.parts[best].name)
         return tuple(found)
 
-    def _box_of(self, body: str | None, part_of: tuple[str | None, ...]) -> Box | None:
-        covered = [
-            box
-            for box, name in zip(self._boxes, part_of, strict=True)
-            if name is not None and self.foreign.body_of[name] == body
-        ]
-        return Box.enclosing(covered) if covered else None
+    def _covered(self, part_of: tuple[str | None, ...]) -> dict[str | None, Box]:
+        """Returns the boxes of what predicted bodies cover; of those that cover nothing there is none."""
+        boxes: dict[str | None, list[Box]] = {}
+        for box, name in zip(self._boxes, part_of, strict=True):
+            if name is not None:
+                boxes.setdefault(self.foreign.body_of[name], []).append(box)
+        return {body: Box.enclosing(found) for body, found in boxes.items()}
 
     def _foreign_box(self, body: str | None, T: Mat4) -> Box:
-        parts = (name for name, moved_by in self.foreign.body_of.items() if moved_by == body)
-        return Box.around(transform_points(T, np.vstack([self._outlines[name] for name in parts])))
+        return Box.around(transform_points(T, self._bodies[body]))
 
 
 class _Shape:

@@ -3,6 +3,7 @@
 It reads no files and matches nothing: an asset's own parts come in with `grafu.asset.foreign.attach`.
 """
 
+from collections.abc import Set
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, Protocol, final, runtime_checkable
@@ -107,16 +108,19 @@ class ForeignMotions:
         lost = ({p.parent for p in self.parts if p.parent is not None} | set(jointed)) - set(names)
         if lost:
             raise AssetError(f"{self.path}: parents and joints must name parts: there is no {sorted(lost)}")
+        rooted: set[str | None] = {None}
         for part in self.parts:
-            self._require_rooted(part)
+            rooted |= self._rooted(part, rooted)
 
-    def _require_rooted(self, part: ForeignPart) -> None:
+    def _rooted(self, part: ForeignPart, known: Set[str | None]) -> set[str]:
+        """Returns a part and what carries it, up to what is known."""
         seen = {part.name}
-        while part.parent is not None:
-            if part.parent in seen:
-                raise AssetError(f"{self.path}: parts must form a tree: {part.parent} carries itself")
-            seen.add(part.parent)
-            part = self._by_name[part.parent]
+        while part.parent not in known:
+            part = self._by_name[str(part.parent)]
+            if part.name in seen:
+                raise AssetError(f"{self.path}: parts must form a tree: {part.name} carries itself")
+            seen.add(part.name)
+        return seen
 
     @cached_property
     def _by_name(self) -> dict[str, ForeignPart]:
@@ -133,11 +137,14 @@ class ForeignMotions:
         jointed = {joint.part for joint in self.joints}
         found: dict[str, str | None] = {}
         for part in self.parts:
+            above: list[str] = []
             name: str | None = part.name
-            while name is not None and name not in jointed:
+            while name is not None and name not in found and name not in jointed:
+                above.append(name)
                 name = self._by_name[name].parent
-            found[part.name] = name
-        return found
+            body = found.get(name, name) if name is not None else None
+            found |= dict.fromkeys([*above, part.name], body)
+        return {part.name: found[part.name] for part in self.parts}
 
     def carrier_of(self, part: str) -> str | None:
         """Returns the jointed part that carries a part's body, or None where that stands on what stays."""

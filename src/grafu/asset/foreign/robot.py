@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
-from grafu.asset.options import LoadOptions
+from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import AnnotatedJoint, Annotation
 from grafu.asset.partnet_mobility import read_partnet_mobility
 from grafu.asset.resources import ModelFiles, read_bytes
@@ -22,10 +22,12 @@ def read_robot(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMotio
 
     Raises:
         UnreadableAsset: if the file is missing or damaged.
+        AssetTooLarge: if it exceeds the limits.
     """
     files = ModelFiles(path, options.limits)
     reading = read_partnet_mobility(path, options, files) if path.is_dir() else read_urdf(path, options, files)
     stated = reading.annotation or Annotation(reading.parts)
+    check_parts(len(stated.parts), path, options.limits)
     parts = tuple(ForeignPart(p.id, p.mesh, label=p.label, parent=p.rides_on) for p in stated.parts)
     joints = tuple(_joint(joint) for joint in stated.joints)
     named = [] if path.is_dir() else _JOINT_NAMES.findall(read_bytes(path, options.limits))
