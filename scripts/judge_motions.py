@@ -30,7 +30,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph
 from grafu.metrics.motion import Motion, compare_motions
 from grafu.pipeline.learned import complete_by_weights
-from grafu.realization.motion_source import plan_from_completion
+from grafu.realization.make_plan import plan_from_completion
 from grafu.vocabulary import PartLabel
 
 GONE = 0.25  # of the parts that stand still
@@ -39,7 +39,7 @@ Change = Callable[[Asset, Asset, int], Asset]
 
 @final
 @dataclass(frozen=True, slots=True)
-class Way:
+class Variant:
     """One way in which a model is asked about; `drawn` says whether chance decides what it lacks."""
 
     name: str
@@ -132,13 +132,13 @@ def as_it_is(_: Asset, bare: Asset, __: int) -> Asset:
 
 
 WAYS = (
-    Way("labels given", as_it_is),
-    Way("no labels", unlabelled(as_it_is)),
-    Way("half of the labels", lambda _, bare, draw: masked(bare, 0.5, draw), drawn=True),
-    Way("a quarter of the still parts gone", without_some_still_parts, drawn=True),
-    Way("the same without labels", unlabelled(without_some_still_parts), drawn=True),
-    Way("no handles", without_handles),
-    Way("no handles, no labels", unlabelled(without_handles)),
+    Variant("labels given", as_it_is),
+    Variant("no labels", unlabelled(as_it_is)),
+    Variant("half of the labels", lambda _, bare, draw: masked(bare, 0.5, draw), drawn=True),
+    Variant("a quarter of the still parts gone", without_some_still_parts, drawn=True),
+    Variant("the same without labels", unlabelled(without_some_still_parts), drawn=True),
+    Variant("no handles", without_handles),
+    Variant("no handles, no labels", unlabelled(without_handles)),
 )
 
 

@@ -17,6 +17,7 @@ RETIRED = {
     r"(?i)(?<![a-z])sight(?![a-z])": "features, forward pass",
     r"(?i)(?<![a-z])movers?(?![a-z])": "moving body",
     r"(?i)(?<![a-z])riders?(?![a-z])": "attached part",
+    r"\bWay\b|\bscene\.ways\b|\bmotion_about\b|\bway_box\b": "joint motion, path",
 }
 # Names of files, keys and columns that others read stay as they are: (path, the text that may stand there).
 ALLOWED: frozenset[tuple[str, str]] = frozenset()

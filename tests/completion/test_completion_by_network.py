@@ -12,7 +12,7 @@ from grafu.completion.doors import hang_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.features import FeatureConfig, GraphFeatures
 from grafu.completion.network import complete_by_network
-from grafu.completion.scene import Scene
+from grafu.completion.rule_scene import RuleScene
 from grafu.completion.scores import Scores
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
@@ -234,7 +234,7 @@ def test_an_unlikely_edge_is_taken_where_no_better_one_is() -> None:
 
 def test_what_nothing_seen_carries_moves_as_a_carpenter_finds() -> None:
     completion = complete(cupboard(), Answers())
-    scene = Scene(completion.completed)
+    scene = RuleScene(completion.completed)
     hung, run = (rule(completion.completed.node(i), scene) for rule, i in ((hang_door, "door"), (run_drawer, "drawer")))
 
     assert not isinstance(hung, RefusedMotion)

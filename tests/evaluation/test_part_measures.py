@@ -13,7 +13,7 @@ from grafu.evaluation.moving_parts import counted_parts
 from grafu.evaluation.raw_motion import raw_object
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import RealizationPlan
 from grafu.vocabulary import JointType, PartLabel
 from sketches import board, door, sketch

@@ -9,7 +9,7 @@ from grafu.asset.part import Asset
 from grafu.evaluation.moving_parts import counted_parts
 from grafu.evaluation.plausible import Plausibility, judge_motion
 from grafu.evaluation.raw_motion import raw_object
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import RealizationPlan
 from grafu.vocabulary import PartLabel
 from sketches import door, handle, sketch

@@ -17,7 +17,7 @@ from grafu.export.urdf import export_urdf
 from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.foreign import prediction_for, read_foreign
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
-from grafu.pipeline.motion_source import MotionChoice, MotionSource
+from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.pipeline.report import report_of
 from grafu.synth.truth.articulated import articulated_of
 from grafu.templates.gallery import builtin_gallery
@@ -136,11 +136,11 @@ def test_a_folder_may_hold_an_entry_for_each_input(tmp_path: Path) -> None:
     for name in ("one", "two"):
         write_files(FILES["singapo"], tmp_path / name)
     (tmp_path / "three.json").write_bytes((tmp_path / "one" / "object.json").read_bytes())
-    choice = MotionChoice(MotionSource.SINGAPO, tmp_path)
+    choice = SourceOption(MotionSource.SINGAPO, tmp_path)
 
     assert prediction_for(choice, "two", alone=False).path == str(tmp_path / "two" / "object.json")
     assert prediction_for(choice, "three").path == str(tmp_path / "three.json")
-    single = MotionChoice(MotionSource.SINGAPO, tmp_path / "one")
+    single = SourceOption(MotionSource.SINGAPO, tmp_path / "one")
     assert prediction_for(single, "cabinet").path == str(tmp_path / "one" / "object.json")
     with pytest.raises(UnreadableAsset, match=r"holds nothing for four: for several inputs .*/four is expected"):
         prediction_for(choice, "four", alone=False)
@@ -148,9 +148,9 @@ def test_a_folder_may_hold_an_entry_for_each_input(tmp_path: Path) -> None:
 
 def test_a_choice_names_its_file_or_has_none() -> None:
     with pytest.raises(OptionError, match="motions of urdf are read from a file, which must be named: urdf:FILE"):
-        MotionChoice(MotionSource.URDF)
+        SourceOption(MotionSource.URDF)
     with pytest.raises(OptionError, match="the motion source rule reads no file"):
-        MotionChoice(MotionSource.RULE, Path("x"))
+        SourceOption(MotionSource.RULE, Path("x"))
 
 
 @pytest.mark.parametrize(("kind", "limit"), [("particulate", "lines"), ("singapo", "values"), ("urdf", "values")])

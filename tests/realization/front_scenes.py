@@ -9,7 +9,7 @@ import numpy as np
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.box import Box
-from grafu.realization.scene import MovingBody, Scene, Way
+from grafu.realization.scene import JointMotion, MovingBody, Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Layout
@@ -19,18 +19,18 @@ from grafu.vocabulary import JointType, PartLabel
 def scene_of(asset: Asset) -> Scene:
     attached = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
     moving_bodies = {part: MovingBody(part, (part, *ids)) for part, ids in attached.items()}
-    ways = {j.part: Way(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
-    return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.unit, ways=ways)
+    joint_motions = {j.part: JointMotion(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
+    return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.unit, joint_motions=joint_motions)
 
 
 def doors_before(asset: Asset, joint: AnnotatedJoint) -> tuple[str, ...]:
     """The doors whose box a drawer runs into when it comes out by 0.2 m or as far as it goes."""
     if joint.type is not JointType.PRISMATIC:
         return ()
-    way = asset.part(joint.part).box
-    way = way.union(Box.around(way.corners() + min(joint.upper, 0.2) * joint.axis.direction))
+    path = asset.part(joint.part).box
+    path = path.union(Box.around(path.corners() + min(joint.upper, 0.2) * joint.axis.direction))
     doors = (j.part for j in asset.joints if j.type is JointType.REVOLUTE)
-    return tuple(door for door in doors if (way.axis_gaps(asset.part(door).box) < -1e-3).all())
+    return tuple(door for door in doors if (path.axis_gaps(asset.part(door).box) < -1e-3).all())
 
 
 def cabinet(layout: Layout, width: float = 0.6, **sizes) -> Asset:

@@ -32,8 +32,10 @@ def _standing(additions: Sequence[Addition], scene: Scene) -> ArticulatedObject:
 
 
 def _joint(moving: str, scene: Scene) -> Joint:
-    way = scene.ways.get(moving)
-    if way is None:
+    joint_motion = scene.joint_motions.get(moving)
+    if joint_motion is None:
         anywhere = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
         return Joint(moving, JointType.FIXED, "static body", moving, anywhere, JointLimits(0.0, 0.0))
-    return Joint(moving, way.type, "static body", moving, way.axis, JointLimits(0.0, way.upper))
+    return Joint(
+        moving, joint_motion.type, "static body", moving, joint_motion.axis, JointLimits(0.0, joint_motion.upper)
+    )

@@ -14,7 +14,7 @@ from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.realize import Realized, realize
 from grafu.synth.kinds import KINDS
 from grafu.templates.gallery import builtin_gallery

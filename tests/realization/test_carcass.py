@@ -13,7 +13,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.realization.carcass.complete import complete_carcass
 from grafu.realization.carcass.lacks import carcass_lacks
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.realize import realize
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case

@@ -9,7 +9,7 @@ from grafu.errors import OptionError
 from grafu.geometry.intersection import MeshCollider
 from grafu.realization.config import RealizationConfig
 from grafu.realization.joint_choice import with_choices
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import JointChoice
 from grafu.realization.realize import Realized, realize
 from grafu.realization.report import Installed, Skipped

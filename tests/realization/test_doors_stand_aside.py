@@ -9,7 +9,7 @@ from judging import GALLERY, installed, realized
 from grafu.asset.part import Asset
 from grafu.geometry.intersection import MeshCollider
 from grafu.realization.joint_choice import with_choices
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import JointChoice
 from grafu.realization.realize import Realized, realize
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet

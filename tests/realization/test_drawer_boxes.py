@@ -14,7 +14,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation
 from grafu.realization.drawer_box.complete import complete_drawers, with_attached
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.realize import realize
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case

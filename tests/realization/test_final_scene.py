@@ -8,11 +8,15 @@ from small_scenes import DOOR, SIDE, box, hinged, scene
 def test_the_final_scene_says_how_every_joint_opens() -> None:
     result = realized_kind("drawers behind a pair")
     final = result.scene
-    assert set(final.moving_bodies) == set(final.ways) == {joint.child for joint in result.object.joints}
+    assert set(final.moving_bodies) == set(final.joint_motions) == {joint.child for joint in result.object.joints}
     for joint in result.object.joints:
-        way = final.ways[joint.child]
-        assert way.is_built
-        assert (way.type, way.upper, way.axis) == (joint.type, joint.limits.upper, joint.axis)
+        joint_motion = final.joint_motions[joint.child]
+        assert joint_motion.is_built
+        assert (joint_motion.type, joint_motion.upper, joint_motion.axis) == (
+            joint.type,
+            joint.limits.upper,
+            joint.axis,
+        )
 
 
 def test_the_final_scene_holds_the_parts_as_they_are_built_and_all_hardware() -> None:

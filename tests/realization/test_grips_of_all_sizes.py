@@ -7,7 +7,7 @@ from grip_judge import assert_sound, least_wall
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from small_scenes import box
-from test_recessed_grips import DRAWER_WAY, scene_of
+from test_recessed_grips import DRAWER_MOTION, scene_of
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
@@ -27,7 +27,7 @@ def test_a_grip_is_sound_and_keeps_its_margins_or_is_refused(size, grip, depth, 
     board = box("drawer", (0.0, 0.0, 0.0), size)
     config = GripConfig(kind=kind, profile=profile, size=grip, depth=depth)
     wish = vec3(spot[0] * size[0], 0.0, spot[1] * size[2])
-    result = carve_grip(scene_of(board, DRAWER_WAY), "drawer", config, wish)
+    result = carve_grip(scene_of(board, DRAWER_MOTION), "drawer", config, wish)
     if not isinstance(result, Carved):
         assert result.reason in (GripRefusal.TOO_SMALL, GripRefusal.TOO_THIN, GripRefusal.TOO_THICK)
         return
@@ -59,8 +59,8 @@ def test_fronts_that_look_anywhere_and_slope_a_little_are_carved(turn, slope, ki
     board = box("drawer", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
     surface = replace(board.surfaces[0], mesh=TriangleMesh(leaning @ R.T, plain.faces))
     board = replace(board, surfaces=(surface,))
-    way = replace(DRAWER_WAY, axis=replace(DRAWER_WAY.axis, direction=R @ vec3(0.0, -1.0, 0.0)))
-    result = carve_grip(scene_of(board, way), "drawer", GripConfig(kind=kind))
+    joint_motion = replace(DRAWER_MOTION, axis=replace(DRAWER_MOTION.axis, direction=R @ vec3(0.0, -1.0, 0.0)))
+    result = carve_grip(scene_of(board, joint_motion), "drawer", GripConfig(kind=kind))
     assert isinstance(result, Carved), result
     assert_sound(board, result)
     assert result.part.mesh.is_closed
@@ -78,7 +78,7 @@ def test_however_a_board_is_cut_into_triangles_the_same_is_taken(seed, kind):
     turned = rng.random(len(faces)) < 0.5 * (seed % 2)
     faces[turned] = faces[turned][:, ::-1]
     untidy = replace(board, surfaces=(replace(board.surfaces[0], mesh=TriangleMesh(loose, faces)),))
-    plain, other = (carve_grip(scene_of(b, DRAWER_WAY), "drawer", GripConfig(kind=kind)) for b in (board, untidy))
+    plain, other = (carve_grip(scene_of(b, DRAWER_MOTION), "drawer", GripConfig(kind=kind)) for b in (board, untidy))
     assert isinstance(plain, Carved)
     assert isinstance(other, Carved)
     assert abs(plain.volume - other.volume) < 1e-9 * plain.volume + 1e-12

@@ -50,7 +50,9 @@ def assert_sits_and_stays_clear(asset: Asset, handles: Handles) -> None:
                 still.add_object(other.id, other.mesh.to_trimesh())
         assert not still.in_collision_single(part.mesh.to_trimesh())
     for joint in whole.joints:
-        opened = scene_of(asset).ways[joint.part].after  # with all that rides on them they are out of the way by then
+        opened = (
+            scene_of(asset).joint_motions[joint.part].after
+        )  # with all that rides on them they are out of the way by then
         ignored = frozenset(part.id for part in whole.parts if {part.id, part.rides_on} & {*opened})
         before = collisions(asset, joint.part, ignored=ignored)
         assert set(collisions(whole, joint.part, ignored=ignored)) <= set(before), joint.part

@@ -13,8 +13,8 @@ from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.realization.handle.grasp import find_grasps
 from grafu.realization.handle.place import add_handles
-from grafu.realization.limits import motion_about
-from grafu.realization.scene import Scene, Way
+from grafu.realization.limits import pose_function
+from grafu.realization.scene import JointMotion, Scene
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.synth.kinds import KINDS
 from grafu.templates.gallery import builtin_gallery
@@ -29,11 +29,13 @@ def behind_a_door() -> Scene:
 
 
 def with_way(scene: Scene, moving: str, **changes) -> Scene:
-    return replace(scene, ways={**scene.ways, moving: replace(scene.ways[moving], **changes)})
+    return replace(
+        scene, joint_motions={**scene.joint_motions, moving: replace(scene.joint_motions[moving], **changes)}
+    )
 
 
-def at(way: Way, value: float) -> np.ndarray:
-    return motion_about(way.axis, way.type)(value)
+def at(joint_motion: JointMotion, value: float) -> np.ndarray:
+    return pose_function(joint_motion.axis, joint_motion.type)(value)
 
 
 def posed(meshes, T: np.ndarray) -> trimesh.collision.CollisionManager:
@@ -48,18 +50,20 @@ def meshes_of(scene: Scene, moving: str):
 
 
 def meets(scene: Scene, moving: str, other: str, value: float) -> bool:
-    """Whether anything on a moving body meets another moving body, fixed at a joint value, on its whole way."""
-    fixed = posed(meshes_of(scene, other), at(scene.ways[other], value))
-    way = scene.ways[moving]
-    poses = [at(way, v) for v in np.linspace(0.0, way.upper, POSES)]
+    """Whether anything on a moving body meets another moving body, fixed at a joint value, along its whole path."""
+    fixed = posed(meshes_of(scene, other), at(scene.joint_motions[other], value))
+    joint_motion = scene.joint_motions[moving]
+    poses = [at(joint_motion, v) for v in np.linspace(0.0, joint_motion.upper, POSES)]
     return any(fixed.in_collision_single(m.to_trimesh(), transform=T) for m in meshes_of(scene, moving) for T in poses)
 
 
 def free_travel(scene: Scene, moving: str, other: str, value: float) -> float:
     """How far a bare moving body comes before it meets another one that is fixed at a joint value."""
-    steps = np.linspace(0.0, scene.ways[moving].upper, 120)
-    ways = [with_way(scene, moving, upper=float(v)) for v in steps]
-    return next((float(steps[k - 1]) for k, s in enumerate(ways) if k and meets(s, moving, other, value)), steps[-1])
+    steps = np.linspace(0.0, scene.joint_motions[moving].upper, 120)
+    joint_motions = [with_way(scene, moving, upper=float(v)) for v in steps]
+    return next(
+        (float(steps[k - 1]) for k, s in enumerate(joint_motions) if k and meets(s, moving, other, value)), steps[-1]
+    )
 
 
 def test_a_drawers_handle_is_clear_of_a_door_that_opens_little():
@@ -100,13 +104,13 @@ def test_a_doors_handle_sits_as_if_nothing_were_behind_the_door(layout):
 def test_whole_furniture_opens_in_order_with_its_new_handles(kind):
     made = functionalize(without_handles(KINDS[kind]()), MotionSource.ANNOTATION, builtin_gallery())
     scene = made.fittings.scene
-    waiting = {moving: way.after for moving, way in scene.ways.items() if way.after}
+    waiting = {moving: joint_motion.after for moving, joint_motion in scene.joint_motions.items() if joint_motion.after}
     assert waiting
     assert waiting.keys() <= {a.part.rides_on for a in made.additions} | {c.part.id for c in made.fittings.carved}
     assert "none" not in {g.kind for g in find_grasps(scene).values()}
     for moving, before in waiting.items():
         for door in before:
-            assert not meets(scene, moving, door, scene.ways[door].upper)
+            assert not meets(scene, moving, door, scene.joint_motions[door].upper)
             handles = [a.part.mesh for a in made.additions if a.part.rides_on == moving]
             closed = [MeshCollider(mesh) for mesh in meshes_of(scene, door)]
             assert all(MeshCollider(h).distance(c) > 0 for h in handles for c in closed)
@@ -114,5 +118,8 @@ def test_whole_furniture_opens_in_order_with_its_new_handles(kind):
 
 def test_the_final_scene_says_what_opens_first():
     made = functionalize(KINDS["drawers behind a pair"](), MotionSource.ANNOTATION, builtin_gallery())
-    found = {moving: {f"{name}_joint" for name in way.after} for moving, way in made.fittings.scene.ways.items()}
+    found = {
+        moving: {f"{name}_joint" for name in joint_motion.after}
+        for moving, joint_motion in made.fittings.scene.joint_motions.items()
+    }
     assert found == {joint.child: set(joint.after) for joint in made.object.joints}

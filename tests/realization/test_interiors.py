@@ -16,7 +16,7 @@ from grafu.realization.interior.compartments import Compartment, find_compartmen
 from grafu.realization.interior.config import InteriorConfig
 from grafu.realization.interior.furnish import Furnished, furnish
 from grafu.realization.interior.request import AUTO, NOTHING, PREDICTED, PanelHint, parse_interior
-from grafu.realization.scene import MovingBody, Scene, Way
+from grafu.realization.scene import JointMotion, MovingBody, Scene
 from grafu.vocabulary import JointType, PartLabel
 
 LEFT, RIGHT = box("left", (-0.4, -0.2, 0.0), (-0.38, 0.2, 1.0)), box("right", (0.38, -0.2, 0.0), (0.4, 0.2, 1.0))
@@ -29,19 +29,24 @@ INSET_DOOR = box("door", (-0.378, -0.2, 0.022), (0.378, -0.18, 0.978))
 TWO_SHELVES = parse_interior("shelves=2")
 
 
-def scene_of(*parts: Part, ways: dict[str, Way] | None = None) -> Scene:
+def scene_of(*parts: Part, joint_motions: dict[str, JointMotion] | None = None) -> Scene:
     boxes = [part.box for part in parts]
     size = np.max([b.high for b in boxes], axis=0) - np.min([b.low for b in boxes], axis=0)
-    ways = ways or {}
-    return Scene({p.id: p for p in parts}, {m: MovingBody(m, (m,)) for m in ways}, float(size.max()), ways=ways)
+    joint_motions = joint_motions or {}
+    return Scene(
+        {p.id: p for p in parts},
+        {m: MovingBody(m, (m,)) for m in joint_motions},
+        float(size.max()),
+        joint_motions=joint_motions,
+    )
 
 
-def swinging(x: float, y: float, upper: float = radians(110), direction: float = -1.0) -> Way:
-    return Way(Axis(vec3(x, y, 0.0), vec3(0.0, 0.0, direction)), JointType.REVOLUTE, upper)
+def swinging(x: float, y: float, upper: float = radians(110), direction: float = -1.0) -> JointMotion:
+    return JointMotion(Axis(vec3(x, y, 0.0), vec3(0.0, 0.0, direction)), JointType.REVOLUTE, upper)
 
 
-def pulled(upper: float = 0.3) -> Way:
-    return Way(Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)), JointType.PRISMATIC, upper)
+def pulled(upper: float = 0.3) -> JointMotion:
+    return JointMotion(Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)), JointType.PRISMATIC, upper)
 
 
 def merged(*parts: Part) -> Part:
@@ -124,7 +129,7 @@ def test_the_larger_space_gets_the_missing_shelf() -> None:
 
 
 def test_a_door_of_an_overlay_cabinet_lies_before_its_compartment() -> None:
-    found = only(find_compartments(scene_of(*CASE, OVERLAY, ways={"door": swinging(-0.4, -0.22)})))
+    found = only(find_compartments(scene_of(*CASE, OVERLAY, joint_motions={"door": swinging(-0.4, -0.22)})))
 
     assert found.behind == ("door",)
     assert found.box.low[1] <= -0.19
@@ -132,7 +137,7 @@ def test_a_door_of_an_overlay_cabinet_lies_before_its_compartment() -> None:
 
 def test_shelves_stand_back_from_what_a_door_swings_inwards() -> None:
     # pinned 8 cm behind its face at the left: its inner edge sweeps back into the cabinet before it comes out
-    scene = scene_of(*CASE, INSET_DOOR, ways={"door": swinging(-0.3, -0.12)})
+    scene = scene_of(*CASE, INSET_DOOR, joint_motions={"door": swinging(-0.3, -0.12)})
 
     result = furnish(find_compartments(scene), TWO_SHELVES, scene)
 
@@ -143,9 +148,9 @@ def test_shelves_stand_back_from_what_a_door_swings_inwards() -> None:
 
 def test_what_a_door_carries_inside_is_kept_clear() -> None:
     rack = box("rack", (-0.3, -0.18, 0.3), (0.3, -0.08, 0.8), rides_on="door")
-    way = {"door": swinging(-0.378, -0.2)}
+    joint_motions = {"door": swinging(-0.378, -0.2)}
     scene = scene_of(*CASE, INSET_DOOR, rack)
-    scene = Scene(scene.parts, {"door": MovingBody("door", ("door", "rack"))}, scene.unit, ways=way)
+    scene = Scene(scene.parts, {"door": MovingBody("door", ("door", "rack"))}, scene.unit, joint_motions=joint_motions)
 
     result = furnish(find_compartments(scene), TWO_SHELVES, scene)
 
@@ -158,14 +163,16 @@ def drawer(low: float, high: float, name: str = "drawer") -> Part:
 
 
 def test_a_drawer_takes_all_the_room_behind_it() -> None:
-    scene = scene_of(*CASE, drawer(0.03, 0.97), ways={"drawer": pulled()})
+    scene = scene_of(*CASE, drawer(0.03, 0.97), joint_motions={"drawer": pulled()})
 
     assert find_compartments(scene) == ()
     assert "drawers" in furnish((), TWO_SHELVES, scene).refused[0].why
 
 
 def test_the_room_below_a_drawer_is_furnished() -> None:
-    scene = scene_of(*CASE, drawer(0.7, 0.96), OVERLAY_LOW, ways={"drawer": pulled(), "door": swinging(-0.4, -0.22)})
+    scene = scene_of(
+        *CASE, drawer(0.7, 0.96), OVERLAY_LOW, joint_motions={"drawer": pulled(), "door": swinging(-0.4, -0.22)}
+    )
 
     found = only(find_compartments(scene))
 
@@ -205,7 +212,7 @@ def test_what_is_no_compartment_is_none_and_says_so(parts) -> None:
 
 
 def test_a_cabinet_without_a_top_has_room_behind_its_door() -> None:
-    scene = scene_of(LEFT, RIGHT, FLOOR, BACK, OVERLAY, ways={"door": swinging(-0.4, -0.22)})
+    scene = scene_of(LEFT, RIGHT, FLOOR, BACK, OVERLAY, joint_motions={"door": swinging(-0.4, -0.22)})
 
     assert only(find_compartments(scene)).behind == ("door",)
     assert len(furnished(scene).additions) == 2
@@ -248,8 +255,8 @@ def test_a_chest_gets_dividers_under_its_lid_and_no_shelves() -> None:
     sides = [box(n, (x, -0.2, 0.0), (x + 0.02, 0.2, 0.5)) for n, x in (("left", -0.4), ("right", 0.38))]
     back = box("back", (-0.38, 0.19, 0.02), (0.38, 0.2, 0.5))
     lid = box("door", (-0.4, -0.2, 0.501), (0.4, 0.2, 0.52))
-    way = Way(Axis(vec3(0.0, 0.2, 0.52), vec3(-1.0, 0.0, 0.0)), JointType.REVOLUTE, radians(80))
-    scene = scene_of(*sides, FLOOR, front, back, lid, ways={"door": way})
+    joint_motion = JointMotion(Axis(vec3(0.0, 0.2, 0.52), vec3(-1.0, 0.0, 0.0)), JointType.REVOLUTE, radians(80))
+    scene = scene_of(*sides, FLOOR, front, back, lid, joint_motions={"door": joint_motion})
 
     found = only(find_compartments(scene))
 
@@ -270,7 +277,7 @@ def test_a_wardrobe_keeps_room_for_hanging() -> None:
         Part(p.id, p.label, tuple(s.transformed(np.diag([1.2, 1.5, 2.0, 1.0])) for s in p.surfaces), p.source)
         for p in (*CASE, OVERLAY)
     ]
-    scene = scene_of(*parts, ways={"door": swinging(-0.48, -0.33)})
+    scene = scene_of(*parts, joint_motions={"door": swinging(-0.48, -0.33)})
 
     shelf = furnished(scene, AUTO).additions
 
@@ -325,7 +332,7 @@ def test_two_panels_never_stand_in_one_place() -> None:
 def test_a_drawer_closes_the_open_room_beside_it_where_no_board_parts_them(above):
     low, high = (0.7, 0.97) if above else (0.03, 0.3)
     drawer = box("drawer", (-0.37, -0.19, low), (0.37, 0.15, high))
-    furniture = scene_of(*CASE, drawer, ways={"drawer": pulled()})
+    furniture = scene_of(*CASE, drawer, joint_motions={"drawer": pulled()})
     (room,) = find_compartments(furniture)
     assert room.box.size[2] == pytest.approx(0.68, abs=0.03)
     panels = furnished(furniture).additions

@@ -11,7 +11,7 @@ from small_scenes import DOOR, SIDE, box, drawer, hinged, scene
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.realization.joint_choice import with_choices
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import JointChoice
 from grafu.realization.realize import Realized, realize
 from grafu.realization.report import Installed, Skipped

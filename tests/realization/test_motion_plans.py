@@ -14,7 +14,7 @@ from grafu.completion.rule import complete_by_rule
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
+from grafu.realization.make_plan import plan_from_annotation, plan_from_completion
 from grafu.realization.realize import realize
 from grafu.vocabulary import JointType
 

@@ -13,7 +13,7 @@ from grafu.errors import OptionError
 from grafu.pipeline.addition_choice import choose_additions
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.motion_source import MotionSource, parse_motion
-from grafu.pipeline.settings import Reading, Settings
+from grafu.pipeline.settings import InputSettings, Settings
 from grafu.realization.motion_choice import MotionChoice
 from grafu.templates.available import open_handles
 
@@ -109,7 +109,7 @@ def functionalize(
     return Result.of(Request(asset, settings, foreign, folder))
 
 
-def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, Reading]:
+def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, InputSettings]:
     unknown = sorted(set(reading) - set(_READING))
     if unknown:
         raise TypeError(f"`grafu.functionalize` has no argument {', '.join(unknown)}")
@@ -117,7 +117,7 @@ def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, Reading]:
         if reading:
             raise OptionError(f"{', '.join(reading)} say how a path is read: give them to `grafu.load`")
         frame = source.frame
-        return source, Reading(frame.up, frame.front, frame.scale)
+        return source, InputSettings(frame.up, frame.front, frame.scale)
     if not isinstance(source, str | PathLike):
         raise TypeError(f"`source` must be a path or the asset that `grafu.load` returned: got {described(source)}")
     return load(source, **reading), _reading(**reading)
@@ -130,7 +130,7 @@ def _reading(
     height: float | None = None,
     labels: str = "input",
     parts: str = "input",
-) -> Reading:
+) -> InputSettings:
     for name, value in (("up", up), ("front", front)):
         if value is not None:
             require(value, str, name, "an axis such as `+Z`")
@@ -139,7 +139,7 @@ def _reading(
     if parts not in ("input", "loose"):
         raise OptionError(f"`parts` must be input or loose: got {parts!r}")
     numbers = optional_number(scale, "scale"), optional_number(height, "height")
-    return Reading(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
+    return InputSettings(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
 
 
 def _motions(given: Mapping[str, str] | None) -> dict[str, MotionChoice]:

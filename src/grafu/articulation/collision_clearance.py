@@ -46,7 +46,7 @@ _REST: Mat4 = np.eye(4)
 
 @final
 @dataclass(frozen=True, slots=True)
-class _Motion:
+class _JointPath:
     """One joint's way from rest to full.
 
     `Ts_object_carried` are the poses of each link that moves with it, (poses, 4, 4); `T_object_still` is where every
@@ -92,7 +92,7 @@ def cleared(
     return {link: tuple(body.shape for body in bodies if body.link == link) for link in shapes}
 
 
-def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _Motion:
+def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
     """Returns the way of a joint: what hangs on it moves as one body with its child."""
     start = link_poses(articulated, values_before(articulated, joint.id))
     T_object_parent, T_child_object = start[joint.parent], invert(start[joint.child])
@@ -100,7 +100,7 @@ def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _Motion
     Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
     carried = _carried(articulated, joint)
     still = {link: T for link, T in start.items() if link not in carried and not np.array_equal(T, np.eye(4))}
-    return _Motion({link: Ts @ start[link] for link in carried}, still)
+    return _JointPath({link: Ts @ start[link] for link in carried}, still)
 
 
 def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
@@ -113,7 +113,7 @@ def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
 
 
 def _conflicts(
-    motion: _Motion, bodies: list[ShapeBody], settled: frozenset[ShapeBody], root: str
+    motion: _JointPath, bodies: list[ShapeBody], settled: frozenset[ShapeBody], root: str
 ) -> Iterator[_Conflict]:
     """Yields the pairs that meet on one joint's way, except those of which both are settled: they have been asked."""
     moving = [body for body in bodies if body.link in motion.Ts_object_carried]
@@ -133,7 +133,7 @@ def _conflicts(
         yield _Conflict(body, other, other.link != root, tuple(Ts))
 
 
-def _near(motion: _Motion, moving: list[ShapeBody], still: list[ShapeBody]) -> np.ndarray:
+def _near(motion: _JointPath, moving: list[ShapeBody], still: list[ShapeBody]) -> np.ndarray:
     """Returns the rows (pose, moving body, still body) in which the bounds of the two overlap, in that order."""
     if not moving or not still:
         return np.zeros((0, 3), dtype=np.int64)
@@ -142,7 +142,7 @@ def _near(motion: _Motion, moving: list[ShapeBody], still: list[ShapeBody]) -> n
     return np.argwhere(np.all((a[..., 0, :] <= b[:, 1]) & (b[:, 0] <= a[..., 1, :]), axis=-1))
 
 
-def _bounds_of_still(motion: _Motion, body: ShapeBody) -> np.ndarray:
+def _bounds_of_still(motion: _JointPath, body: ShapeBody) -> np.ndarray:
     T = motion.T_object_still.get(body.link)
     return body.bounds if T is None else body.bounds_at(T[None])[0]
 

@@ -44,7 +44,7 @@ class Visual:
 
 @final
 @dataclass(frozen=True)
-class Motion:
+class StatedMotion:
     """How a body moves against its parent: limits as stated, radians or input units."""
 
     type: JointType
@@ -66,7 +66,7 @@ class Body:
     name: str
     link: str
     visuals: tuple[Visual, ...]
-    motion: Motion | None = None
+    motion: StatedMotion | None = None
     parent: str | None = None
     is_loose: bool = False
 
@@ -81,7 +81,7 @@ class _Draft:
     labelled_by: str
     visuals: tuple[Visual, ...]
     carrier: str | None = None
-    motion: Motion | None = None
+    motion: StatedMotion | None = None
     is_moving: bool = False
 
 
@@ -170,7 +170,7 @@ def _spoken_label(body: Body, rest: tuple[Visual, ...]) -> PartLabel:
     return PartLabel.DOOR if sliding else PartLabel.UNKNOWN
 
 
-def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: Motion, up: int) -> PartLabel:
+def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: StatedMotion, up: int) -> PartLabel:
     """Returns what a body is by its joint: what turns is a door, whatever it is called; names tell slides apart."""
     if motion.type is JointType.REVOLUTE:
         return PartLabel.DOOR
@@ -179,7 +179,7 @@ def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: Motion
     return PartLabel.DOOR if _slides_in_its_plane(rest, motion, up) else PartLabel.DRAWER
 
 
-def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: Motion, up: int) -> bool:
+def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: StatedMotion, up: int) -> bool:
     """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray."""
     size = merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size
     along = int(np.argmax(np.abs(motion.axis.direction)))
@@ -211,6 +211,6 @@ def _part(draft: _Draft, part_id: str, by_body: dict[str, str]) -> Part:
     return Part(part_id, draft.label, surfaces, source, draft.labelled_by, carrier)  # type: ignore[arg-type]
 
 
-def _joint(motion: Motion, part_id: str) -> AnnotatedJoint:
+def _joint(motion: StatedMotion, part_id: str) -> AnnotatedJoint:
     low, high = sorted((motion.lower, motion.upper))
     return AnnotatedJoint(part_id, motion.type, motion.axis, low, high, motion.limited)

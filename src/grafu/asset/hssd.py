@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.gltf import read_scene_meshes
 from grafu.asset.hssd_annotation import (
@@ -217,7 +217,7 @@ def _body(
     file: str,
 ) -> Body:
     name, link = part.name, _link(part.pid)
-    motion = stated and Motion(stated.type, stated.axis, stated.lower, stated.upper, stated.limited)
+    motion = stated and StatedMotion(stated.type, stated.axis, stated.lower, stated.upper, stated.limited)
     visuals = (Visual(name, cut[part.pid], link, file),) if cut[part.pid] else ()
     return Body(name, link, visuals, motion, None if carrier is None else _link(carrier))
 

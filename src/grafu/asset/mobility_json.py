@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
-from grafu.asset.bodies import Body, Motion, Visual
+from grafu.asset.bodies import Body, StatedMotion, Visual
 from grafu.asset.json_files import read_json
 from grafu.asset.json_shapes import JsonObject, finite, object_of
 from grafu.asset.mesh_files import read_mesh_file
@@ -142,7 +142,7 @@ def _file(stems: list[str]) -> str:
     return f"textured_objs/{stems[0]}.obj" if len(stems) == 1 else ""
 
 
-def _motion(link: JsonObject) -> Motion | None:
+def _motion(link: JsonObject) -> StatedMotion | None:
     joint, data = _TYPES.get(link.text("joint")), link.member("jointData")
     stated = data.member("axis")
     direction = _vector(stated, "direction")
@@ -153,7 +153,7 @@ def _motion(link: JsonObject) -> Motion | None:
     if joint is JointType.REVOLUTE:
         low, high = math.radians(low), math.radians(high)
     axis = Axis(vec3(*(_vector(stated, "origin") or (0.0, 0.0, 0.0))), vec3(*direction))
-    return Motion(joint, axis, low, high, low != high and not limit.get("noLimit"))
+    return StatedMotion(joint, axis, low, high, low != high and not limit.get("noLimit"))
 
 
 def _vector(holder: JsonObject, key: str) -> tuple[float, ...] | None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies
+from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies
 from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.mesh_pieces import MeshFile, MeshPiece
 from grafu.asset.reading import Convention, Reading
@@ -66,11 +66,11 @@ def _key(match: re.Match[str]) -> tuple[str, str]:
     return match[1].lower(), match[2]
 
 
-def _motion(kind: str, guide: MeshPiece | None) -> Motion | None:
+def _motion(kind: str, guide: MeshPiece | None) -> StatedMotion | None:
     if guide is None:
         return None
     box = merge_meshes([s.mesh for s in guide.surfaces]).box
     direction = np.eye(3)[int(np.argmax(box.size))]
     if kind == "hinge":
-        return Motion(JointType.REVOLUTE, Axis(box.center, direction), 0.0, math.pi / 2, limited=False)
-    return Motion(JointType.PRISMATIC, Axis(box.center, direction), 0.0, float(box.size.max()), limited=False)
+        return StatedMotion(JointType.REVOLUTE, Axis(box.center, direction), 0.0, math.pi / 2, limited=False)
+    return StatedMotion(JointType.PRISMATIC, Axis(box.center, direction), 0.0, float(box.size.max()), limited=False)

@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from grafu.asset.bodies import Body, Motion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.json_shapes import spelled
 from grafu.asset.labels import is_whole_part, label_of
@@ -276,7 +276,7 @@ def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[Visual, 
         return Body(head, head, visuals, parent=parent, is_loose=True)
     T = T_base_root @ tree.T_root_link[head]
     axis = Axis(T[:3, 3], T[:3, :3] @ np.array(joint.axis))
-    motion = Motion(_MOVING[joint.kind], axis, joint.lower, joint.upper, joint.limited)
+    motion = StatedMotion(_MOVING[joint.kind], axis, joint.lower, joint.upper, joint.limited)
     return Body(head, head, visuals, motion, parent)
 
 

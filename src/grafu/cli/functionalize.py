@@ -15,7 +15,7 @@ from grafu.cli.move_option import part_move, with_moves
 from grafu.cli.reading_limits import add_limit_option, with_limits
 from grafu.cli.settings_option import read_settings
 from grafu.export.formats import known_formats
-from grafu.pipeline.motion_source import MotionChoice
+from grafu.pipeline.motion_source import SourceOption
 from grafu.templates.available import open_gallery, open_handles
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--motion",
         type=motion_choice,
-        default=MotionChoice(),
+        default=SourceOption(),
         metavar="SOURCE",
         help="where motions come from: network (trained), rule (labels, boxes and handles), auto (the network, or the "
         "rule without weights), annotation: the input's own joints, which the others do not read, or another system's "
@@ -144,7 +144,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     settings = read_settings(options) if options.settings else None
     made = JobOptions(
         out=options.out,
-        motion=MotionChoice(settings.motion) if settings else options.motion,
+        motion=SourceOption(settings.motion) if settings else options.motion,
         load=with_limits(settings.reading.options if settings else load_options(options), options),
         formats=formats,
         templates=options.templates,

@@ -13,7 +13,7 @@ from grafu.asset.options import LoadOptions
 from grafu.cli.limit_options import too_large
 from grafu.cli.messages import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
-from grafu.pipeline.motion_source import MotionChoice, MotionSource
+from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import Limits
 from grafu.templates.available import open_gallery
 
@@ -39,7 +39,7 @@ class JobOptions:
     """
 
     out: Path
-    motion: MotionChoice = field(default_factory=MotionChoice)
+    motion: SourceOption = field(default_factory=SourceOption)
     load: LoadOptions = LoadOptions()
     formats: tuple[str, ...] = ("glb", "urdf")
     templates: Path | None = None
@@ -153,7 +153,7 @@ def _resumed(job: Job) -> Job | Succeeded:
     formats = tuple(dict.fromkeys((*earlier.marker.formats, *options.formats)))
     options = replace(options, formats=formats, page=options.page or has_page, overwrite=True, resume=False)
     if made_with := earlier.settings:
-        load, motion = made_with.reading.options, MotionChoice(made_with.motion)
+        load, motion = made_with.reading.options, SourceOption(made_with.motion)
         options = replace(options, settings=made_with, load=load, motion=motion)
     return replace(job, options=options)
 
@@ -234,11 +234,11 @@ def _require_free(job: Job) -> None:
 def settings_of(options: JobOptions) -> "Settings | None":
     """Returns what was chosen, for `--settings`; None where motions are another system's: no setting names these."""
     from grafu.pipeline.addition_config import AdditionConfig
-    from grafu.pipeline.settings import Reading, Settings
+    from grafu.pipeline.settings import InputSettings, Settings
 
     if options.settings is not None or options.motion.source.is_foreign:
         return options.settings
     load = options.load
-    reading = Reading(load.up, load.front, load.scale, load.height, load.labels, load.parts)
+    reading = InputSettings(load.up, load.front, load.scale, load.height, load.labels, load.parts)
     additions = options.additions or AdditionConfig()
     return Settings(options.motion.source, reading, options.trim, additions=additions, weights=options.weights)

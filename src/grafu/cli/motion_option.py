@@ -3,10 +3,10 @@
 import argparse
 
 from grafu.errors import OptionError
-from grafu.pipeline.motion_source import MotionChoice, parse_motion
+from grafu.pipeline.motion_source import SourceOption, parse_motion
 
 
-def motion_choice(text: str) -> MotionChoice:
+def motion_choice(text: str) -> SourceOption:
     """Returns the choice that `SOURCE` or `SOURCE:FILE` states; raises argparse's error where there is none."""
     try:
         return parse_motion(text)

@@ -7,7 +7,7 @@ from grafu.asset.options import Limits
 from grafu.cli.addition_options import add_addition_options
 from grafu.cli.input_options import add_input_options
 from grafu.errors import AssetError, OptionError
-from grafu.pipeline.motion_source import MotionChoice
+from grafu.pipeline.motion_source import SourceOption
 
 if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
@@ -37,7 +37,7 @@ def _require_alone(options: argparse.Namespace) -> None:
     parser = argparse.ArgumentParser()
     add_addition_options(parser)
     add_input_options(parser)
-    usual = {**vars(parser.parse_args([])), "motion": MotionChoice(), "no_trim": False, "weights": None}
+    usual = {**vars(parser.parse_args([])), "motion": SourceOption(), "no_trim": False, "weights": None}
     for name, value in usual.items():
         if getattr(options, name) != value:
             spelled = "--" + name.replace("_", "-")

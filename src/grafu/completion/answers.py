@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, final
 
 from grafu.completion.rows import slides_past
-from grafu.completion.scene import Scene
+from grafu.completion.rule_scene import RuleScene
 from grafu.completion.votes import Ranking
 from grafu.geometry.budget import present_budget
 from grafu.graph.completion import Decision, Question, RefusedMotion
@@ -34,7 +34,7 @@ class Motions:
 
 
 def move_parts(
-    scene: Scene, hang: Callable[[PartNode], MotionAnswer], run: Callable[[PartNode], MotionAnswer]
+    scene: RuleScene, hang: Callable[[PartNode], MotionAnswer], run: Callable[[PartNode], MotionAnswer]
 ) -> Motions:
     """Returns what `hang` says of each door and `run` of each drawer; those whose motion an edge states are passed by.
 
@@ -66,7 +66,7 @@ def decision_of(part: str, question: Question, ranking: Ranking[Any], by: str = 
     return Decision(part, question, str(ranking.choice), ranking.score, runner_up, ranking.runner_up_score, by)
 
 
-def _hung(door: PartNode, scene: Scene, hang: Callable[[PartNode], MotionAnswer]) -> MotionAnswer:
+def _hung(door: PartNode, scene: RuleScene, hang: Callable[[PartNode], MotionAnswer]) -> MotionAnswer:
     other = slides_past(door, scene)
     if other is None:
         return hang(door)

@@ -11,7 +11,7 @@ from typing import final
 from grafu.completion.answers import move_parts
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.probabilities import Probabilities
-from grafu.completion.scene import Scene
+from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
 from grafu.completion.view import View
@@ -24,7 +24,7 @@ from grafu.vocabulary import PartLabel
 
 @final
 @dataclass(frozen=True)
-class Reading:
+class DecodedGraph:
     """A graph whose handles have parents, beside their probabilities."""
 
     view: View
@@ -37,13 +37,13 @@ class Reading:
         return frozenset(edge.parent for edge in self.view.graph.attachments)
 
 
-def read_graph(
+def decode_graph(
     graph: FunctionalGraph,
     probabilities: Probabilities,
     given: frozenset[str],
     parents: Mapping[str, str],
     config: DecodeConfig = DecodeConfig(),
-) -> Reading:
+) -> DecodedGraph:
     """Returns a graph of labelled parts with its handles settled.
 
     `given` are the ids of the input's own parts; `parents` says for which door or drawer a handle was added.
@@ -66,18 +66,18 @@ def read_graph(
             found.append(answer[0])
             decisions += (answer[1],)
     held = View(with_edges(view.graph, found), probabilities, given, config)
-    return Reading(held, decisions, tuple(refused))
+    return DecodedGraph(held, decisions, tuple(refused))
 
 
-def complete_reading(
-    graph: FunctionalGraph, reading: Reading, labelling: tuple[Decision, ...], added: Sequence[NewPart]
+def complete_decoded(
+    graph: FunctionalGraph, decoded: DecodedGraph, labelling: tuple[Decision, ...], added: Sequence[NewPart]
 ) -> GraphCompletion:
     """Returns the completion of `graph`: every door and drawer moves, or there is a reason why not.
 
     `labelling` are the decisions of what its unlabelled parts are.
     """
-    view = reading.view
-    scene = Scene(view.graph)
+    view = decoded.view
+    scene = RuleScene(view.graph)
     motions = move_parts(
         scene, lambda door: choose_hinge(door, view, scene), lambda drawer: choose_rails(drawer, view, scene)
     )
@@ -86,6 +86,6 @@ def complete_reading(
         with_edges(view.graph, motions.edges),
         "network",
         tuple(part.node.id for part in added),
-        (*(d for part in added for d in part.decisions), *labelling, *reading.decisions, *motions.decisions),
-        (*reading.refused, *motions.refused),
+        (*(d for part in added for d in part.decisions), *labelling, *decoded.decisions, *motions.decisions),
+        (*decoded.refused, *motions.refused),
     )

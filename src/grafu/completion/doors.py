@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.rows import across_axis, pair_side, row_size
-from grafu.completion.scene import CARRIES, Scene, offset_share
+from grafu.completion.rule_scene import CARRIES, RuleScene, offset_share
 from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, RefusedMotion
@@ -36,7 +36,7 @@ _WIDE, _PLAIN, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.5, 1.8, 2.2
 _EDGE, _UPRIGHT = 0.5, 0.7
 
 
-def hang_door(door: PartNode, scene: Scene) -> MotionAnswer:
+def hang_door(door: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none."""
     if not scene.supports:
         return RefusedMotion(door.id, "there is no static part to hang it on: label the parts that stand still")
@@ -55,7 +55,7 @@ def hang_door(door: PartNode, scene: Scene) -> MotionAnswer:
     return (Hinge(mount.choice, door.id, border.choice, sign),), decisions
 
 
-def vote_front(door: PartNode, scene: Scene) -> Ranking[SignedAxis]:
+def vote_front(door: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     """Returns the broad face that looks away from the body: handles sit there, and the body's middle is behind it."""
     thin, box = door.box.thin_axis, door.box
     low, high = signed_axis(thin, False), signed_axis(thin, True)
@@ -72,7 +72,7 @@ def vote_front(door: PartNode, scene: Scene) -> Ranking[SignedAxis]:
     return votes.ranking()
 
 
-def vote_border(door: PartNode, scene: Scene) -> Ranking[HingeBorder]:
+def vote_border(door: PartNode, scene: RuleScene) -> Ranking[HingeBorder]:
     """Returns the border that the hinge is on."""
     thin = door.box.thin_axis
     votes: Votes[HingeBorder] = Votes((0, 1, 2, 3))
@@ -86,7 +86,7 @@ def vote_border(door: PartNode, scene: Scene) -> Ranking[HingeBorder]:
     return votes.ranking()
 
 
-def plain_flap(door: PartNode, scene: Scene) -> HingeBorder | None:
+def plain_flap(door: PartNode, scene: RuleScene) -> HingeBorder | None:
     """Returns the border of a door that can only be a flap, None of any other.
 
     Half as wide again as high, and its handle in the middle of its upper or lower edge: nobody pulls a door there that
@@ -99,7 +99,7 @@ def plain_flap(door: PartNode, scene: Scene) -> HingeBorder | None:
     return _border(door, 2, aloft < 0) if abs(aside) <= _SLIGHT and abs(aloft) > _CLEAR else None
 
 
-def vote_mount(door: PartNode, border: HingeBorder, scene: Scene) -> Ranking[str] | None:
+def vote_mount(door: PartNode, border: HingeBorder, scene: RuleScene) -> Ranking[str] | None:
     """Returns the static part that carries the door at a border, or None where none is near."""
     carriers = _carriers(door, border, scene)
     if not carriers:
@@ -110,14 +110,14 @@ def vote_mount(door: PartNode, border: HingeBorder, scene: Scene) -> Ranking[str
     return votes.ranking()
 
 
-def _vote_lid(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
+def _vote_lid(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     for axis, offset in _handle_offsets(door, scene).items():
         if abs(offset) > _CLEAR:
             votes.add(_border(door, axis, offset < 0), 5.0 * min(abs(offset), 1.0))
     votes.add(_border(door, 1, True), 2.0)  # the back, where the front is -Y
 
 
-def _vote_upright(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
+def _vote_upright(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     across = across_axis(door)
     paired = pair_side(door, scene)
     sideways, upwards = _vote_handle(door, scene, votes)
@@ -129,7 +129,7 @@ def _vote_upright(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> No
         _vote_outer_side(door, scene, votes)
 
 
-def _vote_handle(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> tuple[bool, bool]:
+def _vote_handle(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> tuple[bool, bool]:
     """Votes for the border opposite the handle; returns whether it spoke for a side and for top or bottom."""
     across = across_axis(door)
     offsets = _handle_offsets(door, scene)
@@ -146,21 +146,21 @@ def _vote_handle(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> tup
     return False, False
 
 
-def _least_flap_aspect(door: PartNode, scene: Scene, aloft: float) -> float:
+def _least_flap_aspect(door: PartNode, scene: RuleScene, aloft: float) -> float:
     """Returns from which width to height on a handle in the middle says flap; doors of a row often have it there."""
     if row_size(door, scene) > 1:
         return _WIDE_IN_ROW
     return _UPRIGHT if abs(aloft) > _EDGE else _WIDE
 
 
-def _vote_flap(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
+def _vote_flap(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     """Votes for the top of a high and the bottom of a low flap, where it is too wide to swing sideways."""
     if _aspect(door) >= _VERY_WIDE:
         high = offset_share(scene.body, door.box.center, 2) >= 0
         votes.add(_border(door, 2, high), 3.0)
 
 
-def _vote_outer_side(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) -> None:
+def _vote_outer_side(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     across = across_axis(door)
     to_low = abs(float(door.box.low[across] - scene.body.low[across]))
     to_high = abs(float(door.box.high[across] - scene.body.high[across]))
@@ -172,7 +172,7 @@ def _vote_outer_side(door: PartNode, scene: Scene, votes: Votes[HingeBorder]) ->
         votes.add(_border(door, across, bool(right[across] > 0)), 0.2)
 
 
-def _handle_offsets(door: PartNode, scene: Scene) -> dict[int, float]:
+def _handle_offsets(door: PartNode, scene: RuleScene) -> dict[int, float]:
     """Returns where the handles sit in the door's plane on average: -1..1 along each of its two axes."""
     handles = scene.handles_of(door)
     if not handles:
@@ -189,7 +189,7 @@ def _border(door: PartNode, axis: int, high: bool) -> HingeBorder:
     return face_to_border(door.box.thin_axis, signed_axis(axis, high))
 
 
-def _carriers(door: PartNode, border: HingeBorder, scene: Scene) -> list[tuple[PartNode, float]]:
+def _carriers(door: PartNode, border: HingeBorder, scene: RuleScene) -> list[tuple[PartNode, float]]:
     """Returns the parts near a border with a score each, 0..1: near, alongside, of a label that carries."""
     edge = _border_box(door.box, border)
     along = next(a for a in plane_axes(door.box.thin_axis) if a != border_to_face(door.box.thin_axis, border) // 2)

@@ -7,7 +7,7 @@ between two flanks where there are two, else on whatever is near.
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.scene import CARRIES, Scene
+from grafu.completion.rule_scene import CARRIES, RuleScene
 from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
 from grafu.graph.completion import RefusedMotion
@@ -21,7 +21,7 @@ _REACH = 0.15
 _LEAST_FLANK = 0.05
 
 
-def run_drawer(drawer: PartNode, scene: Scene) -> MotionAnswer:
+def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer with how sure each choice is, or why it gets none."""
     if not scene.supports:
         return RefusedMotion(drawer.id, "there is no static part to run it on: label the parts that stand still")
@@ -34,7 +34,7 @@ def run_drawer(drawer: PartNode, scene: Scene) -> MotionAnswer:
     return rails, (decision_of(drawer.id, "slide", way), *decisions)
 
 
-def vote_way(drawer: PartNode, scene: Scene) -> Ranking[SignedAxis]:
+def vote_way(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     """Returns the signed axis along which the drawer opens."""
     votes: Votes[SignedAxis] = Votes(_WAYS)
     votes.add(2, 0.6)
@@ -63,7 +63,7 @@ def _depth_inside(box: Box, body: Box, way: SignedAxis) -> float:
     return float((body.face_center(way) - box.face_center(way)) @ code_to_direction(way))
 
 
-def _blocked_shares(drawer: PartNode, scene: Scene) -> dict[SignedAxis, float]:
+def _blocked_shares(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, float]:
     """Returns for each way the share of the drawer's section that parts cover on its way out, 0..1.
 
     A part that lies within the drawer's box close to its face counts half: it may be the panel that an overlaid front
@@ -80,14 +80,14 @@ def _blocked_shares(drawer: PartNode, scene: Scene) -> dict[SignedAxis, float]:
     return found
 
 
-def _flanks(drawer: PartNode, way: SignedAxis, scene: Scene) -> list[Ranking[str]]:
+def _flanks(drawer: PartNode, way: SignedAxis, scene: RuleScene) -> list[Ranking[str]]:
     """Returns the best carrier on each side of the drawer; one part around both sides comes once."""
     across = 1 - way // 2
     sides = (_best_flank(drawer, signed_axis(across, high), way // 2, scene) for high in (False, True))
     return list({side.choice: side for side in sides if side is not None}.values())
 
 
-def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) -> Ranking[str] | None:
+def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: RuleScene) -> Ranking[str] | None:
     shares = scene.support_boxes.overlap_shares(drawer.box)
     alongside = shares[:, 2] * shares[:, slide]
     scored = {
@@ -98,7 +98,7 @@ def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: Scene) ->
     return _elect({node_id: float(score) for node_id, score in scored.items() if score > _LEAST_FLANK})
 
 
-def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: Scene) -> float:
+def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: RuleScene) -> float:
     """Returns how near a part is to one flank of the drawer, 0..1.
 
     It may lie within the drawer's box, where an overlaid front is wider than the drawer.
@@ -114,7 +114,7 @@ def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: Scene) 
     return 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.unit)))
 
 
-def _nearest(drawer: PartNode, scene: Scene) -> list[Ranking[str]]:
+def _nearest(drawer: PartNode, scene: RuleScene) -> list[Ranking[str]]:
     """Returns the one part that carries a drawer without flanks: a tray hangs under its top."""
     gaps = zip(scene.supports, scene.support_boxes.gaps(drawer.box) / scene.unit, strict=True)
     found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps if gap <= _REACH})

@@ -10,7 +10,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.completion.scene import offset_share, overlap_share
+from grafu.completion.rule_scene import offset_share, overlap_share
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision
 from grafu.graph.edges import SignedAxis

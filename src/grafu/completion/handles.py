@@ -5,7 +5,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.completion.scene import NodeBoxes
+from grafu.completion.rule_scene import NodeBoxes
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, RefusedMotion

@@ -7,7 +7,7 @@ of two forward passes, on the graph and on its mirror image: their errors differ
 
 import numpy as np
 
-from grafu.completion.decode import complete_reading, read_graph
+from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.labelling import choose_labels
@@ -48,14 +48,14 @@ def complete_by_network(
     while True:
         inputs, probabilities = forward(seen, network, features)
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
-        reading = read_graph(seen, probabilities, given, parents, config)
-        most = config.rounds + len(reading.view.moving_bodies) // _BODIES_PER_ROUND
+        decoded = decode_graph(seen, probabilities, given, parents, config)
+        most = config.rounds + len(decoded.view.moving_bodies) // _BODIES_PER_ROUND
         goes_on = rounds < most and adding.left > 0 and fits(len(seen.nodes) ** 2, _PAIR_BYTES)
-        found = new_parts(reading.view, reading.held) if goes_on else ()
+        found = new_parts(decoded.view, decoded.held) if goes_on else ()
         if not found:
             if config.mirror:
-                reading = read_graph(seen, with_image(probabilities, seen, inputs, network), given, parents, config)
-            return complete_reading(graph, reading, labelling, added)
+                decoded = decode_graph(seen, with_image(probabilities, seen, inputs, network), given, parents, config)
+            return complete_decoded(graph, decoded, labelling, added)
         seen, rounds = with_parts(seen, found), rounds + 1
         added += found
 

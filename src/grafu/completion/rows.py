@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from grafu.completion.scene import Scene, overlap_share
+from grafu.completion.rule_scene import RuleScene, overlap_share
 from grafu.graph.functional_graph import PartNode
 
 Side = Literal["low", "high", "none"]
@@ -24,7 +24,7 @@ def across_axis(door: PartNode) -> int:
     return 1 if door.box.thin_axis == 0 else 0
 
 
-def pair_side(door: PartNode, scene: Scene) -> Side:
+def pair_side(door: PartNode, scene: RuleScene) -> Side:
     """Returns the side of an upright door on which it should hang because it is one of a pair: the outer one.
 
     Doors of one row are split where a panel stands behind the seam; within each group every two make a pair.
@@ -38,12 +38,12 @@ def pair_side(door: PartNode, scene: Scene) -> Side:
     return "low" if position % 2 == 0 else "high"
 
 
-def row_size(door: PartNode, scene: Scene) -> int:
+def row_size(door: PartNode, scene: RuleScene) -> int:
     """Returns how many doors stand side by side in the row of an upright door, itself counted."""
     return len(_row_of(door, scene))
 
 
-def slides_past(door: PartNode, scene: Scene) -> PartNode | None:
+def slides_past(door: PartNode, scene: RuleScene) -> PartNode | None:
     """Returns a door that this one slides past: lapping, of one height, in the next plane. None for a hinged door."""
     if door.box.thin_axis == 2:
         return None
@@ -62,7 +62,7 @@ def _laps(door: PartNode, other: PartNode) -> bool:
     return 0.6 * thickness <= apart <= nearest and _LAP * width <= lap <= _MOST_LAP * width
 
 
-def _row_of(door: PartNode, scene: Scene) -> list[PartNode]:
+def _row_of(door: PartNode, scene: RuleScene) -> list[PartNode]:
     """Returns the doors of one row, this one among them, in order of position."""
     axis, thin = across_axis(door), door.box.thin_axis
     alike = [d for d in scene.door_boxes.level_with(door.box) if d.box.thin_axis == thin and _in_line(door, d)]
@@ -92,7 +92,7 @@ def _seam(a: PartNode, b: PartNode, axis: int) -> float:
     return float(b.box.low[axis] - a.box.high[axis]) / max(float(min(a.box.size[axis], b.box.size[axis])), 1e-9)
 
 
-def _split_at_panels(row: Sequence[PartNode], scene: Scene) -> list[list[PartNode]]:
+def _split_at_panels(row: Sequence[PartNode], scene: RuleScene) -> list[list[PartNode]]:
     axis = across_axis(row[0])
     groups = [[row[0]]]
     for left, right in pairwise(row):
@@ -103,7 +103,7 @@ def _split_at_panels(row: Sequence[PartNode], scene: Scene) -> list[list[PartNod
     return [list(row)] if len(row) == 2 else groups
 
 
-def panel_behind(left: PartNode, right: PartNode, axis: int, scene: Scene) -> bool:
+def panel_behind(left: PartNode, right: PartNode, axis: int, scene: RuleScene) -> bool:
     """Whether an upright panel stands behind the seam of two doors."""
     seam = (left.box.high[axis] + right.box.low[axis]) / 2
     reach = float(left.box.size[axis] + right.box.size[axis]) / 20
@@ -115,7 +115,7 @@ def panel_behind(left: PartNode, right: PartNode, axis: int, scene: Scene) -> bo
     )
 
 
-def _side_in_odd_group(group: Sequence[PartNode], position: int, axis: int, scene: Scene) -> Side:
+def _side_in_odd_group(group: Sequence[PartNode], position: int, axis: int, scene: RuleScene) -> Side:
     """Returns the side for one of three, five, ...: pairs from the outer end that is nearer to the body's."""
     if len(group) == 1:
         return "none"

@@ -9,7 +9,7 @@ from grafu.completion.doors import hang_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.guess import guess_labels
 from grafu.completion.handles import attach_handles
-from grafu.completion.scene import Scene
+from grafu.completion.rule_scene import RuleScene
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph
@@ -23,7 +23,7 @@ def complete_by_rule(graph: FunctionalGraph) -> GraphCompletion:
     """
     labels, label_decisions = guess_labels(graph)
     attached = attach_handles(relabelled(graph, labels))
-    scene = Scene(attached.graph)
+    scene = RuleScene(attached.graph)
     motions = move_parts(scene, lambda door: hang_door(door, scene), lambda drawer: run_drawer(drawer, scene))
     return GraphCompletion(
         graph,

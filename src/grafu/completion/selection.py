@@ -14,7 +14,7 @@ from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_mount
 from grafu.completion.drawers import run_drawer
 from grafu.completion.probabilities import softmax
-from grafu.completion.scene import Scene
+from grafu.completion.rule_scene import RuleScene
 from grafu.completion.senses import leaned_motion, leaned_way
 from grafu.completion.view import View
 from grafu.completion.votes import Ranking, chosen_of, ranking_of
@@ -52,7 +52,7 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
     return chosen[:-1] * (SOME_CHANCE + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
-def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
+def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
     """Returns the hinge of a door with how sure each choice is, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
@@ -86,7 +86,7 @@ def choose_hinge(door: PartNode, view: View, scene: Scene) -> MotionAnswer:
     return (edge,), decisions
 
 
-def choose_rails(drawer: PartNode, view: View, scene: Scene) -> MotionAnswer:
+def choose_rails(drawer: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer, on two flanks where two parts carry it, or why it gets none."""
     if not len(view.supports):
         return RefusedMotion(drawer.id, _NO_SUPPORT)
@@ -122,7 +122,7 @@ def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
     return (kept, said) if kept else None
 
 
-def _plain_flap(door: PartNode, said: HingeBorder, scene: Scene) -> Ranking[HingeBorder] | None:
+def _plain_flap(door: PartNode, said: HingeBorder, scene: RuleScene) -> Ranking[HingeBorder] | None:
     """Returns the carpenter's border of a door that is plainly a flap where the network says another one, else None."""
     flap = plain_flap(door, scene)
     if flap is None or flap == said:
@@ -131,7 +131,7 @@ def _plain_flap(door: PartNode, said: HingeBorder, scene: Scene) -> Ranking[Hing
     return ranking if ranking.choice == flap else None
 
 
-def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: Scene) -> Ranking[str] | None:
+def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: RuleScene) -> Ranking[str] | None:
     """Returns what a carpenter hangs a plain flap on; None where that is nothing that the input has."""
     mount = vote_mount(door, flap, scene)
     return mount if mount is not None and mount.choice in view.given else None

@@ -8,7 +8,7 @@ import numpy as np
 
 from grafu.completion.doors import vote_front
 from grafu.completion.drawers import vote_way
-from grafu.completion.scene import Scene
+from grafu.completion.rule_scene import RuleScene
 from grafu.completion.votes import Ranking
 from grafu.geometry.arrays import Scalars
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, SignedAxis
@@ -18,13 +18,13 @@ from grafu.graph.motion import opening_face
 _LEAST = 1e-3  # what the rule did not vote for stays possible
 
 
-def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: Scene) -> np.ndarray:
+def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleScene) -> np.ndarray:
     """Returns what the network says of a door's border and sign (4, 2), weighed by the face that leads then."""
     front, thin = _opinion(vote_front(door, scene), power), door.box.thin_axis
     return motion * np.array([[front[opening_face(thin, border, sign)] for sign in SIGNS] for border in BORDERS])
 
 
-def leaned_way(drawer: PartNode, shares: Scalars, power: float, scene: Scene) -> Scalars:
+def leaned_way(drawer: PartNode, shares: Scalars, power: float, scene: RuleScene) -> Scalars:
     """Returns what the network says of the signed axes along which a drawer opens (6), weighed by the way out."""
     return shares * _opinion(vote_way(drawer, scene), power)
 

@@ -16,7 +16,7 @@ from grafu.errors import OptionError
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
-from grafu.pipeline.motion_source import MotionChoice, MotionSource
+from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.realization.interior.request import NOTHING
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
@@ -109,7 +109,7 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
         return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
     if method.folder is None:
         return functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
-    choice = MotionChoice(MotionSource(method.name), method.folder)
+    choice = SourceOption(MotionSource(method.name), method.folder)
     foreign = prediction_for(choice, model_id, alone=False)
     return functionalize(asset.without_annotation(), foreign, builtin_gallery(), config)
 

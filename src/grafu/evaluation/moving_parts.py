@@ -13,7 +13,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.metrics.motion import Motion
-from grafu.realization.motion_source import plan_from_annotation
+from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import JointRequest
 from grafu.vocabulary import JointType, PartLabel
 

@@ -116,7 +116,7 @@ class _Case:
         for value in np.linspace(0.0, self._reach, _POSES):
             body.place(self._joint.motion(float(value)))
             if body.penetrates(obstacle):
-                return "it cuts into the body on its way"
+                return "it cuts into the body along its path"
         return ""
 
     def _hinge_line(self) -> Points:

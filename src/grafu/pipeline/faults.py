@@ -15,7 +15,7 @@ class FaultKind(StrEnum):
     """What can be amiss."""
 
     STILL = "stands still"  # a door or drawer, or another part that was to move, has no joint
-    COLLIDES = "collides"  # it cuts into something on its way
+    COLLIDES = "collides"  # it cuts into something along its path
     LOOSE = "comes loose"  # a gap opens between it and what carries it
     SHUT = "does not open"  # it opens so little that it is no motion
     RESTRICTED = "restricted"  # it opens less than it should

@@ -19,7 +19,7 @@ from grafu.asset.partnet_mobility import is_partnet_mobility
 from grafu.asset.resources import read_bytes
 from grafu.errors import UnreadableAsset
 from grafu.graph.official_prediction import SUFFIX, is_prediction, read_prediction
-from grafu.pipeline.motion_source import MotionChoice
+from grafu.pipeline.motion_source import SourceOption
 
 Reader = Callable[[Path, LoadOptions], ForeignMotions]
 
@@ -76,7 +76,7 @@ def read_foreign(path: Path, source: ForeignSource | None = None, limits: Limits
     raise UnreadableAsset(f"{path} is of the kind {motions.source}, not {source}: expected {_expected(source)}")
 
 
-def prediction_for(choice: MotionChoice, name: str, alone: bool = True, limits: Limits = _LIMITS) -> ForeignMotions:
+def prediction_for(choice: SourceOption, name: str, alone: bool = True, limits: Limits = _LIMITS) -> ForeignMotions:
     """Returns what a foreign choice holds for the input whose results are called `name`.
 
     Where the choice's folder has an entry of that name (`name/`, `name.json`, `name.npz`, `name.urdf` or

@@ -31,8 +31,8 @@ from grafu.realization.addition import Addition
 from grafu.realization.cache import NO_CACHE, Cache
 from grafu.realization.config import RealizationConfig
 from grafu.realization.joint_choice import with_choices
+from grafu.realization.make_plan import plan_from_annotation, plan_from_completion
 from grafu.realization.motion_choice import MotionChoice
-from grafu.realization.motion_source import plan_from_annotation, plan_from_completion
 from grafu.realization.plan import JointChoice, RealizationPlan
 from grafu.realization.realize import realize
 from grafu.realization.report import RealizationReport
@@ -109,7 +109,7 @@ class Functionalized:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Motion:
+class MotionMethod:
     """How one source of motions completes a graph and plans what to build.
 
     `answers` says whether it can do so for an asset. Where `reads_annotation` is false the source is given the parts
@@ -126,16 +126,16 @@ def _plan_completion(asset: Asset, completion: GraphCompletion) -> RealizationPl
     return plan_from_completion(completion, asset)
 
 
-MOTIONS: dict[MotionSource, Motion] = {
-    MotionSource.ANNOTATION: Motion(
+MOTIONS: dict[MotionSource, MotionMethod] = {
+    MotionSource.ANNOTATION: MotionMethod(
         complete_by_annotation, lambda asset, _: plan_from_annotation(asset), lambda asset: bool(asset.stated_joints)
     ),
-    MotionSource.NETWORK: Motion(
+    MotionSource.NETWORK: MotionMethod(
         complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
     ),
-    MotionSource.RULE: Motion(lambda _, graph: complete_by_rule(graph), _plan_completion, reads_annotation=False),
+    MotionSource.RULE: MotionMethod(lambda _, graph: complete_by_rule(graph), _plan_completion, reads_annotation=False),
     **{
-        source: Motion(
+        source: MotionMethod(
             partial(complete_by_annotation, source=source.value), lambda asset, _: plan_from_annotation(asset)
         )
         for source in FOREIGN
@@ -252,7 +252,7 @@ def choose_source(asset: Asset, source: MotionSource, weights: Path | None = Non
     return next(candidate for candidate in AUTO_ORDER if MOTIONS[candidate].answers(asset))
 
 
-def _motion(source: MotionSource, weights: Path | None) -> Motion:
+def _motion(source: MotionSource, weights: Path | None) -> MotionMethod:
     """Returns the row of `MOTIONS`; with `weights` the network is that of the file."""
     if weights is None:
         return MOTIONS[source]

@@ -36,7 +36,7 @@ the same with its joints and without."""
 
 @final
 @dataclass(frozen=True, slots=True)
-class MotionChoice:
+class SourceOption:
     """A source and, where it is another system's, its file, or a folder that holds what it wrote for each input.
 
     Raises:
@@ -53,7 +53,7 @@ class MotionChoice:
             raise OptionError(f"the motion source {self.source} reads no file: got {self.path}")
 
 
-def parse_motion(text: str) -> MotionChoice:
+def parse_motion(text: str) -> SourceOption:
     """Returns the choice that `SOURCE` or, for another system's file, `SOURCE:FILE` states.
 
     Raises:
@@ -65,4 +65,4 @@ def parse_motion(text: str) -> MotionChoice:
     if source is None:
         words = [f"{word}:FILE" if each.is_foreign else word for word, each in sources.items()]
         raise OptionError(f"must be one of {', '.join(words)}: got {text!r}")
-    return MotionChoice(source, Path(file) if file else None)
+    return SourceOption(source, Path(file) if file else None)

@@ -29,7 +29,7 @@ SCHEMA = "grafu.settings/1"
 
 @final
 @dataclass(frozen=True)
-class Reading:
+class InputSettings:
     """How the input is read; see `LoadOptions`."""
 
     up: str | None = None
@@ -60,7 +60,7 @@ class Settings:
     """
 
     motion: MotionSource = MotionSource.AUTO
-    reading: Reading = Reading()
+    reading: InputSettings = InputSettings()
     trim: bool = True
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)

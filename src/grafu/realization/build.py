@@ -16,13 +16,13 @@ from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.hinge.place import place_hinges
 from grafu.realization.hinge.search import DoorSearch, door_search
-from grafu.realization.limits import motion_about
+from grafu.realization.limits import pose_function
 from grafu.realization.placement import Placement
 from grafu.realization.plan import JointRequest
 from grafu.realization.rail.place import place_rails
 from grafu.realization.rail.search import DrawerSearch, drawer_search
 from grafu.realization.report import Clearance, Skipped, SkipReason
-from grafu.realization.scene import Scene, Way
+from grafu.realization.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
@@ -116,7 +116,7 @@ _BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationCo
 
 def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path:
     axes = part_axes(scene.parts[request.moving].mesh)
-    return Path(request.moving, motion_about(axis, request.type), reach, axes, request.type is JointType.REVOLUTE)
+    return Path(request.moving, pose_function(axis, request.type), reach, axes, request.type is JointType.REVOLUTE)
 
 
 def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Skipped:
@@ -138,6 +138,6 @@ def _built(request: JointRequest, found: _Found, wanted: float) -> Built:
     most = request.choice.opening
     if most is not None:
         placement, wanted = replace(placement, upper=min(placement.upper, most)), min(wanted, most)
-    way = Way(placement.axis, request.type, placement.upper)
-    with_joint = scene.with_joint(request.moving, way, placement.dynamic, placement.static)
+    joint_motion = JointMotion(placement.axis, request.type, placement.upper)
+    with_joint = scene.with_joint(request.moving, joint_motion, placement.dynamic, placement.static)
     return Built(request, placement, with_joint, clearances, wanted)

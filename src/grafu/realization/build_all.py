@@ -11,10 +11,10 @@ from grafu.geometry.budget import present_budget, within
 from grafu.realization.build import Built, build_joint
 from grafu.realization.cache import Cache
 from grafu.realization.config import RealizationConfig
-from grafu.realization.expectation import expected_ways
+from grafu.realization.expectation import expected_motions
 from grafu.realization.plan import JointRequest
 from grafu.realization.report import Skipped, SkipReason
-from grafu.realization.scene import Scene, Way
+from grafu.realization.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
@@ -40,22 +40,22 @@ def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
 def build_fairly(
     requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Outcomes:
-    """Returns what came of all requests, each joint keeping out of the expected ways of those built after it.
+    """Returns what came of all requests, each joint keeping out of the expected motions of those built after it.
 
     Doors for which that left no place are given the way that was asked for, and all is built again; the first try
     stands unless the second builds more.
     """
-    find = partial(cache.value, "ways", expected_ways, tuple(requests), scene, config)
-    ways: Mapping[str, Way] = within(_EXPECTING, find, lambda _: {})
+    find = partial(cache.value, "ways", expected_motions, tuple(requests), scene, config)
+    joint_motions: Mapping[str, JointMotion] = within(_EXPECTING, find, lambda _: {})
     budget = present_budget().share(_TRY)
     with budget.in_force():
-        first = _build_all(requests, replace(scene, ways=ways), gallery, config, cache)
-        left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & ways.keys()
+        first = _build_all(requests, replace(scene, joint_motions=joint_motions), gallery, config, cache)
+        left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & joint_motions.keys()
         asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
         if not asked or not first[0] or budget.left == 0:
             return first
-        wider = {r.moving: replace(ways[r.moving], axis=r.axis) for r in asked}
-        second = _build_all(requests, replace(scene, ways={**ways, **wider}), gallery, config, cache)
+        wider = {r.moving: replace(joint_motions[r.moving], axis=r.axis) for r in asked}
+        second = _build_all(requests, replace(scene, joint_motions={**joint_motions, **wider}), gallery, config, cache)
     return second if len(second[1]) < len(first[1]) else first
 
 
@@ -69,7 +69,12 @@ def _build_all(
         outcome = _build(request, len(requests) - k, scene, gallery, config, cache)
         if isinstance(outcome, Skipped):
             skipped.append(outcome)
-            scene = replace(scene, ways={name: way for name, way in scene.ways.items() if name != request.moving})
+            scene = replace(
+                scene,
+                joint_motions={
+                    name: joint_motion for name, joint_motion in scene.joint_motions.items() if name != request.moving
+                },
+            )
             continue
         scene = outcome.scene
         built.append(outcome)

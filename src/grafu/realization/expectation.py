@@ -10,21 +10,25 @@ from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.search import door_search
 from grafu.realization.plan import JointRequest
 from grafu.realization.rail.search import drawer_search
-from grafu.realization.scene import Scene, Way
+from grafu.realization.scene import JointMotion, Scene
 from grafu.vocabulary import JointType
 
 
-def expected_ways(requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig) -> dict[str, Way]:
+def expected_motions(
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+) -> dict[str, JointMotion]:
     """Returns the expected motion of each requested joint, by moving body; none for drawers that no rails can carry."""
-    return dict(_ways(requests, scene, config))
+    return dict(_motions(requests, scene, config))
 
 
-def _ways(requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig) -> Iterator[tuple[str, Way]]:
+def _motions(
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+) -> Iterator[tuple[str, JointMotion]]:
     for request in requests:
         if request.type is JointType.REVOLUTE:
             door = door_search(request, scene, config)
-            yield request.moving, Way(door.expected_axis, request.type, door.wanted, is_built=False)
+            yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
             continue
         drawer = drawer_search(request, scene, config)
         if drawer is not None:
-            yield request.moving, Way(drawer.axis, request.type, drawer.wanted, is_built=False)
+            yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)

@@ -18,10 +18,10 @@ from grafu.vocabulary import JointType
 
 _NEAR_REST = 1.5
 
-Motion = Callable[[float], Mat4]
+PoseFunction = Callable[[float], Mat4]
 
 
-def motion_about(axis: Axis, joint_type: JointType) -> Motion:
+def pose_function(axis: Axis, joint_type: JointType) -> PoseFunction:
     """Returns joint value -> 4x4 motion from rest, for a revolute or prismatic joint on this axis."""
     return axis.rotation if joint_type is JointType.REVOLUTE else axis.shift
 
@@ -46,7 +46,7 @@ def _shares(poses: int) -> Scalars:
     return frozen_array(np.linspace(0.0, 1.0, poses) ** _NEAR_REST)
 
 
-def swept_box(box: Box, motion: Motion, reach: float, poses: int = 9) -> Box:
+def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = 9) -> Box:
     """Returns a box around a box's whole way from 0 to `reach` (slightly grown for what lies between poses)."""
     corners = np.vstack([transform_points(motion(v), box.corners()) for v in np.linspace(0.0, reach, poses)])
     return Box.around(corners).grown(0.02 * float(box.size.max()))
@@ -57,7 +57,9 @@ def in_the_way(obstacles: Sequence[Obstacle], box: Box) -> list[Obstacle]:
     return [o for o in obstacles if o.collider.box.overlaps(box)]
 
 
-def sweep(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> SweepVerdict:
+def sweep(
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> SweepVerdict:
     """Returns the verdict over evenly spaced poses from 0 to `reach`; the first blocked pose ends the free opening.
 
     A part that already collides at rest has a free opening of 0, and `share` tells whether that passes.
@@ -71,7 +73,7 @@ def sweep(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obs
 
 
 def free_opening(
-    body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[float, float]:
     """Returns the opening before the first blocked pose, and for a body blocked at rest the share of such poses.
 
@@ -86,18 +88,20 @@ def free_opening(
 
 
 def all_blockers(
-    body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[str, ...]:
     """Returns the ids of the obstacles that the body cuts into anywhere from 0 to `reach`, sorted."""
     return sweep(body, motion, reach, obstacles, poses).blockers
 
 
-def is_free(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
+def is_free(body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
     """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
     return not any(_blockers(body, motion(v), obstacles) for v in opening_values(reach, poses)[::-1])
 
 
-def widest_free(body: SweptBody, motion: Motion, reach: float, obstacles: Sequence[Obstacle], poses: int) -> float:
+def widest_free(
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> float:
     """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection.
 
     A collision at rest does not count: it cannot be avoided by opening less.

@@ -19,7 +19,7 @@ from grafu.realization.build_all import joint_share
 from grafu.realization.cache import Cache
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.limits import in_the_way, motion_about, sweep, swept_box
+from grafu.realization.limits import in_the_way, pose_function, sweep, swept_box
 from grafu.realization.order import Order
 from grafu.realization.placement import Placement
 from grafu.realization.plan import JointRequest
@@ -87,7 +87,7 @@ def _without(gone: set[str], measured: Measured) -> Measured:
 def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Skipped:
     """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
     moving = built.request.moving
-    motion = motion_about(built.placement.axis, built.request.type)
+    motion = pose_function(built.placement.axis, built.request.type)
     near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(moving).box, motion, upper))
     names = {*scene.moving_bodies[moving].members, *(obstacle.id for obstacle in near)}
     around = replace(
@@ -95,7 +95,7 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
         parts={name: part for name, part in scene.parts.items() if name in names},
         moving_bodies={moving: scene.moving_bodies[moving]},
         hardware=tuple((moving, visual) for visual in scene.hardware_of(moving)),
-        ways={},
+        joint_motions={},
     )
     return cache.value("measure", _measure, built.request, built.placement, upper, around, config)
 
@@ -105,7 +105,7 @@ def _measure(
 ) -> Figures:
     """Returns the same in a scene that holds only what is near the path of the moving body."""
     moving = request.moving
-    motion = motion_about(placement.axis, request.type)
+    motion = pose_function(placement.axis, request.type)
     near = list(scene.static_obstacles)
     body = scene.swept_body(moving, config.depth * scene.unit, part_axes(scene.parts[moving].mesh))
     share = sweep(body, motion, upper, near, _MEASURED_POSES).share

@@ -1,8 +1,8 @@
 """Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
 
-A joint that runs into a closed neighbour waits for it, if the neighbour, open, is out of the way and does not itself
+A joint that runs into a closed neighbour waits for it, if the neighbour, open, does not block it and does not itself
 wait; else its opening ends where the neighbour begins, and the report says so. Beyond a quarter turn a door opens only
-as far as it stands in no open neighbour's way, unless a wider opening was chosen.
+as far as it blocks no open neighbour, unless a wider opening was chosen.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.limits import Motion, in_the_way, is_free, sweep, swept_box
+from grafu.realization.limits import PoseFunction, in_the_way, is_free, sweep, swept_box
 from grafu.realization.scene import Obstacle, Scene
 
 _SHARES = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, in the order tried
@@ -27,11 +27,11 @@ _SHARES = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, 
 class BuiltJoint:
     """A joint as built so far: the moving body, its motion, its opening, and the moving bodies that it meets at rest.
 
-    `least` is the opening that it keeps, whoever it stands in the way of.
+    `least` is the opening that it keeps, whatever it blocks.
     """
 
     moving: str
-    motion: Motion
+    motion: PoseFunction
     upper: float
     least: float
     in_way: tuple[str, ...]
@@ -75,30 +75,30 @@ def stand_aside(
 ) -> dict[str, Order]:
     """Returns the orders in which doors open no wider than leaves their open neighbours free, if they must.
 
-    A door that stands in somebody's way however little it opens, down to its `least`, opens as wide as before.
+    A door that blocks another however little it opens, down to its `least`, opens as wide as before.
     """
-    ways = _Ways(scene)
+    paths = _PathBoxes(scene)
     settled = {m.moving: orders[m.moving].upper for m in joints}
     reaches = settled | {m.moving: min(settled[m.moving], m.least) for m in joints}  # of doors to come: what they keep
     for door in joints:
         widest, least = settled[door.moving], reaches[door.moving]
         shares = _SHARES if least < widest else ()
         uppers = (least + share * (widest - least) for share in shares)
-        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, joints, ways, config))
+        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, joints, paths, config))
         reaches[door.moving] = next(found, widest)
     return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
 
 
 @final
-class _Ways:
-    """The boxes around the ways of joints, each worked out once; not a value."""
+class _PathBoxes:
+    """The boxes around the paths of joints, each worked out once; not a value."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self._boxes: dict[tuple[str, float], Box] = {}
 
     def box(self, joint: BuiltJoint, reach: float) -> Box:
-        """Returns the box around a joint's way up to `reach`."""
+        """Returns the box around the path of a joint up to `reach`."""
         key = joint.moving, reach
         if key not in self._boxes:
             require_time()
@@ -111,14 +111,14 @@ def _leaves_free(
     upper: float,
     reaches: Mapping[str, float],
     joints: Sequence[BuiltJoint],
-    ways: _Ways,
+    paths: _PathBoxes,
     config: RealizationConfig,
 ) -> bool:
     """Whether nobody runs into a door that stands open by `upper`."""
-    scene = ways.scene
+    scene = paths.scene
     obstacle = _open(door, upper, scene)
     others = [(other, reaches[other.moving]) for other in joints if other is not door]
-    near = [(other, reach) for other, reach in others if in_the_way([obstacle], ways.box(other, reach))]
+    near = [(other, reach) for other, reach in others if in_the_way([obstacle], paths.box(other, reach))]
     return all(_is_free_of(other, reach, obstacle, scene, config) for other, reach in near)
 
 
@@ -140,9 +140,9 @@ def _is_free_of(joint: BuiltJoint, upper: float, obstacle: Obstacle, scene: Scen
 def _until(joint: BuiltJoint, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:
     """Returns how far a moving body opens before it meets a neighbour that stays closed."""
     obstacle = Obstacle("", MeshCollider(mesh))
-    way = swept_box(scene.moving_mesh(joint.moving).box, joint.motion, joint.upper)
+    path = swept_box(scene.moving_mesh(joint.moving).box, joint.motion, joint.upper)
     verdict = sweep(
-        _body(joint, scene, config), joint.motion, joint.upper, in_the_way([obstacle], way), config.fine_poses
+        _body(joint, scene, config), joint.motion, joint.upper, in_the_way([obstacle], path), config.fine_poses
     )
     # What overlaps at rest already cannot be avoided by opening less.
     return verdict.free if verdict.share and verdict.free > 0 else joint.upper

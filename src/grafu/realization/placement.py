@@ -18,7 +18,7 @@ CHOSEN_REACH = 0.1
 class Placement:
     """The hardware of one joint in the object frame at rest: rectified axis, opening (radians or metres), both ends.
 
-    `in_way` names the moving bodies that the part meets at rest on its way, `struck_by` those that run into the
+    `in_way` names the moving bodies that the part meets at rest along its path, `struck_by` those that run into the
     hardware on theirs; `notes` say what was left out for their sake.
     """
 

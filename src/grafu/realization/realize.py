@@ -25,12 +25,12 @@ from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.joint_choice import short_of_chosen
-from grafu.realization.limits import motion_about
+from grafu.realization.limits import pose_function
 from grafu.realization.measuring import Measured, measure_all
 from grafu.realization.order import BuiltJoint, Order, order_joints, stand_aside
 from grafu.realization.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import Clearance, Installed, RealizationReport, Skipped
-from grafu.realization.scene import MovingBody, Scene, Way
+from grafu.realization.scene import JointMotion, MovingBody, Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
@@ -85,12 +85,12 @@ def _refused(refusal: Refusal) -> Skipped:
 def _final_scene(scene: Scene, built: Sequence[Built], orders: Mapping[str, Order]) -> Scene:
     """Returns the scene in which only those move that have a joint, each as far as it opens."""
     ids = [b.request.moving for b in built]
-    ways = {b.request.moving: _final_way(b, orders[b.request.moving]) for b in built}
-    return replace(scene, moving_bodies={i: scene.moving_bodies[i] for i in ids}, ways=ways)
+    joint_motions = {b.request.moving: _final_motion(b, orders[b.request.moving]) for b in built}
+    return replace(scene, moving_bodies={i: scene.moving_bodies[i] for i in ids}, joint_motions=joint_motions)
 
 
-def _final_way(built: Built, order: Order) -> Way:
-    return Way(built.placement.axis, built.request.type, order.upper, after=order.after)
+def _final_motion(built: Built, order: Order) -> JointMotion:
+    return JointMotion(built.placement.axis, built.request.type, order.upper, after=order.after)
 
 
 def _closed_scene(
@@ -103,7 +103,7 @@ def _closed_scene(
     for request in requests:
         if request.drawn_at <= 0:
             continue
-        motion = motion_about(request.axis, request.type)
+        motion = pose_function(request.axis, request.type)
         axes = part_axes(scene.parts[request.moving].mesh)
         path = Path(request.moving, motion, 1e-6, axes, request.type is JointType.REVOLUTE)
         scene, joined = adopt(scene, path, obstruction(scene, path, config).blockers, config)
@@ -126,7 +126,7 @@ def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> 
 
 def _built_joint(built: Built) -> BuiltJoint:
     placement = built.placement
-    motion = motion_about(placement.axis, built.request.type)
+    motion = pose_function(placement.axis, built.request.type)
     turns = built.request.type is JointType.REVOLUTE
     least = radians(90) if turns and built.request.choice.opening is None else placement.upper
     return BuiltJoint(built.request.moving, motion, placement.upper, least, placement.in_way)

@@ -32,7 +32,7 @@ class MovingBody:
 
 @final
 @dataclass(frozen=True)
-class Way:
+class JointMotion:
     """How a moving body moves: about or along `axis`, from rest to `upper` (radians or metres).
 
     `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built. `after`
@@ -60,19 +60,19 @@ class Obstacle:
 class Scene:
     """All parts in their rest pose.
 
-    `hardware` holds installed visuals by the id of the moving body, or "" for static; `ways` holds what is known of the
-    moving bodies' motions.
+    `hardware` holds installed visuals by the id of the moving body, or "" for static; `joint_motions` holds what is
+    known of the moving bodies' motions.
     """
 
     parts: Mapping[str, Part]
     moving_bodies: Mapping[str, MovingBody]
     unit: float
     hardware: tuple[tuple[str, Visual], ...] = ()
-    ways: Mapping[str, Way] = field(default_factory=dict)
+    joint_motions: Mapping[str, JointMotion] = field(default_factory=dict)
     _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
         default_factory=dict, repr=False
     )
-    _way_boxes: dict[str, tuple[TriangleMesh, Way, Box]] = field(default_factory=dict, repr=False)
+    _path_boxes: dict[str, tuple[TriangleMesh, JointMotion, Box]] = field(default_factory=dict, repr=False)
     _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -112,11 +112,11 @@ class Scene:
             self._merged[key] = (meshes, merge_meshes(meshes))
         return self._merged[key][1]
 
-    def way_box(self, moving_id: str, mesh: TriangleMesh, way: Way, find: Callable[[], Box]) -> Box:
+    def path_box(self, moving_id: str, mesh: TriangleMesh, joint_motion: JointMotion, find: Callable[[], Box]) -> Box:
         """Returns the box around a mesh's whole way, which `find` works out: once, as long as mesh and way stay."""
-        known = self._way_boxes.get(moving_id)
-        if known is None or known[0] is not mesh or known[1] is not way:
-            known = self._way_boxes[moving_id] = (mesh, way, find())
+        known = self._path_boxes.get(moving_id)
+        if known is None or known[0] is not mesh or known[1] is not joint_motion:
+            known = self._path_boxes[moving_id] = (mesh, joint_motion, find())
         return known[2]
 
     def swept_body(self, moving_id: str, depth: float, axes: Mat3) -> SweptBody:
@@ -151,7 +151,7 @@ class Scene:
 
     def afresh(self) -> "Scene":
         """Returns the same scene without what was worked out on its meshes: they take up much room."""
-        return replace(self, _merged={}, _way_boxes={}, _bodies={})
+        return replace(self, _merged={}, _path_boxes={}, _bodies={})
 
     def replaced(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some parts in a new shape."""
@@ -167,10 +167,14 @@ class Scene:
         }
         return replace(self, parts={k: p for k, p in self.parts.items() if k not in gone}, moving_bodies=moving_bodies)
 
-    def with_joint(self, moving_id: str, way: Way, dynamic: Iterable[Visual], static: Iterable[Visual]) -> "Scene":
-        """Returns the scene with a moving body's way, and hardware added to it and to the static body."""
+    def with_joint(
+        self, moving_id: str, joint_motion: JointMotion, dynamic: Iterable[Visual], static: Iterable[Visual]
+    ) -> "Scene":
+        """Returns the scene with a path of the moving body, and hardware added to it and to the static body."""
         added = [(moving_id, v) for v in dynamic] + [("", v) for v in static]
-        return replace(self, hardware=(*self.hardware, *added), ways={**self.ways, moving_id: way})
+        return replace(
+            self, hardware=(*self.hardware, *added), joint_motions={**self.joint_motions, moving_id: joint_motion}
+        )
 
     def static_mesh_near(self, box: Box, margin: float, of: str = "") -> TriangleMesh:
         """Returns the static triangles (`of`: of that part alone) whose own boxes come within `margin` of a box."""

@@ -13,7 +13,7 @@ from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.realization.limits import motion_about, sweep
+from grafu.realization.limits import pose_function, sweep
 from grafu.realization.plan import JointRequest
 from grafu.realization.scene import Obstacle
 from grafu.realization.top.complete import missing_top
@@ -40,7 +40,7 @@ def volume(mesh: TriangleMesh) -> float:
 
 def opens_freely(moving: Part, joint: JointRequest, top: Part, reach: float) -> bool:
     body = SweptBody(moving.mesh, 4e-4, np.eye(3))
-    motion = motion_about(joint.axis, joint.type)
+    motion = pose_function(joint.axis, joint.type)
     return sweep(body, motion, reach, [Obstacle("top", MeshCollider(top.mesh))], 41).share == 0.0
 
 

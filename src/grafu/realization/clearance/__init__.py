@@ -1,1 +1,1 @@
-"""Clearance for parts that interpenetrate at rest or on their way: joined, trimmed, eased or carved, and recorded."""
+"""Clearance for parts that interpenetrate at rest or in motion: attached, trimmed, shrunk or carved, and recorded."""

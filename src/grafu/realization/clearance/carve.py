@@ -67,10 +67,10 @@ def _swept_solids(
     boxes = [scene.parts[name].box for name in ids]
     for points in _cutting_pieces(scene, path, ids, play, config):
         for step in pairwise(poses):
-            way = np.vstack([transform_points(T, points) for T in step])
-            if not any(Box.around(way).overlaps(box, play) for box in boxes):
+            swept = np.vstack([transform_points(T, points) for T in step])
+            if not any(Box.around(swept).overlaps(box, play) for box in boxes):
                 continue
-            solid = ConvexSolid.around(way)
+            solid = ConvexSolid.around(swept)
             if solid is not None:
                 yield solid
 

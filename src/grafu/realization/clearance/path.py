@@ -8,7 +8,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
-from grafu.realization.limits import Motion, SweepVerdict, in_the_way, sweep, swept_box
+from grafu.realization.limits import PoseFunction, SweepVerdict, in_the_way, sweep, swept_box
 from grafu.realization.scene import Scene
 
 
@@ -18,14 +18,14 @@ class Path:
     """A motion from 0 to `reach` (radians if `is_turn`, else metres); the columns of `axes` are those of its box."""
 
     moving: str
-    motion: Motion
+    motion: PoseFunction
     reach: float
     axes: Mat3
     is_turn: bool
 
 
 def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
-    """Returns how far the static parts block the moving body's way, and which of them do."""
+    """Returns how far the static parts block the path of the moving body, and which of them do."""
     mesh = scene.moving_mesh(path.moving)
     body = scene.swept_body(path.moving, config.depth * scene.unit, path.axes)
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))

@@ -44,11 +44,11 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
         KeyError: if the scene has no such moving body.
     """
     moving = scene.moving_bodies[moving_id]
-    way = scene.ways.get(moving_id)
-    if way is None:
+    joint_motion = scene.joint_motions.get(moving_id)
+    if joint_motion is None:
         return Refused(moving_id, GripRefusal.NO_MOTION)
     scale = min(1.0, scene.unit / _FURNITURE)
-    front = front_of(scene.parts[moving.id].mesh, way, config)
+    front = front_of(scene.parts[moving.id].mesh, joint_motion, config)
     part = front_part(scene, moving_id, front)
     if part.id != moving_id:
         local = Box.around(front.local(part.mesh.vertices[np.unique(part.mesh.faces)]))

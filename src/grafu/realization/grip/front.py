@@ -16,7 +16,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.grip.config import GripConfig
 from grafu.realization.hinge.border import border_frame, part_axes
 from grafu.realization.rail.search import slides_in_its_plane
-from grafu.realization.scene import Way
+from grafu.realization.scene import JointMotion
 from grafu.vocabulary import JointType
 
 _HAND = 0.1  # metres: on a front with a shorter side, all that fingers need shrinks with it
@@ -57,11 +57,11 @@ class Front(ArrayValue):
         return points @ self.rotation.T
 
 
-def front_of(mesh: TriangleMesh, way: Way, config: GripConfig) -> Front:
+def front_of(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) -> Front:
     """Returns the front frame of a part that moves in a way."""
-    direction = np.asarray(way.axis.direction)
-    if way.type is JointType.REVOLUTE:
-        border = border_frame(mesh, way.axis)
+    direction = np.asarray(joint_motion.axis.direction)
+    if joint_motion.type is JointType.REVOLUTE:
+        border = border_frame(mesh, joint_motion.axis)
         along, towards, out = border.rotation[:, 2], border.rotation[:, 0], border.rotation[:, 1]
     elif slides_in_its_plane(mesh, direction):
         axes = part_axes(mesh)

@@ -15,7 +15,7 @@ from grafu.geometry.arrays import ArrayValue, Mat3, Points, Vec3, freeze_arrays,
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.realization.hinge.border import border_frame, part_axes
-from grafu.realization.scene import Scene, Way
+from grafu.realization.scene import JointMotion, Scene
 from grafu.vocabulary import JointType, PartLabel
 
 Side = Literal["left", "right", "bottom", "top"]
@@ -83,10 +83,10 @@ def front_of(scene: Scene, moving_id: str) -> Front:
         KeyError: if the scene knows no such moving body, or not how it moves.
     """
     mesh = _body_mesh(scene, moving_id)
-    way = scene.ways[moving_id]
-    if way.type is JointType.REVOLUTE:
-        return _hinged(mesh, scene.parts[moving_id].mesh, way)
-    return _sliding(mesh, scene.parts[moving_id].mesh, way, scene)
+    joint_motion = scene.joint_motions[moving_id]
+    if joint_motion.type is JointType.REVOLUTE:
+        return _hinged(mesh, scene.parts[moving_id].mesh, joint_motion)
+    return _sliding(mesh, scene.parts[moving_id].mesh, joint_motion, scene)
 
 
 def body_members(scene: Scene, moving_id: str) -> tuple[str, ...]:
@@ -102,8 +102,8 @@ def _body_mesh(scene: Scene, moving_id: str) -> TriangleMesh:
     return merge_meshes([scene.parts[m].mesh for m in members])
 
 
-def _hinged(mesh: TriangleMesh, leaf: TriangleMesh, way: Way) -> Front:
-    border = border_frame(leaf, way.axis)
+def _hinged(mesh: TriangleMesh, leaf: TriangleMesh, joint_motion: JointMotion) -> Front:
+    border = border_frame(leaf, joint_motion.axis)
     x, out, along = (border.rotation[:, k] for k in range(3))
     turn = yaw_of(leaf.vertices @ border.rotation)
     if abs(turn) > _TILTED:
@@ -120,8 +120,8 @@ def _hinged(mesh: TriangleMesh, leaf: TriangleMesh, way: Way) -> Front:
     return replace(front, hinge=hinge, held=OPPOSITE[hinge])
 
 
-def _sliding(mesh: TriangleMesh, leaf: TriangleMesh, way: Way, scene: Scene) -> Front:
-    axes, direction = part_axes(leaf), way.axis.direction
+def _sliding(mesh: TriangleMesh, leaf: TriangleMesh, joint_motion: JointMotion, scene: Scene) -> Front:
+    axes, direction = part_axes(leaf), joint_motion.axis.direction
     size = np.ptp(leaf.vertices @ axes, axis=0)
     along = int(np.argmax(np.abs(axes.T @ direction)))
     thin = min(range(2), key=lambda k: float(size[k]))  # an upright panel: level trays slide the way they lie

@@ -15,10 +15,10 @@ from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.handle.config import HandleConfig
 from grafu.realization.handle.fit import Shape, fitted, ground_of
 from grafu.realization.handle.grasp import Grasp
+from grafu.realization.handle.handle_clearance import Surroundings, surroundings_of
 from grafu.realization.handle.relief import Relief, Reliefs
 from grafu.realization.handle.spots import Extent, Spot, spots_on
 from grafu.realization.handle.style import Sibling, Style, choose_style, named_template, siblings_of
-from grafu.realization.handle.way import Surroundings, surroundings_of
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import MovingBody, Scene
 from grafu.templates.handle import HandleTemplate
@@ -71,7 +71,7 @@ def add_handles(
     """Returns handles for the moving bodies of a scene that cannot be grasped.
 
     Args:
-        scene: the final scene, with every moving body's way.
+        scene: the final scene, with the motion of every moving body.
         grasps: how each moving body can be grasped; those left out are not looked at.
         config: style, sizes, places.
         hints: by moving body, where a handle was predicted (object frame): taken where it is clear and sensible.

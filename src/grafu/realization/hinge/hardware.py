@@ -19,7 +19,7 @@ from grafu.realization.hinge.border import BorderFrame
 from grafu.realization.hinge.candidates import PinCandidate
 from grafu.realization.hinge.fit import FittedHinge
 from grafu.realization.hinge.neighbours import Neighbour
-from grafu.realization.limits import Motion, in_the_way, is_free, swept_box
+from grafu.realization.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.realization.scene import Obstacle, Scene
 from grafu.realization.support_block import METAL, Footing, block, shortest_bridge
 from grafu.templates.template import SnapPlane
@@ -46,7 +46,7 @@ class Site:
     door_rays: RayCaster
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Neighbour, ...]
-    motion: Motion
+    motion: PoseFunction
     upper: float
     depth: float
     anchor: float
@@ -59,8 +59,8 @@ class Site:
 class InstalledHinge:
     """One hinge with its support blocks, found to hold on both sides and to cut into no part.
 
-    `struck_by` names the other moving bodies that would run into it on their way, and its own where its ends cut into
-    one another.
+    `struck_by` names the other moving bodies that would run into it along their path, and its own where its ends cut
+    into one another.
     """
 
     static: tuple[Visual, ...]

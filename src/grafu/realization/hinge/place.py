@@ -17,7 +17,7 @@ from grafu.realization.hinge.fit import fit_hinge, hinge_heights, hinge_size
 from grafu.realization.hinge.hardware import InstalledHinge, Site, install, judged_hinge
 from grafu.realization.hinge.pivot import pivot_ends
 from grafu.realization.hinge.search import DoorSearch, JudgedPin
-from grafu.realization.limits import in_the_way, motion_about
+from grafu.realization.limits import in_the_way, pose_function
 from grafu.realization.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.realization.plan import PIVOT
 from grafu.templates.template import Gallery, HingeModel
@@ -76,8 +76,8 @@ def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None
 
 def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
     """Returns those moving bodies whose joints stand."""
-    ways = search.scene.ways
-    return [name for name in moving_bodies if name in ways and ways[name].is_built]
+    joint_motions = search.scene.joint_motions
+    return [name for name in moving_bodies if name in joint_motions and joint_motions[name].is_built]
 
 
 def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> Placement:
@@ -156,7 +156,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         door_rays=search.door_rays,
         obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
         neighbours=search.bodies_around,
-        motion=cache(motion_about(judged.axis, JointType.REVOLUTE)),
+        motion=cache(pose_function(judged.axis, JointType.REVOLUTE)),
         upper=upper,
         depth=search.depth,
         anchor=search.config.anchor * unit,

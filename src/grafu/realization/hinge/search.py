@@ -25,7 +25,15 @@ from grafu.realization.hinge.candidates import (
 from grafu.realization.hinge.fit import SMALLEST, barrel_radius, hinge_count
 from grafu.realization.hinge.neighbours import Neighbour, neighbours_of
 from grafu.realization.hinge.survey import survey
-from grafu.realization.limits import all_blockers, free_opening, in_the_way, motion_about, sweep, swept_box, widest_free
+from grafu.realization.limits import (
+    all_blockers,
+    free_opening,
+    in_the_way,
+    pose_function,
+    sweep,
+    swept_box,
+    widest_free,
+)
 from grafu.realization.plan import PIVOT, JointRequest
 from grafu.realization.scene import Obstacle, Scene
 from grafu.vocabulary import JointType
@@ -98,7 +106,7 @@ class DoorSearch:
 
     @cached_property
     def bodies_around(self) -> tuple[Neighbour, ...]:
-        """The other moving bodies, with the ways that they take or are expected to take."""
+        """The other moving bodies, with and their motions, as built or as expected."""
         return neighbours_of(self.request.moving, self.scene, self.depth)
 
     @cached_property
@@ -200,11 +208,11 @@ class DoorSearch:
 
     def met_at_rest(self) -> tuple[str, ...]:
         """Returns what the door cuts into before it has moved at all."""
-        return sweep(self.body, motion_about(self.best().axis, JointType.REVOLUTE), 0.0, self.obstacles, 1).blockers
+        return sweep(self.body, pose_function(self.best().axis, JointType.REVOLUTE), 0.0, self.obstacles, 1).blockers
 
     def widest(self, axis: Axis, reach: float) -> float:
         """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
-        motion = motion_about(axis, JointType.REVOLUTE)
+        motion = pose_function(axis, JointType.REVOLUTE)
         near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
         return widest_free(self.body, motion, reach, near, self.config.fine_poses)
 
@@ -213,7 +221,7 @@ class DoorSearch:
 
     def _judge(self, pin: PinCandidate) -> JudgedPin:
         axis = self.frame.axis_at(pin.x, pin.y)
-        motion = motion_about(axis, JointType.REVOLUTE)
+        motion = pose_function(axis, JointType.REVOLUTE)
         box = swept_box(self.box, motion, self.wanted)
         poses = self.config.coarse_poses
         free, share = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)

@@ -1,4 +1,4 @@
-"""Whether a panel stands free: at rest of all parts and hardware, and of everything that moves on its whole way."""
+"""Whether a panel stands free: at rest of all parts and hardware, and of everything that moves along its whole path."""
 
 from functools import cached_property
 from typing import final
@@ -9,7 +9,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
-from grafu.realization.limits import in_the_way, motion_about, opening_values, swept_box
+from grafu.realization.limits import in_the_way, opening_values, pose_function, swept_box
 from grafu.realization.scene import Obstacle, Scene
 
 _POSES = 41
@@ -29,7 +29,7 @@ class Clearing:
         self._panels.append(Obstacle(name, MeshCollider(mesh)))
 
     def blocker(self, mesh: TriangleMesh) -> str:
-        """Returns the id of something that a panel would cut into or stop on its way; empty: it stands free."""
+        """Returns the id of something that a panel would cut into or stop along its path; empty: it stands free."""
         for other in self._panels:  # alike and in one place, two panels would not cut each other's surface
             if (mesh.box.axis_gaps(other.collider.box) < -self._depth).all():
                 return other.id
@@ -41,7 +41,7 @@ class Clearing:
         if met:
             return near[met[0]].id
         panel = MeshCollider(mesh)
-        return next((moving for moving in self._scene.ways if self._stops(panel, body, moving)), "")
+        return next((moving for moving in self._scene.joint_motions if self._stops(panel, body, moving)), "")
 
     @cached_property
     def _hardware(self) -> list[Obstacle]:
@@ -53,18 +53,18 @@ class Clearing:
 
     def _stops(self, panel: MeshCollider, body: SweptBody, moving: str) -> bool:
         """Whether a panel stands in the way of a moving body or of the hardware that it carries."""
-        way = self._scene.ways[moving]
-        motion = motion_about(way.axis, way.type)
-        values = opening_values(way.upper, _POSES)
+        joint_motion = self._scene.joint_motions[moving]
+        motion = pose_function(joint_motion.axis, joint_motion.type)
+        values = opening_values(joint_motion.upper, _POSES)
         mesh = self._scene.moving_mesh(moving)
-        if swept_box(mesh.box, motion, way.upper).overlaps(panel.box):
+        if swept_box(mesh.box, motion, joint_motion.upper).overlaps(panel.box):
             swept = self._scene.swept_body(moving, self._depth, part_axes(self._scene.parts[moving].mesh))
             for value in values:
                 swept.place(motion(value))
                 if swept.penetrates(panel):
                     return True
         for visual in self._scene.hardware_of(moving):
-            if not swept_box(visual.mesh.box, motion, way.upper).overlaps(panel.box):
+            if not swept_box(visual.mesh.box, motion, joint_motion.upper).overlaps(panel.box):
                 continue
             collider = MeshCollider(visual.mesh)
             for value in values:

@@ -76,14 +76,14 @@ def taken_cells(scene: Scene, sizes: Sizes) -> Taken:
 
 def is_drawer(scene: Scene, moving: MovingBody) -> bool:
     """Whether a moving body slides out of the body: neither a hinged nor a sliding door."""
-    way, part = scene.ways.get(moving.id), scene.parts[moving.id]
-    if way is None:
+    joint_motion, part = scene.joint_motions.get(moving.id), scene.parts[moving.id]
+    if joint_motion is None:
         return part.label is PartLabel.DRAWER
-    if way.type is not JointType.PRISMATIC or part.label is PartLabel.DOOR:
+    if joint_motion.type is not JointType.PRISMATIC or part.label is PartLabel.DOOR:
         return False
     size = scene.moving_mesh(moving.id).box.size
     thin, middle = np.sort(size)[:2]
-    along = int(np.abs(way.axis.direction).argmax())
+    along = int(np.abs(joint_motion.axis.direction).argmax())
     is_leaf = thin < _THIN * middle and int(np.argmin(size)) != 2
     return part.label is PartLabel.DRAWER or not is_leaf or int(np.argmin(size)) == along
 
@@ -91,8 +91,12 @@ def is_drawer(scene: Scene, moving: MovingBody) -> bool:
 def _zone(scene: Scene, moving: MovingBody, still: Grid, origin: Vec3, cell: float) -> tuple[slice, ...]:
     """Returns the cells that a drawer takes: itself and its rails, its travel, and what lies behind it."""
     box = Box.enclosing([scene.moving_mesh(moving.id).box, *(v.mesh.box for v in _rails(scene, moving))])
-    way = scene.ways.get(moving.id)
-    direction, travel = (way.axis.direction, way.upper) if way is not None else (np.array([0.0, -1.0, 0.0]), 0.0)
+    joint_motion = scene.joint_motions.get(moving.id)
+    direction, travel = (
+        (joint_motion.axis.direction, joint_motion.upper)
+        if joint_motion is not None
+        else (np.array([0.0, -1.0, 0.0]), 0.0)
+    )
     axis = int(np.abs(direction).argmax())
     goes_up = bool(direction[axis] > 0)
     low, high = box.low.copy(), box.high.copy()

@@ -62,8 +62,10 @@ def _turned(scene: Scene, T: Mat4) -> Scene:
         scene.unit,
         tuple((owner, _visual(visual, T)) for owner, visual in scene.hardware),
         {
-            moving: replace(way, axis=way.axis.transformed(T, way.type is JointType.REVOLUTE))
-            for moving, way in scene.ways.items()
+            moving: replace(
+                joint_motion, axis=joint_motion.axis.transformed(T, joint_motion.type is JointType.REVOLUTE)
+            )
+            for moving, joint_motion in scene.joint_motions.items()
         },
     )
 

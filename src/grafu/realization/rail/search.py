@@ -15,11 +15,11 @@ from grafu.geometry.raycast import RayCaster
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.limits import (
-    Motion,
+    PoseFunction,
     all_blockers,
     free_opening,
     in_the_way,
-    motion_about,
+    pose_function,
     sweep,
     swept_box,
     widest_free,
@@ -65,9 +65,9 @@ class DrawerSearch:
         return Axis(self.mesh.box.center, self.frame.slide)
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> PoseFunction:
         """The motion from rest at a travel in metres."""
-        return motion_about(self.axis, JointType.PRISMATIC)
+        return pose_function(self.axis, JointType.PRISMATIC)
 
     @cached_property
     def static_rays(self) -> RayCaster:

@@ -11,7 +11,7 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from grafu.geometry.transform import transform_points
-from grafu.realization.limits import motion_about
+from grafu.realization.limits import pose_function
 from grafu.realization.top.roles import Closed
 from grafu.realization.top.section import EMPTY, offset, section_lines
 from grafu.vocabulary import JointType
@@ -109,7 +109,7 @@ def _swept(moving: Closed, height: float) -> BaseGeometry:
     if joint is None:
         poses = [points]
     else:
-        motion = motion_about(joint.axis, joint.type)
+        motion = pose_function(joint.axis, joint.type)
         turns = joint.type is JointType.REVOLUTE
         reach = float(_TURN) if turns else float(moving.mesh.box.size[:2].max())
         poses = [transform_points(motion(v), points) for v in np.linspace(0.0, reach, _POSES if turns else 2)]

@@ -14,7 +14,7 @@ from jaxtyping import Float
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.realization.limits import motion_about
+from grafu.realization.limits import pose_function
 from grafu.realization.plan import JointRequest
 from grafu.vocabulary import JointType, PartLabel
 
@@ -90,7 +90,7 @@ def _closed(joint: JointRequest, known: dict[str, Part]) -> Closed:
     members = [known[m] for m in (joint.moving, *joint.attached) if m in known]
     bodies = [p.mesh for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
     if joint.drawn_at:
-        T = motion_about(joint.axis, joint.type)(-joint.drawn_at)
+        T = pose_function(joint.axis, joint.type)(-joint.drawn_at)
         bodies = [mesh.transformed(T) for mesh in bodies]
     level = abs(float(joint.axis.direction[2])) < _UPRIGHT
     covers = any(p.label in _COVERS for p in members)

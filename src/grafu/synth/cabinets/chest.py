@@ -16,7 +16,7 @@ from grafu.synth.case.tops import top_meshes
 from grafu.synth.fronts.front import front_pieces, partition_pieces
 from grafu.synth.fronts.layout import Cell, Edges, Layout, Rect, divide
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Motion, Piece, assemble, plank
+from grafu.synth.pieces.assembly import Piece, PieceMotion, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
 from grafu.synth.pieces.shapes import domed_board
 from grafu.vocabulary import JointType, PartLabel
@@ -97,5 +97,5 @@ def _lid(box: Case, spec: Chest) -> Piece:
         pin = vec3(0.0, y, low)
     domed = spec.dome > 0 and not spec.within
     meshes = [domed_board(shape, spec.dome)] if domed else top_meshes(Top("over", edge=spec.edge), shape)
-    motion = Motion(JointType.REVOLUTE, Axis(pin, vec3(-1.0, 0.0, 0.0)), spec.opening)
+    motion = PieceMotion(JointType.REVOLUTE, Axis(pin, vec3(-1.0, 0.0, 0.0)), spec.opening)
     return Piece(PartLabel.DOOR, "lid", tuple(surface_of(mesh, spec.finish.front) for mesh in meshes), motion)

@@ -34,7 +34,7 @@ from grafu.synth.fronts.leaf_relief import bend_at_hinge
 from grafu.synth.fronts.leaf_shape import LeafShape
 from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.fronts.setting import Setting, front_rect, inner_span
-from grafu.synth.pieces.assembly import Motion, Piece, plank
+from grafu.synth.pieces.assembly import Piece, PieceMotion, plank
 from grafu.synth.pieces.finish import surface_of
 from grafu.synth.pieces.shapes import board
 from grafu.vocabulary import JointType, PartLabel
@@ -118,7 +118,7 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
         handle = handle_pieces(drawer.handle, drawer.hold, leaf, None, finish.metal)
     middle = rect.center
     slide = Axis(vec3(middle[0], setting.front, middle[1]), vec3(0.0, -1.0, 0.0))
-    motion = Motion(JointType.PRISMATIC, slide, drawer.travel * depth)
+    motion = PieceMotion(JointType.PRISMATIC, slide, drawer.travel * depth)
     yield Piece(PartLabel.DRAWER, "drawer", tuple(surfaces), motion, handle)
     thick = min(RUNNER[0], 0.8 * setting.slide_gap)
     if drawer.runners and thick > 0.002:
@@ -174,7 +174,7 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
         "top": (vec3(x, y, rect.z1), vec3(-1.0, 0.0, 0.0)),
         "bottom": (vec3(x, y, rect.z0), vec3(1.0, 0.0, 0.0)),
     }
-    motion = Motion(JointType.REVOLUTE, Axis(*pins[door.hinge]), door.opening)
+    motion = PieceMotion(JointType.REVOLUTE, Axis(*pins[door.hinge]), door.opening)
     leaf = _leaf(door, rect, door.hinge, setting)
     handle = handle_pieces(door.handle, door.hold, leaf, door.hinge, setting.finish.metal)
     return Piece(PartLabel.DOOR, "door", leaf_surfaces(leaf, setting.finish), motion, handle)

@@ -18,14 +18,14 @@ from grafu.vocabulary import JointType, PartLabel
 
 @final
 @dataclass(frozen=True, slots=True)
-class Motion:
+class PieceMotion:
     """How a piece truly moves: positive opens, from 0 to `upper` (radians or metres)."""
 
     type: JointType
     axis: Axis
     upper: float
 
-    def transformed(self, T: Mat4) -> "Motion":
+    def transformed(self, T: Mat4) -> "PieceMotion":
         """Returns the motion mapped by a rigid T."""
         return replace(self, axis=self.axis.transformed(T, rotational=self.type is JointType.REVOLUTE))
 
@@ -38,7 +38,7 @@ class Piece:
     label: PartLabel
     stem: str
     surfaces: tuple[Surface, ...]
-    motion: Motion | None = None
+    motion: PieceMotion | None = None
     attached: tuple["Piece", ...] = ()  # attached parts carry no attached part of their own
 
     def transformed(self, T: Mat4) -> "Piece":

@@ -1,4 +1,4 @@
-"""Whether a new handle stays clear of everything: on its own moving body's way, and while the others take theirs."""
+"""Whether a new handle stays clear of everything: along the path of its moving body, and while others move."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from grafu.articulation.waiting import all_before
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.realization.limits import Motion, in_the_way, motion_about, opening_values, swept_box
+from grafu.realization.limits import PoseFunction, in_the_way, opening_values, pose_function, swept_box
 from grafu.realization.scene import Obstacle, Scene
 
 _TOUCH = 0.0002  # of the object's largest side: how deep a handle may touch something
@@ -33,7 +33,8 @@ class Surroundings:
     def blocker(self, moving_id: str, handle: TriangleMesh, poses: int) -> str:
         """Returns the id of something that a handle on a moving body hits, or that hits the handle; empty: nothing.
 
-        At rest it is clear of everything; on its way, what opens before it (a door before a drawer) stands wide open.
+        At rest it is clear of everything; along its path, what opens before it (a door before a drawer) stands wide
+        open.
         """
         body = SweptBody(handle, _TOUCH * self.scene.unit)
         others = [other for other in self.moving if other != moving_id]
@@ -41,7 +42,7 @@ class Surroundings:
         found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)
         if found:
             return found
-        motion, upper = self._way(moving_id)
+        motion, upper = self._motion_of(moving_id)
         opened = [other for other in others if other in self._before(moving_id)]
         closed = [*self.still, *(o for other in others if other not in opened for o in self.moving[other])]
         fixed = in_the_way(closed, swept_box(handle.box, motion, upper))
@@ -52,16 +53,18 @@ class Surroundings:
     def _own_hardware(self, moving_id: str) -> list[Obstacle]:
         return [Obstacle(v.name, MeshCollider(v.mesh)) for v in self.scene.hardware_of(moving_id)]
 
-    def _way(self, moving_id: str) -> tuple[Motion, float]:
-        way = self.scene.ways[moving_id]
-        return motion_about(way.axis, way.type), way.upper
+    def _motion_of(self, moving_id: str) -> tuple[PoseFunction, float]:
+        joint_motion = self.scene.joint_motions[moving_id]
+        return pose_function(joint_motion.axis, joint_motion.type), joint_motion.upper
 
     def _before(self, moving_id: str) -> set[str]:
         """Returns the moving bodies that stand open before a moving body can move."""
-        return all_before(moving_id, {name: way.after for name, way in self.scene.ways.items()})
+        return all_before(
+            moving_id, {name: joint_motion.after for name, joint_motion in self.scene.joint_motions.items()}
+        )
 
     def _opened(self, moving_id: str) -> list[Obstacle]:
-        motion, upper = self._way(moving_id)
+        motion, upper = self._motion_of(moving_id)
         return [Obstacle(o.id, o.collider.posed(motion(upper))) for o in self.moving[moving_id]]
 
     def _runs_into(self, other: str, moving_id: str, body: SweptBody, handle: TriangleMesh, poses: int) -> bool:
@@ -69,10 +72,10 @@ class Surroundings:
 
         Seen from the moving body, the handle takes the way backwards.
         """
-        motion, upper = self._way(other)
+        motion, upper = self._motion_of(other)
         start = np.eye(4)
         if moving_id in self._before(other):
-            opening, widest = self._way(moving_id)
+            opening, widest = self._motion_of(moving_id)
             start = opening(widest)
 
         def backwards(value: float) -> Mat4:
@@ -98,8 +101,8 @@ def surroundings_of(scene: Scene) -> Surroundings:
     return Surroundings(scene, (*scene.static_obstacles, *scene.static_hardware), moving)
 
 
-def _met(body: SweptBody, motion: Motion, upper: float, near: Sequence[Obstacle], poses: int) -> str:
-    """Returns the id of an obstacle that the body meets on its way; empty: none."""
+def _met(body: SweptBody, motion: PoseFunction, upper: float, near: Sequence[Obstacle], poses: int) -> str:
+    """Returns the id of an obstacle that the body meets along its path; empty: none."""
     colliders = [obstacle.collider for obstacle in near]
     for value in opening_values(upper, poses)[::-1] if near else ():
         body.place(motion(float(value)))

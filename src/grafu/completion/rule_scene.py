@@ -62,7 +62,7 @@ class NodeBoxes:
 
 @final
 @dataclass(frozen=True)
-class Scene:
+class RuleScene:
     """A graph whose handles are attached, prepared for the rules. Lengths are metres, `unit` the largest side."""
 
     graph: FunctionalGraph
