@@ -149,7 +149,7 @@ class _Run:
 
     def result(self):
         """Returns the object that it made."""
-        from grafu.export.blend.transport import unpacked
+        from grafu.export.blend.process import unpacked
 
         return unpacked((self.folder / "object.packed").read_bytes())
 

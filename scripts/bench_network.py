@@ -38,7 +38,7 @@ def time_completing(parts: int, repeats: int) -> Completing:
     from grafu.completion.network import complete_by_network, forward
     from grafu.completion.scores import Scores
     from grafu.completion.session import open_network
-    from grafu.data.asked import masked_pair
+    from grafu.data.corruption.corrupt import masked_pair
     from grafu.data.pair import specimen_pair
     from grafu.synth.generate import make_specimen
 

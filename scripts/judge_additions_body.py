@@ -10,8 +10,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Visual, Vis
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
-from grafu.metrics.panels import panel_faults
-from grafu.metrics.rooms import empty_rooms
+from grafu.metrics.panels import empty_rooms, panel_faults
 from grafu.metrics.tops import lost_tops, open_share
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.body_additions import Body, complete_body

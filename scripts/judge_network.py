@@ -2,10 +2,10 @@
 
     python scripts/judge_network.py [--rule] [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
 
-Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.asked`). Prints a
-table in Markdown, the paper's column beside ours, with the half widths of 95 % intervals from resampled models; then,
-of the doors as they were found, how many turn as they should, by what their handles say of the hinge's side. With
---rule the carpenters' rules are judged instead.
+Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.corruption.corrupt`).
+Prints a table in Markdown, the paper's column beside ours, with the half widths of 95 % intervals from resampled
+models; then, of the doors as they were found, how many turn as they should, by what their handles say of the hinge's
+side. With --rule the carpenters' rules are judged instead.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, NetworkSession, open_network
-from grafu.data.asked import VARIANTS, asked_pairs
+from grafu.data.corruption.corrupt import VARIANTS, asked_pairs
 from grafu.data.pair import GraphPair, specimen_pair
 from grafu.evaluation.dataset import TEST_SEED
 from grafu.graph.completion import GraphCompletion

@@ -8,8 +8,7 @@ import trimesh
 
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.templates.handle import HandleTemplate
-from grafu.templates.template import HingeModel
+from grafu.templates.template import HandleTemplate, HingeModel
 
 # Template frame in metres to mesh coordinates in millimetres with Y up, shifted.
 R = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])

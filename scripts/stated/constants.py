@@ -21,7 +21,7 @@ from grafu.metrics.connectivity import ConnectivityConfig
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
 from grafu.pipeline import verdict
-from grafu.processes import memory
+from grafu.processes import limits
 from grafu.processes.limits import PATIENCE
 from grafu.training.ablation import FOLD_MODELS
 from grafu.training.config import BASE, SMALL
@@ -134,7 +134,7 @@ def others() -> Iterator[Sentence]:
     yield "pages.md", "with a score below {:g} %", (per_cent(verdict.LEAST_CONFIDENCE),)
     yield "pages.md", "a part lost more than {:g} % to carving", (per_cent(verdict.MOST_CARVED),)
     yield "limits.md", "{:g} s for a model (`evaluate`: {:g} s for a task)", (limit_options.SECONDS, evaluate._SECONDS)
-    yield "limits.md", "goes more than {:g} GB beyond", (round(memory._SPARE / 1e9),)
+    yield "limits.md", "goes more than {:g} GB beyond", (round(limits._SPARE / 1e9),)
     yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)
     yield "limits.md", "| `--memory SIZE` | {} (of", (limit_options.MEMORY,)
     yield "predictions.md", "agree in it to {} of the size", (matching._EXACT,)

@@ -19,7 +19,7 @@ from grafu.realization.interior import arrangement
 from grafu.realization.interior.config import InteriorConfig
 from grafu.realization.top import complete, coverage, evidence, outline, supports
 from grafu.realization.top.config import TopConfig
-from grafu.templates import user, user_handles
+from grafu.templates import user
 from grafu.templates.rails import TRAVEL
 
 Sentence = tuple[str, str, tuple[float | int | str, ...]]
@@ -134,7 +134,7 @@ def realization() -> Iterator[Sentence]:
     yield page, "in how many of {} poses", (ConnectivityConfig().poses,)
     yield "templates.md", "by more than {} % are refused", (per_cent(user._FIT),)
     yield "templates.md", "at most {:,} faces", (user._LIMITS.max_faces,)
-    yield "templates.md", "within {} % of the protrusion before the foot plane", (per_cent(user_handles._ON_PLANE),)
+    yield "templates.md", "within {} % of the protrusion before the foot plane", (per_cent(user._ON_PLANE),)
     yield (
         "exports.md",
         "Damping is inertia (or mass) over {} s; dry friction brakes a door by {:g} rad/s2, is {:g} % of a",

@@ -9,7 +9,7 @@ import pytest
 
 from grafu.cli.finalize import finalize
 from grafu.cli.main import main
-from grafu.export.blend.transport import unpacked
+from grafu.export.blend.process import unpacked
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.realization.plan import JointChoice

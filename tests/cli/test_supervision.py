@@ -11,7 +11,7 @@ import pytest
 from obj_inputs import write_cabinet
 
 from descendants import SOON, survivors
-from grafu.processes.memory import descendants
+from grafu.processes.limits import descendants
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the tests ask /proc")
 

@@ -9,7 +9,7 @@ import pytest
 from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
-from grafu.data.asked import asked_pairs
+from grafu.data.corruption.corrupt import asked_pairs
 from grafu.data.pair import specimen_pair
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode

@@ -9,8 +9,7 @@ from measured_cabinets import DOOR, DRAWER, cabinet, carcass, made, restated, sl
 
 from grafu.asset.edit import moved, scaled
 from grafu.evaluation.measures import PartMeasure, measure_parts
-from grafu.evaluation.moving_parts import counted_parts
-from grafu.evaluation.raw_motion import raw_object
+from grafu.evaluation.moving_parts import counted_parts, raw_object
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.realization.make_plan import plan_from_annotation

@@ -6,9 +6,8 @@ import pytest
 from measured_cabinets import DOOR, DRAWER, cabinet, carcass, sliding, turning
 
 from grafu.asset.part import Asset
-from grafu.evaluation.moving_parts import counted_parts
+from grafu.evaluation.moving_parts import counted_parts, raw_object
 from grafu.evaluation.plausible import Plausibility, judge_motion
-from grafu.evaluation.raw_motion import raw_object
 from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.plan import RealizationPlan
 from grafu.vocabulary import PartLabel

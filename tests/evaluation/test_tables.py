@@ -19,7 +19,6 @@ from grafu.evaluation.models_table import models_table
 from grafu.evaluation.motion_table import motion_table
 from grafu.evaluation.ood_table import ood_table
 from grafu.evaluation.output import build_tables, output_files
-from grafu.evaluation.plan import TABLES, EvaluationPlan
 from grafu.evaluation.records import (
     CompletenessRecord,
     GraspRecord,
@@ -36,7 +35,17 @@ from grafu.evaluation.records import (
 from grafu.evaluation.results import Results, collect
 from grafu.evaluation.static_table import static_table
 from grafu.evaluation.table import FORMS, Column, Table, csv_text, json_text, latex, markdown
-from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, Task, TwinTask, key_of
+from grafu.evaluation.tasks import (
+    TABLES,
+    EvaluationPlan,
+    MadeTask,
+    MaskTask,
+    MethodTask,
+    ModelTask,
+    Task,
+    TwinTask,
+    key_of,
+)
 from grafu.vocabulary import JointType, PartLabel
 
 LEFT = MotionRecord(

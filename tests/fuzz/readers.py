@@ -59,8 +59,7 @@ def read_settings(entry: Path, rng: Random) -> Any:
 
 
 def read_templates(entry: Path, rng: Random) -> Any:
-    from grafu.templates.user import load_gallery
-    from grafu.templates.user_handles import load_handles
+    from grafu.templates.user import load_gallery, load_handles
 
     gallery, handles = load_gallery(entry), load_handles(entry)
     return [model.build(model.natural) for model in (*gallery.hinges, *gallery.rails)], handles

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster, robust_median
+from grafu.geometry.raycast import RayCaster, line_crossings, outer_faces, robust_median
 
 CUBE = TriangleMesh.box_mesh(Box(vec3(-0.5, -0.5, -0.5), vec3(0.5, 0.5, 0.5)))
 CASTER = RayCaster(CUBE)
@@ -64,3 +64,81 @@ def test_nothing_is_met_where_there_is_nothing():
 )
 def test_the_robust_median_asks_for_enough_hits_in_reach(distances, median):
     assert robust_median(np.array(distances), reach=5.0) == median
+
+
+def box(low, high) -> TriangleMesh:
+    return TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+
+
+def test_of_a_box_around_a_box_the_outer_one_is_seen():
+    seen = outer_faces(merge_meshes([box((0, 0, 0), (1, 1, 1)), box((0.1, 0.1, 0.1), (0.9, 0.9, 0.9))]))
+
+    assert seen.tolist() == [True] * 12 + [False] * 12
+
+
+def test_of_an_open_cavity_the_walls_are_seen():
+    inner = box((0.1, -0.5, 0.1), (0.9, 0.9, 0.9))  # it comes out of the front of the outer one
+    faces = inner.face_normals[:, 1] > -0.5
+    shell = box((0, 0, 0), (1, 1, 1))
+    mesh = merge_meshes([shell.with_faces(shell.face_normals[:, 1] > -0.5), inner.with_faces(faces)])
+
+    assert outer_faces(mesh).all()
+
+
+def test_faces_where_two_boards_touch_are_hidden():
+    mesh = merge_meshes([box((0, 0, 0), (1, 0.1, 1)), box((0, 0.1, 0), (1, 0.2, 1))])
+    hidden = mesh.face_areas[~outer_faces(mesh)].sum()
+
+    assert np.isclose(hidden, 2.0)
+
+
+@given(st.floats(1e-3, 1e3), st.tuples(*[st.floats(-2, 2)] * 3))
+def test_neither_size_nor_place_matters(scale, place):
+    mesh = merge_meshes([box((0, 0, 0), (2, 1, 1)), box((0.1, 0.1, 0.1), (0.9, 0.9, 0.9))])
+    moved = TriangleMesh(scale * (mesh.vertices + np.array(place)), mesh.faces)
+
+    assert outer_faces(moved).tolist() == [True] * 12 + [False] * 12
+
+
+def test_a_sheet_is_seen_from_either_side_and_nothing_of_nothing():
+    assert outer_faces(TriangleMesh(np.eye(3), np.array([[0, 1, 2]]))).tolist() == [True]
+    assert outer_faces(merge_meshes([])).tolist() == []
+
+
+XS, YS = np.linspace(0.11, 0.87, 7), np.linspace(0.13, 0.9, 4)
+UNIT = TriangleMesh.box_mesh(Box(np.zeros(3), np.ones(3)))
+
+
+def test_every_line_enters_a_box_at_its_top_and_leaves_it_at_its_bottom():
+    found = line_crossings(np.asarray(UNIT.triangles), XS, YS)
+    assert found.line.tolist() == np.repeat(np.arange(28), 2).tolist()
+    assert np.allclose(found.height.reshape(-1, 2), [1.0, 0.0])
+    assert found.looks_up.reshape(-1, 2).tolist() == [[True, False]] * 28
+
+
+@given(st.lists(st.tuples(*[st.floats(0.0, 0.9)] * 3), min_size=1, max_size=6), st.floats(0.05, 0.5))
+def test_crossings_of_boxes_come_in_pairs_from_high_to_low(lows, side):
+    boxes = [Box(vec3(*low), vec3(*low) + side) for low in lows]
+    mesh = merge_meshes([TriangleMesh.box_mesh(b) for b in boxes])
+    found = line_crossings(np.asarray(mesh.triangles), XS + 1e-4, YS + 1e-4)
+    for line, (x, y) in enumerate(np.stack(np.meshgrid(XS + 1e-4, YS + 1e-4, indexing="ij"), axis=-1).reshape(-1, 2)):
+        over = [b for b in boxes if np.all(np.abs(b.center[:2] - (x, y)) < b.half[:2] - 1e-9)]
+        clear = [b for b in boxes if np.any(np.abs(np.abs(b.center[:2] - (x, y)) - b.half[:2]) < 1e-9)]
+        if clear or any(abs(abs(x - b.low[0]) - abs(y - b.low[1])) < 1e-9 for b in over):
+            continue  # on a border or a diagonal, where a line meets two faces
+        heights = found.height[found.line == line]
+        assert np.allclose(heights, sorted((float(z) for b in over for z in (b.low[2], b.high[2])), reverse=True))
+
+
+def test_faces_along_the_lines_and_faces_aside_are_not_crossed():
+    upright = np.array([[(0.5, 0.0, 0.0), (0.5, 1.0, 0.0), (0.5, 0.5, 1.0)]])
+    assert len(line_crossings(upright, XS, YS).line) == 0
+    assert len(line_crossings(np.asarray(UNIT.triangles) + 5.0, XS, YS).line) == 0
+    assert len(line_crossings(np.zeros((0, 3, 3)), XS, YS).line) == 0
+
+
+def test_a_slanted_face_is_met_at_its_own_height():
+    slope = np.array([[(-1.0, -1.0, -2.0), (3.0, -1.0, 2.0), (-1.0, 5.0, 4.0)]])  # z = x + y
+    found = line_crossings(slope, XS, YS)
+    x, y = np.meshgrid(XS, YS, indexing="ij")
+    assert np.allclose(found.height, (x + y).reshape(-1))

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.shells import shell_numbers
 from strategies import cabinet_specs, made
 
 UNIT = Box(np.zeros(3), np.ones(3))

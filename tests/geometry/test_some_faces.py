@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from grafu.geometry.appearance import Material, Surface
+from grafu.geometry.appearance import Material, Surface, joined, selected
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.selection import joined, selected
 from grafu.geometry.solids import ConvexSolid, subtract
 
 MESH = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0)))

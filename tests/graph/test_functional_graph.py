@@ -18,7 +18,7 @@ from grafu.graph.edit import (
     without_edges,
     without_nodes,
 )
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.functional_graph import FunctionalGraph, PartNode, joined_groups
 from grafu.vocabulary import PartLabel
 
 LABELS = {
@@ -200,3 +200,9 @@ def test_a_decision_is_found_by_its_question():
     completion = GraphCompletion(graph(*EDGES), graph(*EDGES), "rule", decisions=(decision,))
     assert completion.decision("door", "mount") == decision
     assert completion.decision("door", "border") is None
+
+
+def test_a_way_over_others_joins() -> None:
+    joined = {"a": ("b",), "b": ("a", "c"), "c": ("b",), "d": (), "e": ("f",), "f": ("e",)}
+    assert joined_groups(joined) == [frozenset("abc"), frozenset("d"), frozenset("ef")]
+    assert joined_groups({}) == []

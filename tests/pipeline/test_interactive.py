@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from grafu.errors import FunctionalizationError
-from grafu.export.blend.transport import unpacked
+from grafu.export.blend.process import unpacked
 from grafu.pipeline import interactive
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import SCHEMA

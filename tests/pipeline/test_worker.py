@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from grafu.asset.load import load_asset
-from grafu.export.blend.transport import unpacked
+from grafu.export.blend.process import unpacked
 from grafu.export.glb import export_glb
 from grafu.pipeline.addition_config import HandleChoice
 from grafu.pipeline.functionalize import functionalize

@@ -13,10 +13,9 @@ from time import sleep
 import pytest
 
 from descendants import SOON, survivors
-from grafu.processes.limits import Ending, Limits
-from grafu.processes.memory import descendants, resident_bytes
-from grafu.processes.pool import run_each
-from grafu.processes.scratch import scratch_folder
+from grafu.processes.lifetime import scratch_folder
+from grafu.processes.limits import Ending, Limits, descendants, resident_bytes
+from grafu.processes.worker import run_each
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the tests ask /proc")
 
@@ -28,7 +27,7 @@ _PARENT = """
 import sys
 sys.path[:0] = {paths!r}
 from test_run_each import hang_with_a_child
-from grafu.processes.pool import run_each
+from grafu.processes.worker import run_each
 if __name__ == "__main__":
     list(run_each(["{folder}/a", "{folder}/b"], 2, hang_with_a_child))
 """

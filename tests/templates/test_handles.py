@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from grafu.errors import TemplateError
-from grafu.templates.handle import HandleSize, HandleTemplate
 from grafu.templates.handles import HANDLES, handle_template
+from grafu.templates.template import HandleSize, HandleTemplate
 
 every_handle = pytest.mark.parametrize("handle", HANDLES, ids=lambda handle: handle.id)
 

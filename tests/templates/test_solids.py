@@ -5,8 +5,7 @@ from hypothesis import strategies as st
 from shapely.geometry import Polygon, box
 
 from grafu.geometry.arrays import vec3
-from grafu.templates.finish import STEEL, finished
-from grafu.templates.solids import disc, extrude, placed, rectangle, tube, turned
+from grafu.templates.solids import STEEL, disc, extrude, finished, placed, rectangle, tube, turned
 
 
 def volume(mesh):

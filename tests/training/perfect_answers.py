@@ -11,8 +11,7 @@ from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.network.batch import Predictions
 from grafu.training.loss_config import LossConfig
-from grafu.training.matcher import match_slots
-from grafu.training.slot_truth import SlotTruth, slot_truth
+from grafu.training.matcher import SlotTruth, match_slots, slot_truth
 from grafu.training.targets import NONE, GraphTargets, TargetBatch, graph_targets, stack_targets
 from small_graphs import cabinet
 

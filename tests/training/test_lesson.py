@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from grafu.completion.features import FeatureConfig, graph_features
-from grafu.data.asked import MASKED, masked_pair
 from grafu.data.corruption.config import CorruptionConfig
+from grafu.data.corruption.corrupt import MASKED, masked_pair
 from grafu.data.pair import GraphPair, natural_pair
 from grafu.graph.arrays import CONTACT, UNKNOWN
 from grafu.graph.edit import as_contacts, without_nodes

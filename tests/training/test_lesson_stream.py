@@ -8,7 +8,7 @@ from little_runs import FewModels
 
 from grafu.completion.features import FeatureConfig
 from grafu.training.config import TINY
-from grafu.training.lesson_stream import DealConfig, Syllabus, stream_hands
+from grafu.training.lesson import DealConfig, Syllabus, stream_hands
 
 FEATURES = FeatureConfig(points=8, anchors=2, neighbours=2)
 DEAL = DealConfig(models=2, copies=1, reuse=3, spread=6)

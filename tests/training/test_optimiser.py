@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from grafu.training.config import Matrices, OptimiserConfig
-from grafu.training.optimiser import Optimiser, rate_at
+from grafu.training.optimiser import AveragedWeights, Optimiser, rate_at
 
 CONFIG = OptimiserConfig(rate=0.01, weight_decay=0.0)
 
@@ -98,3 +98,43 @@ def test_it_rises_and_falls_to_zero() -> None:
 
 def test_a_period_beyond_the_end_never_comes_to_zero() -> None:
     assert rate_at(119, 120, 0, 450) == pytest.approx(0.837, abs=0.01)  # the authors stop at 83 % of the peak
+
+
+def linear(value: float) -> nn.Linear:
+    layer = nn.Linear(2, 1)
+    with torch.no_grad():
+        for parameter in layer.parameters():
+            parameter.fill_(value)
+    return layer
+
+
+def test_the_start_is_forgotten_and_the_rest_averaged() -> None:
+    average = AveragedWeights(linear(100.0), 0.9)
+    for _ in range(200):
+        average.update(linear(1.0))
+    assert average.weights["weight"].tolist() == [[pytest.approx(1.0), pytest.approx(1.0)]]
+    average.update(linear(2.0))
+    assert float(average.weights["bias"]) == pytest.approx(1.1)
+
+
+def test_without_decay_it_is_the_last() -> None:
+    average = AveragedWeights(linear(1.0), 0.0)
+    average.update(linear(5.0))
+    assert float(average.weights["bias"]) == 5.0
+
+
+def test_it_goes_on_from_its_state() -> None:
+    one = AveragedWeights(linear(1.0), 0.99)
+    one.update(linear(3.0))
+    other = AveragedWeights(linear(0.0), 0.99)
+    other.restore(one.state())
+    one.update(linear(4.0))
+    other.update(linear(4.0))
+    assert torch.equal(one.weights["weight"], other.weights["weight"])
+    with pytest.raises(ValueError, match="same module"):
+        other.restore({"steps": 1, "weights": {}})
+
+
+def test_a_decay_of_one_is_refused() -> None:
+    with pytest.raises(ValueError, match="decay"):
+        AveragedWeights(linear(1.0), 1.0)

@@ -8,7 +8,7 @@ import torch
 from little_runs import LITTLE, FewModels
 from perfect_answers import perfect, two_cabinets
 
-from grafu.data.asked import VARIANTS
+from grafu.data.corruption.corrupt import VARIANTS
 from grafu.graph.arrays import DOOR, UNKNOWN
 from grafu.metrics.graph_accuracy import total_accuracy
 from grafu.network.grafu import GraFu

@@ -13,7 +13,7 @@ from grafu.pipeline.report_schema import SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import verdict_of
 from grafu.realization.report import SkipReason
-from grafu.viewer.run_rows import RunEntry, functionalized_run
+from grafu.viewer.run_table import RunEntry, functionalized_run
 
 PRAISE = ("Everything works", "Nothing was skipped", "all else that was asked for was built")
 

@@ -7,8 +7,7 @@ from page_reader import PageReader
 from grafu.pipeline.report_schema import SkippedRecord
 from grafu.realization.report import SkipReason
 from grafu.viewer.run_page import binned, run_page
-from grafu.viewer.run_rows import RunEntry, functionalized_run
-from grafu.viewer.run_table import Column, Figure, Run, RunRow, RunTable
+from grafu.viewer.run_table import Column, Figure, Run, RunEntry, RunRow, RunTable, functionalized_run
 
 COLUMNS = (
     Column("model"),

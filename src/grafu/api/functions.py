@@ -4,8 +4,15 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import Any, Final
 
-from grafu.api.arguments import as_path, described, optional_number, require, require_bool_or_word
-from grafu.api.request import Request, motion_in_words
+from grafu.api.request import (
+    Request,
+    as_path,
+    described,
+    motion_in_words,
+    optional_number,
+    require,
+    require_bool_or_word,
+)
 from grafu.api.result import Result
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset

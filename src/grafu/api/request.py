@@ -1,10 +1,14 @@
-"""What was asked for, as one value: the asset, the settings, and whose motions. Running it gives what was made."""
+"""What was asked for, as one value: the asset, the settings, and whose motions. Running it gives what was made.
 
+Arguments of the Python functions are checked where they are given.
+"""
+
+import os
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import final
+from typing import Any, TypeVar, final
 
-from grafu.api.arguments import require
 from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
@@ -13,7 +17,75 @@ from grafu.pipeline.settings import Settings
 from grafu.realization.cache import Cache
 from grafu.realization.motion_choice import MotionChoice, choice_in_words
 from grafu.templates.available import open_gallery
-from grafu.templates.user_handles import load_handles
+from grafu.templates.user import load_handles
+
+T = TypeVar("T")
+
+
+def as_path(value: Any, name: str) -> Path:
+    """Returns a path of a str or a Path.
+
+    Raises:
+        TypeError: if it is neither.
+    """
+    if isinstance(value, bytes) or not isinstance(value, str | os.PathLike):
+        raise TypeError(f"`{name}` must be a path, as str or Path: got {described(value)}")
+    return Path(value)
+
+
+def require(value: Any, kind: type[T], name: str, expected: str) -> T:
+    """Returns the value where it is of this type; a bool is no number.
+
+    Raises:
+        TypeError: if it is of another type.
+    """
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        raise TypeError(f"`{name}` must be {expected}: got {described(value)}")
+    return value
+
+
+def require_bool_or_word(value: Any, name: str, expected: str) -> bool | str:
+    """Returns the value where it is True, False or a str.
+
+    Raises:
+        TypeError: if it is of another type.
+    """
+    if not isinstance(value, bool | str):
+        raise TypeError(f"`{name}` must be True, False or {expected}: got {described(value)}")
+    return value
+
+
+def optional_number(value: Any, name: str) -> float | None:
+    """Returns a number as float, or None.
+
+    Raises:
+        TypeError: if it is something else.
+    """
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise TypeError(f"`{name}` must be a number or None: got {described(value)}")
+    return float(value)
+
+
+def as_words(value: Any, name: str) -> tuple[str, ...]:
+    """Returns words, each once, in order; one str is one word, or several with commas between.
+
+    Raises:
+        TypeError: if it is no str and no series of str.
+    """
+    words = value.split(",") if isinstance(value, str) else value
+    if not isinstance(words, Iterable) or isinstance(words, bytes):
+        raise TypeError(f"`{name}` must be a list of names: got {described(value)}")
+    found = [require(word, str, name, "a list of names").strip() for word in words]
+    return tuple(dict.fromkeys(word for word in found if word))
+
+
+def described(value: object) -> str:
+    """Returns a value's type and a short form of it, for messages."""
+    text = repr(value)
+    return f"{type(value).__name__} {text if len(text) <= 60 else text[:57] + '...'}"
+
 
 CACHED_VALUES = 400
 """Values of the stages that results of one lineage share: some ten changes of a model with twenty joints."""

@@ -7,8 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import final
 
-from grafu.api.arguments import as_path, as_words, optional_number, require
-from grafu.api.request import Request, motion_in_words
+from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require
 from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset

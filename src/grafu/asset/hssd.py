@@ -28,9 +28,8 @@ from grafu.asset.part import Annotation, Part
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
-from grafu.geometry.appearance import Surface
+from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.box import Box
-from grafu.geometry.selection import selected
 from grafu.vocabulary import PartLabel
 
 REST = "rest"  # the part of the triangles that no part claims

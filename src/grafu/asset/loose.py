@@ -7,13 +7,12 @@ import numpy as np
 
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part
-from grafu.geometry.appearance import Surface
+from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.point_distance import point_triangle_distances
-from grafu.geometry.selection import selected
-from grafu.geometry.shells import shell_numbers
 from grafu.vocabulary import PartLabel
 
 _TINY = 0.01  # of the whole's largest side: a screw, no part

@@ -9,11 +9,10 @@ from pathlib import Path
 
 from grafu.cli.messages import complain, say
 from grafu.cli.progress import with_progress
-from grafu.data.asked import VARIANTS
+from grafu.data.corruption.corrupt import VARIANTS
 from grafu.export.whole_file import write_whole
-from grafu.training.ablation import experiments, training_models
+from grafu.training.ablation import MEAN, Result, csv_table, experiments, markdown_table, training_models
 from grafu.training.ablation_run import AblationRun, begin_ablation, do_runs, known_figures
-from grafu.training.ablation_table import MEAN, Result, csv_table, markdown_table
 from grafu.training.config import CONFIGS, TrainingConfig
 from grafu.training.source import source_to_train_on
 from grafu.training.workers import has_device

@@ -6,7 +6,7 @@ from pathlib import Path
 from grafu.cli.input_options import positive_count
 from grafu.cli.limit_options import add_limit_options
 
-# As in `grafu.evaluation.plan`; spelled again, so that `grafu --help` answers at once.
+# As in `grafu.evaluation.tasks`; spelled again, so that `grafu --help` answers at once.
 _TABLES = "motion,masking,static,models,ood"
 _METHODS = "annotation,rule,network"
 _SECONDS = 900.0  # for a task: to make a model and to measure it

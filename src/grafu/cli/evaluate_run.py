@@ -20,11 +20,10 @@ from grafu.evaluation.dataset import find_models
 from grafu.evaluation.methods import parse_method
 from grafu.evaluation.output import build_tables, output_files
 from grafu.evaluation.perform import failed, perform
-from grafu.evaluation.plan import EvaluationPlan
 from grafu.evaluation.records import NAME, Row, append_rows, begin_rows, done
 from grafu.evaluation.results import Results, collect
 from grafu.evaluation.table import Table, shown
-from grafu.evaluation.tasks import Task, key_of
+from grafu.evaluation.tasks import EvaluationPlan, Task, key_of
 from grafu.export.files import ExportFiles, require_free, write_files
 from grafu.export.whole_file import write_whole
 from grafu.processes.limits import Limits

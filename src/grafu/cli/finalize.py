@@ -1,7 +1,7 @@
 """One job for a program that shows how far it is: `python -m grafu.cli.finalize ORDER`.
 
 ORDER is a JSON file: `source`, `settings` and `out` (paths), `formats` (a list), `overwrite`, and `object`, where the
-object made goes for another process (`grafu.export.blend.transport`). What `grafu functionalize` writes goes to
+object made goes for another process (`grafu.export.blend.process`). What `grafu functionalize` writes goes to
 OUT/<the source's name>/. Every line on stdout is `stage NAME` as a stage begins, then `done` or `error WHY`; the exit
 code is 0, or 2.
 """
@@ -18,7 +18,7 @@ from grafu.asset.own_files import read_own
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
 from grafu.cli.messages import one_line
 from grafu.errors import FunctionalizationError, OptionError
-from grafu.export.blend.transport import packed
+from grafu.export.blend.process import packed
 from grafu.export.formats import exporter_for
 from grafu.export.output_names import output_name, why_not_apart
 from grafu.pipeline.motion_source import SourceOption

@@ -206,7 +206,7 @@ def _config(options: JobOptions) -> "PipelineConfig":
     from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import PipelineConfig
     from grafu.realization.config import RealizationConfig
-    from grafu.templates.user_handles import load_handles
+    from grafu.templates.user import load_handles
 
     own_handles = load_handles(options.templates) if options.templates else {}
     if options.settings:

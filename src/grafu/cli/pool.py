@@ -9,7 +9,7 @@ from grafu.cli.job import Failed, Job, JobResult, run_job
 from grafu.cli.limit_options import why_stopped
 from grafu.cli.verb import prepare_verb
 from grafu.processes.limits import Ending, Limits
-from grafu.processes.pool import run_each
+from grafu.processes.worker import run_each
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")

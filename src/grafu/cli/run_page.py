@@ -9,7 +9,7 @@ from grafu.cli.job import MODEL_PAGE, JobResult, Succeeded, small_picture_in
 from grafu.visible import writable
 
 if TYPE_CHECKING:
-    from grafu.viewer.run_rows import RunEntry
+    from grafu.viewer.run_table import RunEntry
 
 RUN_PAGE = "index.html"
 
@@ -25,7 +25,7 @@ def write_index(results: Sequence[JobResult], out: Path) -> Path | None:
     """
     from grafu.export.whole_file import write_whole
     from grafu.viewer.run_page import run_page
-    from grafu.viewer.run_rows import functionalized_run
+    from grafu.viewer.run_table import functionalized_run
 
     path = out / RUN_PAGE
     is_due = path.exists() or len(results) > 1
@@ -51,7 +51,7 @@ def is_free_for_page(path: Path) -> bool:
 
 def _entries(results: Sequence[JobResult], out: Path) -> "list[RunEntry]":
     from grafu.cli.earlier import finished_in
-    from grafu.viewer.run_rows import RunEntry
+    from grafu.viewer.run_table import RunEntry
 
     done = {result.job.name for result in results if isinstance(result, Succeeded)}
     entries = [_entry(result) for result in results]
@@ -63,7 +63,7 @@ def _entries(results: Sequence[JobResult], out: Path) -> "list[RunEntry]":
 
 
 def _entry(result: JobResult) -> "RunEntry":
-    from grafu.viewer.run_rows import RunEntry
+    from grafu.viewer.run_table import RunEntry
 
     job = result.job
     if isinstance(result, Succeeded):

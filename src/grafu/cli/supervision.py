@@ -12,8 +12,7 @@ from grafu.cli.limit_options import limits_of, why_stopped
 from grafu.cli.messages import complain
 from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, prepare_verb, run_verb
 from grafu.processes.limits import Ending
-from grafu.processes.pool import run_each
-from grafu.processes.worker import quick_start
+from grafu.processes.worker import quick_start, run_each
 
 _CLEAR_LINE = "\r\x1b[2K\x1b[?25h"  # the line of a progress that nobody ended, and the cursor that it hid
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from grafu.templates.handle import HandleTemplate
-    from grafu.templates.template import Gallery, HingeModel, RailModel
+    from grafu.templates.template import Gallery, HandleTemplate, HingeModel, RailModel
 
 _DESCRIPTION = """\
 Lists the hinges and rails that can be installed and the handles that can be added. With --out it writes each mechanism

@@ -12,10 +12,10 @@ from grafu.evaluation.methods import FOREIGN
 from grafu.evaluation.models_table import models_table
 from grafu.evaluation.motion_table import motion_table
 from grafu.evaluation.ood_table import ood_table
-from grafu.evaluation.plan import EvaluationPlan
 from grafu.evaluation.results import Results
 from grafu.evaluation.static_table import static_table
 from grafu.evaluation.table import FORMS, Table, markdown
+from grafu.evaluation.tasks import EvaluationPlan
 from grafu.version import __version__
 
 _BUILDERS: Final[dict[str, Callable[[Results], Table]]] = {

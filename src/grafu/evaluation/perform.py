@@ -10,9 +10,8 @@ from grafu.evaluation.dataset import ModelRef, category_of, load_model
 from grafu.evaluation.distribution import graph_features
 from grafu.evaluation.measures import PartMeasure, measure_parts
 from grafu.evaluation.methods import made_by, made_with_labels_hidden
-from grafu.evaluation.moving_parts import MovingPart, counted_parts
+from grafu.evaluation.moving_parts import MovingPart, counted_parts, raw_object
 from grafu.evaluation.plausible import judge_motion
-from grafu.evaluation.raw_motion import raw_object
 from grafu.evaluation.records import (
     CompletenessRecord,
     MadeFacts,

@@ -17,8 +17,7 @@ from grafu.asset.part import Asset, Part
 from grafu.evaluation.statistics_fronts import Front, boxes_of, doors_of, drawers_of, lacks_top
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_nodes
-from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.groups import joined_groups
+from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.vocabulary import PartLabel
 
 _FLAT = 1e-4  # share of the object's largest side under which a part has no thickness: half a millimetre in 5 m

@@ -1,14 +1,18 @@
-"""How a mesh looks: materials, textures, and surfaces that carry both. It knows no file format."""
+"""How a mesh looks: materials, textures, and surfaces that carry both. It knows no file format.
 
-from dataclasses import dataclass, field
+Some faces of a surface, and several surfaces of one material as one, keep their attributes.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal, final
 
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from grafu.geometry.arrays import ArrayValue, Mat4, Points, frozen_array
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.arrays import ArrayValue, Indices, Mat4, Points, frozen_array
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 
 @final
@@ -84,3 +88,29 @@ class Surface(ArrayValue):
             mapped = normals @ np.linalg.inv(T[:3, :3])
             normals = mapped / np.maximum(np.linalg.norm(mapped, axis=1, keepdims=True), 1e-300)
         return Surface(self.mesh.transformed(T), self.material, self.uv, normals, self.colors, self.name)
+
+
+_WIDTHS = {"uv": 2, "normals": 3, "colors": 4}
+
+
+def selected(surface: Surface, faces: Indices) -> Surface:
+    """Returns the surface of some faces, given by number; vertices that none of them uses are dropped."""
+    kept = surface.mesh.faces[faces]
+    used, index = np.unique(kept, return_inverse=True)
+    mesh = TriangleMesh(surface.mesh.vertices[used], index.reshape(kept.shape))
+    uv, normals, colors = (None if a is None else a[used] for a in (surface.uv, surface.normals, surface.colors))
+    return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
+
+
+def joined(like: Surface, pieces: Sequence[Surface]) -> Surface:
+    """Returns pieces of one surface, which have the attributes that it has, as one; same vertices become one."""
+    mesh = merge_meshes([piece.mesh for piece in pieces])
+    widths = {name: width for name, width in _WIDTHS.items() if getattr(like, name) is not None}
+    columns = (np.vstack([getattr(piece, name) for piece in pieces]).astype(np.float64) for name in widths)
+    rows, index = np.unique(np.hstack([mesh.vertices, *columns]), axis=0, return_inverse=True)
+    at, found = 3, {}
+    for name, width in widths.items():
+        found[name], at = rows[:, at : at + width], at + width
+    colors = found["colors"].astype(np.uint8) if "colors" in found else None
+    mesh = TriangleMesh(rows[:, :3], index.reshape(-1)[mesh.faces])
+    return replace(like, mesh=mesh, uv=found.get("uv"), normals=found.get("normals"), colors=colors)

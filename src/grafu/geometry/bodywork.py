@@ -13,12 +13,11 @@ import manifold3d
 import numpy as np
 from jaxtyping import Bool, Int
 
-from grafu.geometry.appearance import Surface
+from grafu.geometry.appearance import Surface, joined, selected
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.components import patches_of, welded
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
-from grafu.geometry.selection import joined, selected
 from grafu.geometry.solids import ConvexSolid, subtract
 
 _NOTHING = 1e-12  # of a patch's volume: what the boolean takes away by rounding

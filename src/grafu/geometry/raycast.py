@@ -1,17 +1,77 @@
-"""Rays against a mesh (Embree): first hits and robust distances. It knows no parts.
+"""Rays against a mesh (Embree): first hits, robust distances, which faces are seen from outside. It knows no parts.
 
-Embree works in single precision: distances hold to about a micrometre on furniture.
+Embree works in single precision: distances hold to about a micrometre on furniture. Where parallel lines cross
+triangles is found exactly, every crossing: the lines run along the third coordinate through the points of a grid in the
+first two.
 """
 
+from dataclasses import dataclass
+from itertools import product
 from typing import final
 
 import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
+from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.arrays import ArrayValue, Points, Scalars, Vec3, freeze_arrays
 from grafu.geometry.budget import require_time
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Crossings(ArrayValue):
+    """Each crossing's line, face, height (the third coordinate), and whether the face looks along the lines.
+
+    Lines are numbered as the grid's points, the second coordinate running fastest. Crossings come line by line, from
+    high to low.
+    """
+
+    line: Int[np.ndarray, " n"]
+    face: Int[np.ndarray, " n"]
+    height: Float[np.ndarray, " n"]
+    looks_up: Bool[np.ndarray, " n"]
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
+
+
+def line_crossings(
+    triangles: Float[np.ndarray, "m 3 3"], first: Float[np.ndarray, " a"], second: Float[np.ndarray, " b"]
+) -> Crossings:
+    """Returns where the lines through the grid of `first` x `second` (both rising) cross the triangles.
+
+    Triangles that stand along the lines are never crossed.
+    """
+    low, high = triangle_bounds(triangles)
+    columns = np.stack([np.searchsorted(first, low[:, 0]), np.searchsorted(first, high[:, 0], "right")])
+    rows = np.stack([np.searchsorted(second, low[:, 1]), np.searchsorted(second, high[:, 1], "right")])
+    wide, tall = columns[1] - columns[0], rows[1] - rows[0]
+    count = wide * tall
+    face = np.repeat(np.arange(len(triangles)), count)
+    within = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
+    i = columns[0, face] + within // np.maximum(tall[face], 1)
+    j = rows[0, face] + within % np.maximum(tall[face], 1)
+    a, b, c = (triangles[face, k] for k in range(3))
+    point = np.stack([first[i], second[j]], axis=1)
+    area = _twice_area(a[:, :2], b[:, :2], c[:, :2])
+    weights = np.stack(
+        [_twice_area(b[:, :2], c[:, :2], point), _twice_area(c[:, :2], a[:, :2], point), np.zeros(len(face))], axis=1
+    )
+    weights[:, 2] = area - weights[:, 0] - weights[:, 1]
+    hit = (area != 0) & np.all(weights * np.sign(area)[:, None] >= 0, axis=1)
+    share = weights[hit] / area[hit, None]
+    height = share[:, 0] * a[hit, 2] + share[:, 1] * b[hit, 2] + share[:, 2] * c[hit, 2]
+    line = i[hit] * len(second) + j[hit]
+    order = np.lexsort((-height, line))
+    return Crossings(line[order], face[hit][order], height[order], (area[hit] > 0)[order])
+
+
+def _twice_area(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+    """Returns twice the signed area of flat triangles, positive where they run counter-clockwise."""
+    ab, ac = b - a, c - a
+    return np.asarray(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0])
 
 
 @final
@@ -46,3 +106,28 @@ def robust_median(distances: Scalars, reach: float, share: float = 0.3) -> float
     """Returns the median of the distances within `reach`; infinity where less than `share` of the rays hit."""
     hits = distances[distances <= reach]
     return float(np.median(hits)) if len(hits) >= max(1.0, share * len(distances)) else float("inf")
+
+
+_OFF = 1e-4  # of the largest side: how far before a face a ray begins
+_DIRECTIONS = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
+_PLACES = np.array([[1, 1, 1], [8, 1, 1], [1, 8, 1], [1, 1, 8]])  # weights of the corners: the middle, near each corner
+
+
+def outer_faces(mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
+    """Returns for each face whether it can be seen from far away: from either side of it, past all other faces.
+
+    Four points of a face are looked from, along the 26 directions to the faces, edges and corners of a cube. The walls
+    of a cavity without an opening are not seen, nor are faces where two boards touch.
+    """
+    seen = np.zeros(len(mesh.faces), dtype=np.bool_)
+    if not len(seen):
+        return seen
+    caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())
+    for direction, weights in product(_DIRECTIONS / np.linalg.norm(_DIRECTIONS, axis=1)[:, None], _PLACES):
+        left = np.flatnonzero(~seen)
+        points = np.einsum("k,nkd->nd", weights / weights.sum(), mesh.triangles[left])
+        normals = mesh.face_normals[left]
+        side = np.sign(normals @ direction)
+        origins = points + off * side[:, None] * normals
+        seen[left] = (side != 0) & np.isinf(caster.along(origins, direction))
+    return seen

@@ -19,9 +19,8 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
-from grafu.geometry.face_cuts import left_over
+from grafu.geometry.face_cuts import NOTHING, left_over
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
-from grafu.geometry.plane_split import NOTHING
 
 
 @final

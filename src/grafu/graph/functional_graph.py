@@ -4,7 +4,7 @@ The paper's three attributes of a node are its label, its box and its points. Th
 """
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import assert_never, final
@@ -16,6 +16,26 @@ from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.vocabulary import PartLabel
+
+
+def joined_groups(neighbours: Mapping[str, Iterable[str]]) -> list[frozenset[str]]:
+    """Returns the groups of nodes between which a way leads, in the order of their first nodes.
+
+    `neighbours` names for each node those that it is joined to, both ways.
+    """
+    groups: list[frozenset[str]] = []
+    seen: set[str] = set()
+    for first in neighbours:
+        if first in seen:
+            continue
+        group, queue = {first}, [first]
+        while queue:
+            reached = set(neighbours[queue.pop()]) - group
+            group |= reached
+            queue += reached
+        seen |= group
+        groups.append(frozenset(group))
+    return groups
 
 
 @final

@@ -16,8 +16,14 @@ from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kin
 from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
 from grafu.graph.json_values import Json, read_list, read_object, read_text, read_vector
 from grafu.graph.motion import signed_axis
-from grafu.graph.official_labels import material_to_label, node_to_material
-from grafu.graph.official_motion import motion_fields, older_motion_fields, read_hinge, read_rail
+from grafu.graph.official_motion import (
+    material_to_label,
+    motion_fields,
+    node_to_material,
+    older_motion_fields,
+    read_hinge,
+    read_rail,
+)
 from grafu.vocabulary import PartLabel
 
 _DIGITS = 6  # the authors' builder rounds to micrometres

@@ -1,5 +1,9 @@
-"""The authors' motion keys on an edge and our codes, both ways (official.md 2.5 and 3). It reads no files."""
+"""The authors' words for parts and motions: `material` and motion keys, and our labels and codes, both ways.
 
+See official.md 2.1, 2.5, 3 and 4. It reads no files.
+"""
+
+import re
 from dataclasses import dataclass
 from typing import Any, cast, final
 
@@ -7,9 +11,32 @@ import numpy as np
 
 from grafu.geometry.box import Box
 from grafu.graph.edges import AxisSign, Edge, Hinge, HingeBorder, Rail, SignedAxis
-from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.json_values import Json, read_code
 from grafu.graph.motion import border_to_face, border_to_signed_axis, face_to_border, opposite, signed_axis
+from grafu.vocabulary import PartLabel
+
+# The authors list a countertop apart; to the paper's thirteen categories it is a top panel.
+_COUNTERTOP = "countertop"
+
+
+def normalized_material(word: str) -> str:
+    """Returns the word as the authors' loader reads it: no Blender suffix, spaces for underscores, lower case."""
+    return re.sub(r"\.\d+$", "", word).replace("_", " ").strip().lower()
+
+
+def material_to_label(word: str) -> PartLabel:
+    """Returns the label of an authors' word; `rail`, `hinge` and any other word are unknown."""
+    known = normalized_material(word)
+    if known == _COUNTERTOP:
+        return PartLabel.TOP_PANEL
+    return PartLabel(known) if known in tuple(PartLabel) else PartLabel.UNKNOWN
+
+
+def node_to_material(node: PartNode) -> str:
+    """Returns the authors' word for a node; a top panel that was read as a countertop is one again."""
+    was_countertop = normalized_material(node.source_name) == _COUNTERTOP
+    return _COUNTERTOP if was_countertop and node.label is PartLabel.TOP_PANEL else node.label.value
 
 
 @final

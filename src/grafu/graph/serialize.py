@@ -33,8 +33,7 @@ from grafu.graph.completion import Decision, GraphCompletion, Question, RefusedM
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.json_values import Json, read_code, read_list, read_object, read_score, read_text, read_vector
-from grafu.graph.official_labels import node_to_material
-from grafu.graph.official_motion import motion_fields
+from grafu.graph.official_motion import motion_fields, node_to_material
 from grafu.visible import writable
 from grafu.vocabulary import EdgeKind, PartLabel
 

@@ -23,7 +23,7 @@ from grafu.realization.interior.request import InteriorKind, PanelHint
 from grafu.realization.interior.turned import furnish_scene
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.scene import Scene
-from grafu.templates.handle import HandleTemplate
+from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 

@@ -15,7 +15,7 @@ from grafu.realization.handle.grasp import Grasp
 from grafu.realization.handle.place import add_handles
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.scene import Scene
-from grafu.templates.handle import HandleTemplate
+from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 NO_HANDLE = "none"

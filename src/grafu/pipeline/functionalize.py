@@ -36,8 +36,7 @@ from grafu.realization.motion_choice import MotionChoice
 from grafu.realization.plan import JointChoice, RealizationPlan
 from grafu.realization.realize import realize
 from grafu.realization.report import RealizationReport
-from grafu.templates.handle import HandleTemplate
-from grafu.templates.template import Gallery
+from grafu.templates.template import Gallery, HandleTemplate
 from grafu.vocabulary import PartLabel
 
 T = TypeVar("T")

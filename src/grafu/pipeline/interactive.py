@@ -1,6 +1,6 @@
 """One run for a program that shows what comes back: `python -m grafu.pipeline.interactive INPUT SETTINGS FOLDER`.
 
-Into FOLDER go `object.packed` (`grafu.export.blend.transport`), `report.json`, `graph.json` and `interior.json`
+Into FOLDER go `object.packed` (`grafu.export.blend.process`), `report.json`, `graph.json` and `interior.json`
 (the compartments). Every line on stdout is `stage NAME` as a stage begins, or `error WHY` at the end of a run that
 failed; the exit code is then 2. It writes nothing else, and can be killed at any time.
 """
@@ -15,7 +15,7 @@ from grafu.asset.load import load_asset
 from grafu.asset.own_files import read_own
 from grafu.asset.part import Asset
 from grafu.errors import FunctionalizationError
-from grafu.export.blend.transport import packed
+from grafu.export.blend.process import packed
 from grafu.geometry.transform import transform_points
 from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.functionalize import Functionalized, functionalize

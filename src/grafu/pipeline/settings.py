@@ -21,7 +21,7 @@ from grafu.realization.config import RealizationConfig
 from grafu.realization.interior.request import CompartmentChoice
 from grafu.realization.motion_choice import MotionChoice
 from grafu.realization.plan import AUTOMATIC, JointChoice
-from grafu.templates.handle import HandleTemplate
+from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 SCHEMA = "grafu.settings/1"

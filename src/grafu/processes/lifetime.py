@@ -1,14 +1,37 @@
-"""Processes end together: a worker with its parent, however that ends, and what it started with the worker."""
+"""Processes end together: a worker with its parent, however that ends, and what it started with the worker.
+
+Folders for what is passed between programs are gone when they are closed, and when their process is killed.
+"""
 
 import multiprocessing
 import os
+import shutil
 import signal
 import sys
+import tempfile
 import threading
 from contextlib import suppress
+from pathlib import Path
 from typing import Final
 
-from grafu.processes.memory import descendants
+from grafu.processes.limits import descendants
+
+
+def scratch_folder() -> "tempfile.TemporaryDirectory[str]":
+    """Returns a new folder in the system's temporary folder, to be used in a `with`; its name says whose it is."""
+    return tempfile.TemporaryDirectory(prefix=_prefix(os.getpid()))
+
+
+def clear_scratch(process: int) -> None:
+    """Removes the folders of a process that was killed."""
+    with suppress(OSError):
+        for folder in Path(tempfile.gettempdir()).glob(f"{_prefix(process)}*"):
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def _prefix(process: int) -> str:
+    return f"grafu_scratch_{process}_"
+
 
 _SIGNAL_AT_PARENTS_DEATH: Final = 1  # PR_SET_PDEATHSIG
 

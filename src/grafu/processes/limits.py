@@ -1,8 +1,84 @@
-"""How much time and memory one piece of work may take, and how it ended. It enforces nothing."""
+"""How much time and memory one piece of work may take, how much it holds, and how it ended. It enforces nothing.
 
+Memory is what the system counts as really there, not what was asked for. The size of the address space says nothing:
+libraries reserve gigabytes that they never touch.
+"""
+
+import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
 from typing import Final, Generic, TypeVar, final
+
+_SPARE: Final = 2**30  # bytes that may be asked for and never be touched
+
+
+def resident_bytes(process: int) -> int:
+    """Returns the bytes of memory that a process and its descendants hold now; 0 where it is gone."""
+    return sum(map(_resident, (process, *descendants(process))))
+
+
+def descendants(process: int) -> list[int]:
+    """Returns the ids of all processes that a process started, directly or not, and that are there now."""
+    if sys.platform != "linux":
+        return _descendants_by_psutil(process)
+    found: list[int] = []
+    for one in _children(process):
+        found += (one, *descendants(one))
+    return found
+
+
+def refuse_beyond(memory: int) -> None:
+    """Has the system refuse this process what goes far beyond so many bytes, before it is touched.
+
+    One request for more than the machine has would else be granted, and fill it faster than anybody looks.
+    """
+    if sys.platform == "linux":
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_DATA)
+        wanted = memory + _SPARE
+        if most == resource.RLIM_INFINITY or wanted < most:
+            resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
+
+
+def _resident(process: int) -> int:
+    if sys.platform != "linux":
+        return _resident_by_psutil(process)
+    import resource
+
+    with suppress(OSError, IndexError, ValueError):
+        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+        return pages * resource.getpagesize()
+    return 0
+
+
+def _children(process: int) -> list[int]:
+    """Returns what the threads of a process started; nothing where the system does not tell."""
+    found: list[int] = []
+    with suppress(OSError):
+        for thread in Path(f"/proc/{process}/task").iterdir():
+            with suppress(OSError):
+                found += map(int, (thread / "children").read_text().split())
+    return found
+
+
+def _resident_by_psutil(process: int) -> int:
+    import psutil
+
+    with suppress(psutil.Error):
+        return int(psutil.Process(process).memory_info().rss)
+    return 0
+
+
+def _descendants_by_psutil(process: int) -> list[int]:
+    import psutil
+
+    with suppress(psutil.Error):
+        return [one.pid for one in psutil.Process(process).children(recursive=True)]
+    return []
+
 
 Result = TypeVar("Result")
 PATIENCE: Final = 1.5

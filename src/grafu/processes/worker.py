@@ -1,17 +1,19 @@
-"""A process that does one piece of work after another, and is stopped where one takes too much time or memory."""
+"""Processes that do one piece of work after another, each stopped where one takes too much time or memory.
+
+With several at once, a piece that crashes, or takes too much, takes no other with it.
+"""
 
 import multiprocessing
 import sys
-from collections.abc import Callable
-from multiprocessing.connection import Connection
+from collections import deque
+from collections.abc import Callable, Generator, Sequence
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from time import monotonic
 from typing import Any, Generic, Literal, TypeVar, final
 
-from grafu.processes.lifetime import end_with_parent, kill, started_by_main_thread
-from grafu.processes.limits import PATIENCE, Ending, Limits, Outcome
-from grafu.processes.memory import refuse_beyond, resident_bytes
-from grafu.processes.scratch import clear_scratch
+from grafu.processes.lifetime import clear_scratch, end_with_parent, kill, started_by_main_thread
+from grafu.processes.limits import PATIENCE, Ending, Limits, Outcome, refuse_beyond, resident_bytes
 from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
 
 Item = TypeVar("Item")
@@ -133,3 +135,46 @@ def _serve(
             connection.send((run(item),))
         except (EOFError, BrokenPipeError):
             return
+
+
+def run_each(
+    items: Sequence[Item],
+    workers: int,
+    run: Callable[[Item], Result],
+    limits: Limits = Limits(),
+    prepare: Callable[[], None] = nothing,
+    start: Start = "spawn",
+) -> Generator[tuple[Item, Outcome[Result]], None, None]:
+    """Yields each item with how it ended, as it ends, `workers` at a time; `run` must be a function of a module.
+
+    The limits hold for each item. A worker serves until it dies, is stopped, or keeps too much memory; another takes
+    its place. All end with the generator: close it.
+    """
+    waiting = deque(items)
+    working: dict[Worker[Item, Result], Item] = {}
+    try:
+        while waiting or working:
+            while waiting and len(working) < workers:
+                worker = Worker(run, limits, prepare, start)
+                working[worker] = waiting.popleft()
+                worker.give(working[worker])
+            wait([worker.connection for worker in working], min(_patience(working), default=None))
+            for worker, item in list(working.items()):
+                outcome = worker.outcome()
+                if outcome is None:
+                    continue
+                del working[worker]
+                if outcome.ending is Ending.DONE:
+                    if waiting and not worker.is_worn:
+                        working[worker] = waiting.popleft()
+                        worker.give(working[worker])
+                    else:
+                        worker.stop()
+                yield item, outcome
+    finally:
+        for worker in working:
+            worker.stop()
+
+
+def _patience(workers: "dict[Worker[Item, Result], Item]") -> list[float]:
+    return [worker.patience for worker in workers if worker.patience is not None]

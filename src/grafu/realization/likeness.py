@@ -9,7 +9,7 @@ from jaxtyping import Float
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.mesh import TriangleMesh
-from grafu.templates.finish import finished
+from grafu.templates.solids import finished
 
 _OPAQUE = 0.95  # of a colour: glass makes no shelf that the rest of a cabinet resembles
 _PLAIN = Material()

@@ -26,10 +26,10 @@ from grafu.render.picture import (
     posed_visuals,
     render,
 )
-from grafu.templates.finish import STEEL, finished
-from grafu.templates.handle import HandleTemplate
+from grafu.templates.solids import STEEL, finished
 from grafu.templates.template import (
     Gallery,
+    HandleTemplate,
     HingeModel,
     HingeSize,
     HingeTemplate,

@@ -16,8 +16,7 @@ from grafu.articulation.kinematics import link_poses
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
 from grafu.render.camera import Camera, three_quarter_view
-from grafu.render.exposure import Exposure, PictureStyle, Samples
-from grafu.render.light import displayed
+from grafu.render.exposure import Exposure, PictureStyle, Samples, displayed
 from grafu.render.ray_scene import RayScene
 from grafu.vocabulary import PartLabel
 

@@ -15,8 +15,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, TemplateError
 from grafu.geometry.arrays import Mat4, Vec3, vec3
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.templates.handle import HandleFamily
-from grafu.templates.template import SnapPlane
+from grafu.templates.template import HandleFamily, SnapPlane
 from grafu.vocabulary import MechanismClass
 
 _LIMITS = Limits(max_bytes=2**20)

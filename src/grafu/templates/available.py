@@ -4,8 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from grafu.templates.handle import HandleTemplate
-    from grafu.templates.template import Gallery
+    from grafu.templates.template import Gallery, HandleTemplate
 
 
 def open_gallery(folder: Path | None) -> "Gallery":
@@ -30,7 +29,7 @@ def open_handles(folder: Path | None) -> "dict[str, HandleTemplate]":
         TemplateError: if a handle in the folder is at fault.
     """
     from grafu.templates.handles import HANDLES
-    from grafu.templates.user_handles import load_handles
+    from grafu.templates.user import load_handles
 
     own = load_handles(folder) if folder is not None else {}
     return {**own, **{template.id: template for template in HANDLES if template.id not in own}}

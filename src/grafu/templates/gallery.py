@@ -5,9 +5,9 @@ from math import radians
 
 from grafu.templates import leaves
 from grafu.templates import leaves as pins
-from grafu.templates.finish import BLACK, BRASS, BRONZE, NICKEL, STEEL
 from grafu.templates.hinges import HingeStyle, hinge_model
 from grafu.templates.rails import CENTRE_STYLE, CORNER_STYLE, rail_model
+from grafu.templates.solids import BLACK, BRASS, BRONZE, NICKEL, STEEL
 from grafu.templates.template import Gallery, HingeModel, HingeSize, RailModel, RailSize
 from grafu.vocabulary import MechanismClass
 

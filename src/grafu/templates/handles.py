@@ -14,8 +14,8 @@ from grafu.errors import TemplateError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sweep import Rings, Section, chamfered_rectangle, circle, loft, sheet, swept
-from grafu.templates.handle import HandleSize, HandleTemplate
 from grafu.templates.solids import extrude, placed, turned
+from grafu.templates.template import HandleSize, HandleTemplate
 
 Meshes = tuple[TriangleMesh, ...]
 _CACHED = 128  # shapes kept per style: a piece of furniture repeats a few sizes

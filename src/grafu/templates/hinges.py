@@ -23,9 +23,8 @@ from grafu.errors import TemplateError
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.templates.finish import SCREW, finished
 from grafu.templates.leaves import LeafArea, LeafShape, PinStyle, ScrewPattern, pin_solid
-from grafu.templates.solids import disc, extrude, placed, tube
+from grafu.templates.solids import SCREW, disc, extrude, finished, placed, tube
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate, SnapPlane, TemplateEnd
 from grafu.vocabulary import MechanismClass
 

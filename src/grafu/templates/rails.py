@@ -25,8 +25,7 @@ from grafu.errors import TemplateError
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.templates.finish import COATED, NYLON, SCREW, STEEL, ZINC, finished
-from grafu.templates.solids import disc, extrude, placed, tube
+from grafu.templates.solids import COATED, NYLON, SCREW, STEEL, ZINC, disc, extrude, finished, placed, tube
 from grafu.templates.template import RailModel, RailSize, RailTemplate, SnapPlane, TemplateEnd
 from grafu.vocabulary import MechanismClass
 

@@ -1,8 +1,8 @@
-"""What a mechanism template is: two ends, a motion axis, snap planes and a range (supplement, Template Annotation).
+"""What a template is: a mechanism with two ends, a motion axis, snap planes and a range; or a handle of any length.
 
 Hinge frame, closed: the pin runs through the origin along +Z, which is also the opening axis (right-hand rule). +X
 points from the pin across the moving part, +Y is where the moving part sets off to when it opens. A snap plane's normal
-points from the template to the part that its end is mounted on:
+points from the template to the part that its end is mounted on (supplement, Template Annotation):
 
     class   static end              dynamic end
     C       leaf along -Y, n = -X   leaf along -Y, n = +X     the leaves lie stacked in the seam
@@ -12,12 +12,16 @@ points from the template to the part that its end is mounted on:
 Rail frame, closed: +X points from the wall to the drawer, +Z up, and the drawer slides out along -Y. The origin is the
 centre of the static snap plane (n = -X, at x = 0); the dynamic snap plane has n = +X, at x = thickness. This is the
 rail on one side of the drawer; the other is its mirror image.
+
+Handle frame: the foot plane is y = 0 and the origin its middle; +X runs along the handle's long side, -Y points away
+from the front that the handle lies on, +Z is up. So a drawer that faces -Y takes a handle as it is, and a door turns it
+upright about Y where `turns` says that this makes sense (a cup or a drop handle hangs level everywhere).
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import final
+from typing import Literal, final
 
 import numpy as np
 
@@ -27,6 +31,58 @@ from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
 from grafu.vocabulary import MechanismClass
+
+HandleFamily = Literal["bar", "knob", "cup"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HandleSize:
+    """Metres: `length` along x, `protrusion` from the foot plane to the farthest point before it.
+
+    Raises:
+        TemplateError: if a size is not above 0.
+    """
+
+    length: float
+    protrusion: float
+
+    def __post_init__(self) -> None:
+        if not (self.length > 0 and self.protrusion > 0):
+            raise TemplateError(f"a handle's sizes must be above 0: got {self.length}, {self.protrusion}")
+
+
+@final
+@dataclass(frozen=True)
+class HandleTemplate:
+    """A handle that can be built at any size; `natural` is its real-world size, `longest` its greatest sensible length.
+
+    `shape` returns closed meshes with outward faces that fill the length in x and the protrusion in -Y exactly.
+    """
+
+    id: str
+    title: str
+    family: HandleFamily
+    natural: HandleSize
+    longest: float
+    shape: Callable[[float, float], tuple[TriangleMesh, ...]]
+    turns: bool = True
+
+    def __post_init__(self) -> None:
+        if not self.longest >= self.natural.length:
+            raise TemplateError(f"`longest` of handle `{self.id}` must reach {self.natural.length}: got {self.longest}")
+
+    def build(self, length: float | None = None, protrusion: float | None = None) -> tuple[TriangleMesh, ...]:
+        """Returns the handle at a length and a protrusion, metres (none: the natural ones).
+
+        Raises:
+            TemplateError: if a size is not above 0.
+        """
+        size = HandleSize(
+            self.natural.length if length is None else length,
+            self.natural.protrusion if protrusion is None else protrusion,
+        )
+        return self.shape(size.length, size.protrusion)
 
 
 @final

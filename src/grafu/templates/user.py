@@ -1,8 +1,11 @@
-"""Templates of the user's own: a folder of sub-folders, each with two meshes and an annotation. It checks no motion.
+"""Templates and handles of the user's own: folders of sub-folders with meshes and an annotation. It checks no motion.
 
 `docs/templates.md` says what a sub-folder holds. A user's hinge keeps its barrel round: it is scaled equally in every
 direction square to the pin, as much as fits the size asked for, and freely along the pin. What was built is in the
 template's `size`. A user's rail is stretched to exactly the size asked for.
+
+A bar handle is stretched along its length alone, so that its ends keep their thickness; knobs and cups grow in height
+as they do in length. Protrusion is scaled on its own.
 """
 
 from collections.abc import Iterator
@@ -20,18 +23,24 @@ from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, TemplateError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.templates.annotation import (
+    HandleNote,
     HingeNote,
     RailNote,
+    handle_frame,
     hinge_frame,
     hinge_normals,
     is_handle,
     rail_frame,
     read_annotation,
+    read_handle_note,
     snap_plane,
 )
 from grafu.templates.template import (
     Gallery,
+    HandleSize,
+    HandleTemplate,
     HingeModel,
     HingeSize,
     HingeTemplate,
@@ -44,7 +53,86 @@ from grafu.templates.template import (
 from grafu.vocabulary import MechanismClass
 
 ANNOTATION = "template.json"
+MESH = "handle"
 _GLTF = (".glb", ".gltf")
+_ON_PLANE = 0.05  # of the protrusion: how far the nearest point of a mesh may lie from the stated foot plane
+_BEHIND = 0.5  # of the protrusion: how deep screws may reach behind the foot plane
+_HANDLE_LIMITS = Limits(
+    max_bytes=32 * 2**20, max_parts=100, max_faces=50_000
+)  # a kitchen repeats a handle thirty times
+_CACHED = 128
+
+
+def load_handles(folder: Path) -> dict[str, HandleTemplate]:
+    """Returns the handles in the sub-folders of `folder` by id, which is the sub-folder's name; other kinds are left.
+
+    Raises:
+        TemplateError: if the folder is not there, or a handle in it is incomplete or contradicts itself.
+    """
+    if not folder.is_dir():
+        raise TemplateError(f"{folder} is not a folder: expected one sub-folder per template; see docs/templates.md")
+    notes = sorted(path for path in folder.glob(f"*/{ANNOTATION}") if is_handle(path))
+    return {path.parent.name: load_handle(path.parent) for path in notes}
+
+
+def load_handle(folder: Path) -> HandleTemplate:
+    """Returns the handle in one folder.
+
+    Raises:
+        TemplateError: if the mesh or the annotation is missing, unreadable, or contradicts the other.
+    """
+    note = read_handle_note(folder / ANNOTATION)
+    try:
+        mesh = _centred(_read(folder).transformed(handle_frame(note)))
+        return _template(folder.name, note, mesh)
+    except (AssetError, TemplateError) as error:
+        raise TemplateError(f"template {folder}: {error}; see docs/templates.md") from None
+
+
+def _read(folder: Path) -> TriangleMesh:
+    files = [folder / f"{MESH}{suffix}" for suffix in (*MESH_SUFFIXES, *_GLTF)]
+    found = next((file for file in files if file.is_file()), None)
+    if found is None:
+        raise TemplateError(f"it lacks its mesh: expected {MESH}.obj, .ply, .stl or .glb")
+    model = ModelFiles(folder, _HANDLE_LIMITS)
+    if found.suffix in _GLTF:
+        mesh = merge_meshes([surface.mesh for surface in read_surfaces(found, model)])
+    else:
+        mesh = merge_meshes([s.mesh for s in read_mesh_file(found, model, split=False).surfaces])
+    if not len(mesh.faces):
+        raise TemplateError(f"{found.name} has no faces")
+    return mesh
+
+
+def _centred(mesh: TriangleMesh) -> TriangleMesh:
+    """Returns the mesh with its middle, along and up, over the origin; the foot plane stays."""
+    return mesh.translated(-np.asarray(mesh.box.center) * (1.0, 0.0, 1.0))
+
+
+def _template(template_id: str, note: HandleNote, mesh: TriangleMesh) -> HandleTemplate:
+    low, high = mesh.box.low, mesh.box.high
+    protrusion = -float(low[1])
+    if protrusion <= 0:
+        raise TemplateError("`outwards` must point from the foot plane to the handle: all of the mesh lies behind it")
+    if not -_ON_PLANE * protrusion <= float(high[1]) <= _BEHIND * protrusion:
+        where = f"{float(high[1]):.3g} m behind it" if high[1] > 0 else f"{-float(high[1]):.3g} m before it"
+        raise TemplateError(f"`foot` must be a point of the plane that lies on the front: the mesh ends {where}")
+    size = HandleSize(float(mesh.box.size[0]), protrusion)
+    longest = size.length if note.longest is None else note.unit * note.longest
+    grows = note.family != "bar"
+
+    @lru_cache(_CACHED)
+    def shape(length: float, out: float) -> tuple[TriangleMesh, ...]:
+        along = length / size.length
+        return (mesh.transformed(_scaling(along, out / size.protrusion, along if grows else 1.0)),)
+
+    return HandleTemplate(template_id, note.title or template_id, note.family, size, longest, shape, note.turns)
+
+
+def _scaling(x: float, y: float, z: float) -> Mat4:
+    return np.diag([x, y, z, 1.0])
+
+
 _FIT = 0.05  # how far stated lengths may differ from the meshes and snap planes
 _LIMITS = Limits(max_bytes=32 * 2**20, max_parts=100, max_faces=200_000)  # hardware is repeated: keep it light
 

@@ -14,8 +14,7 @@ import torch
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
 from grafu.training.config import TrainingConfig
-from grafu.training.lesson import Copy, Lesson
-from grafu.training.lesson_stream import Hand, Syllabus, stream_hands
+from grafu.training.lesson import Copy, Hand, Lesson, Syllabus, stream_hands
 from grafu.training.source import Source
 from grafu.training.targets import ROW_STEP, SLOT_STEP, TargetBatch, mirrored_targets, padded, stack_targets, stepped
 

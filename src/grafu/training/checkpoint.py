@@ -18,9 +18,8 @@ from grafu.asset.own_files import read_own_json
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu
-from grafu.training.averaging import AveragedWeights
 from grafu.training.config import TrainingConfig
-from grafu.training.optimiser import Optimiser
+from grafu.training.optimiser import AveragedWeights, Optimiser
 
 SCHEMA = "grafu.training/1"
 LAST, BEST = "last.pt", "best.pt"

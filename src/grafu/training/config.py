@@ -8,8 +8,7 @@ from typing import Literal, final
 from grafu.completion.features import FeatureConfig
 from grafu.data.corruption.config import PAPER as PAPER_CORRUPTION
 from grafu.network.config import GraFuConfig
-from grafu.training.lesson import CopyMix
-from grafu.training.lesson_stream import DealConfig
+from grafu.training.lesson import CopyMix, DealConfig
 from grafu.training.loss_config import PAPER as PAPER_LOSS
 from grafu.training.loss_config import LossConfig
 

@@ -16,8 +16,7 @@ from torch.nn import functional
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, RAIL, UNKNOWN
 from grafu.network.batch import Predictions
 from grafu.training.loss_config import BoxError, LossConfig
-from grafu.training.matcher import match_slots
-from grafu.training.slot_truth import SlotTruth, slot_truth
+from grafu.training.matcher import SlotTruth, match_slots, slot_truth
 from grafu.training.targets import TargetBatch
 
 

@@ -19,13 +19,12 @@ from torch import nn
 from grafu.errors import ExportError
 from grafu.export.whole_file import write_whole
 from grafu.network.grafu import GraFu
-from grafu.training.averaging import AveragedWeights
 from grafu.training.batching import TrainingBatch, stream_batches
 from grafu.training.checkpoint import Progress, has_progress, load_progress, require_own, save_best, save_progress
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
 from grafu.training.logbook import STEPS, VALIDATION, Logbook, Meter
-from grafu.training.optimiser import Optimiser, rate_at
+from grafu.training.optimiser import AveragedWeights, Optimiser, rate_at
 from grafu.training.source import Source
 from grafu.training.validation import validate, validation_batches, validation_source
 from grafu.training.workers import Workers, stop_requests

@@ -1,7 +1,8 @@
-"""How weights are moved: matrices inside the network by Muon or by Adam, all else by Adam; and how large a step is.
+"""How weights are moved: matrices inside the network by Muon or by Adam, all else by Adam; how far, and their average.
 
 Muon makes every direction of a matrix's momentum count alike, scaled so that its steps are as large as Adam's: learning
-rate and decay mean the same for both. The learning rate rises, then falls to zero along a cosine.
+rate and decay mean the same for both. The learning rate rises, then falls to zero along a cosine. A running average of
+the weights is what is judged and shipped: it swings less than the weights themselves.
 """
 
 import math
@@ -12,6 +13,54 @@ import torch
 from torch import Tensor, nn
 
 from grafu.training.config import OptimiserConfig
+
+
+@final
+class AveragedWeights:
+    """An exponential average over the weights of a module, of the length 1 / (1 - decay) steps.
+
+    The first steps count fully: after n of them the decay is at most (1 + n) / (10 + n), so that the weights at the
+    start, which are noise, are forgotten at once.
+    """
+
+    def __init__(self, module: nn.Module, decay: float) -> None:
+        if not 0.0 <= decay < 1.0:
+            raise ValueError(f"`decay` must be in 0..1: got {decay}")
+        self.decay = decay
+        self.steps = 0
+        self.weights = {name: value.detach().clone() for name, value in module.state_dict().items()}
+
+    @torch.no_grad()
+    def update(self, module: nn.Module) -> None:
+        """Takes one more step's weights into the average."""
+        self.steps += 1
+        decay = min(self.decay, (1 + self.steps) / (10 + self.steps))
+        floats: list[Tensor] = []
+        news: list[Tensor] = []
+        for name, value in module.state_dict().items():
+            if value.is_floating_point():
+                floats.append(self.weights[name])
+                news.append(value.detach())
+            else:
+                self.weights[name].copy_(value)
+        torch._foreach_lerp_(floats, news, 1.0 - decay)
+
+    def state(self) -> dict[str, object]:
+        """Returns what `restore` takes."""
+        return {"steps": self.steps, "weights": self.weights}
+
+    def restore(self, state: dict[str, object]) -> None:
+        """Goes on from the state of an earlier average over the same module.
+
+        Raises:
+            ValueError: if it is of another module.
+        """
+        weights = state["weights"]
+        if not isinstance(weights, dict) or weights.keys() != self.weights.keys():
+            raise ValueError("the average must be of the same module: got weights of other names")
+        for name, value in self.weights.items():
+            value.copy_(weights[name])
+        self.steps = int(str(state["steps"]))
 
 
 def rate_at(step: int, steps: int, warmup: int, period: int | None = None) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from grafu.data.asked import VARIANTS, asked_pairs
+from grafu.data.corruption.corrupt import VARIANTS, asked_pairs
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, NULL, RAIL, GraphArrays
 from grafu.metrics.graph_accuracy import GraphAccuracy, compare_graphs, pair_added, total_accuracy
 from grafu.network.batch import Predictions

@@ -11,7 +11,6 @@ from grafu.pipeline.report_schema import FaultRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
 from grafu.pipeline.words import opening
 from grafu.render.graph_picture import draw_graph, drawing_svg
-from grafu.viewer.markup import Html, joined, json_block, tag
 from grafu.viewer.pictures import Stills, stills_row
 from grafu.viewer.report_tables import (
     LEAD,
@@ -25,7 +24,7 @@ from grafu.viewer.report_tables import (
     timing_words,
 )
 from grafu.viewer.scene_data import scene_data
-from grafu.viewer.shell import light_of, section, whole_page
+from grafu.viewer.shell import Html, joined, json_block, light_of, section, tag, whole_page
 from grafu.viewer.wording import facts, size_words, unused_joints
 
 _LEAD = "A click copies an option: give it to the same command, with --overwrite."

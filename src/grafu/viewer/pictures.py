@@ -22,7 +22,7 @@ from grafu.geometry.appearance import Texture
 from grafu.render.camera import three_quarter_view
 from grafu.render.exposure import PictureStyle
 from grafu.render.picture import box_of, opened_values, posed_visuals, render
-from grafu.viewer.markup import Html, joined, tag
+from grafu.viewer.shell import Html, joined, tag
 
 LIMIT = 1024  # pixels a side: a whole piece of furniture on a screen shows no more
 _BUDGET = 6 * LIMIT * LIMIT  # pixels of all images of a page together

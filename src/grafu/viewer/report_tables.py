@@ -13,7 +13,7 @@ from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.pipeline.verdict import stopped, verdict_of
 from grafu.pipeline.words import counted, listed, opening, percent
-from grafu.viewer.markup import Html, joined, tag
+from grafu.viewer.shell import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
 from grafu.vocabulary import JointType
 

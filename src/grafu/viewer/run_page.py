@@ -10,10 +10,9 @@ from urllib.parse import quote
 
 import numpy as np
 
-from grafu.viewer.markup import Html, joined, tag
 from grafu.viewer.pictures import MIME, THUMBNAIL, data_uri
 from grafu.viewer.run_table import LIGHTS, WORDS, Cell, Column, Figure, Run, RunRow, RunTable
-from grafu.viewer.shell import light_of, section, whole_page
+from grafu.viewer.shell import Html, joined, light_of, section, tag, whole_page
 
 _BINS = 16
 _SIZE = (220, 64)  # pixels

@@ -1,8 +1,19 @@
-"""What a page of many models is made from: plain tables with kinds of columns. It knows neither reports nor markup."""
+"""What a page of many models is made from: plain tables with kinds of columns, and a run's reports as one. No markup.
 
+A run's table has one row per input, and the figures of all. It reads no files.
+"""
+
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, final
+from typing import Final, Literal, final
+
+from grafu.pipeline.faults import Colour, FaultKind
+from grafu.pipeline.report_schema import Report, VerdictRecord
+from grafu.pipeline.verdict import verdict_of
+from grafu.pipeline.words import listed
+from grafu.viewer.wording import still_lacking
+from grafu.vocabulary import JointType
 
 Cell = str | int | float | None
 ColumnKind = Literal["text", "light", "number", "percent", "seconds"]
@@ -110,3 +121,104 @@ class Run:
     figures: Sequence[Figure]
     tables: Sequence[RunTable]
     lead: str = ""
+
+
+_COLUMNS = (
+    Column("model"),
+    Column("verdict", "light", about="red: something does not work; yellow: it works, with something to look at"),
+    Column("to look at"),
+    Column("doors", "number", about="joints that turn"),
+    Column("drawers", "number", about="joints that slide"),
+    Column("not built", "number", about="doors and drawers without a joint, and other requests that were not built"),
+    Column("restricted", "number", about="joints that open less than 70 % of what they should"),
+    Column("collision", "percent", histogram=True, about="the worst joint's share of poses that cut into something"),
+    Column("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
+    Column("no grasp", "number", about="joints that nobody could take hold of"),
+    Column("added", "number", histogram=True, about="parts that the input did not have, hinges and rails left out"),
+    Column("seconds", "seconds", histogram=True, about="from reading to writing"),
+)
+# What is worse comes first: the colour above all, then by how much, whatever the numbers below it are.
+_FAILED, _COLOURS = 1e12, {Colour.RED: 1e9, Colour.YELLOW: 1e7, Colour.GREEN: 0.0}
+_AMISS: Final[dict[FaultKind, float]] = {FaultKind.STILL: 1e4, FaultKind.SHUT: 1e4, FaultKind.LOOSE: 1e4}
+_MINOR, _COLLIDES = 1.0, 1e3
+_ORDER = (Colour.RED, Colour.YELLOW, Colour.GREEN)
+
+
+@final
+@dataclass(frozen=True)
+class RunEntry:
+    """One input of a run: its report, or why there is none; its page's relative address, a small picture, seconds."""
+
+    name: str
+    report: Report | None
+    failure: str = ""
+    link: str = ""
+    picture: bytes = b""
+    seconds: float | None = None
+
+
+def functionalized_run(title: str, entries: Sequence[RunEntry]) -> Run:
+    """Returns the page's content for a run of `functionalize`."""
+    rows = tuple(_row(entry) for entry in entries)
+    table = RunTable("Models", _COLUMNS, rows, "Worst first; a heading sorts by its column.")
+    return Run(title, _figures(entries), (table,))
+
+
+def _row(entry: RunEntry) -> RunRow:
+    if entry.report is None:
+        unknown: list[Cell] = [None] * (len(_COLUMNS) - 3)
+        return RunRow((entry.name, "failed", f"failed: {entry.failure}", *unknown), _FAILED, flagged=True)
+    report, verdict = entry.report, verdict_of(entry.report)
+    joints = report.joints
+    turning = sum(joint.type is JointType.REVOLUTE for joint in joints)
+    amiss = Counter(line.kind for line in verdict.lines)
+    cells: tuple[Cell, ...] = (
+        entry.name,
+        verdict.colour.value,
+        _to_look_at(report, verdict),
+        turning,
+        len(joints) - turning,
+        amiss[FaultKind.STILL] + amiss[FaultKind.NOT_BUILT],
+        amiss[FaultKind.RESTRICTED] + amiss[FaultKind.SHUT],
+        max((joint.collision_share for joint in joints), default=None),
+        max((1000 * joint.largest_gap for joint in joints), default=None),
+        amiss[FaultKind.NO_GRASP],
+        len(report.added),
+        entry.seconds,
+    )
+    return RunRow(cells, _badness(report, verdict), entry.link, entry.picture, flagged=verdict.colour is Colour.RED)
+
+
+def _badness(report: Report, verdict: VerdictRecord) -> float:
+    amiss = sum(_AMISS.get(line.kind, _MINOR) for line in verdict.lines)
+    return _COLOURS[verdict.colour] + amiss + _COLLIDES * sum(joint.collision_share for joint in report.joints)
+
+
+def _to_look_at(report: Report, verdict: VerdictRecord) -> str:
+    """Returns what is amiss, by kind with the parts of each, and what the piece still lacks."""
+    parts: dict[FaultKind, list[str]] = {}
+    for line in verdict.lines:
+        parts.setdefault(line.kind, []).append(line.part)
+    said = [f"{kind}: {listed(dict.fromkeys(names))}" if any(names) else str(kind) for kind, names in parts.items()]
+    lacking = {lack.kind.value for lack in still_lacking(report)} - {"handle", "hinge", "rail", "joint"}
+    return "; ".join([*said, *([f"still without {listed(sorted(lacking))}"] if lacking else [])])
+
+
+def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
+    reports = [entry.report for entry in entries if entry.report is not None]
+    verdicts = [verdict_of(report) for report in reports]
+    colours = Counter(verdict.colour for verdict in verdicts)
+    amiss = Counter(line.kind for verdict in verdicts for line in verdict.lines)
+    failed, joints = len(entries) - len(reports), sum(len(report.joints) for report in reports)
+    return [
+        Figure(str(len(reports)), "model done" if len(reports) == 1 else "models done"),
+        Figure(str(failed), "failed", failed > 0),
+        *(
+            Figure(str(colours[colour]), colour.value, colour is Colour.RED and colours[colour] > 0)
+            for colour in _ORDER
+        ),
+        Figure(str(joints), "joint built" if joints == 1 else "joints built"),
+        Figure(str(amiss[FaultKind.STILL]), "doors and drawers that stand still", amiss[FaultKind.STILL] > 0),
+        Figure(str(amiss[FaultKind.COLLIDES]), "joints that collide", amiss[FaultKind.COLLIDES] > 0),
+        Figure(str(sum(len(report.added) for report in reports)), "parts added"),
+    ]

@@ -11,7 +11,7 @@ import numpy as np
 from grafu.articulation.articulated_object import JointLimits
 from grafu.export.blend.joints import mute_joint, set_limits, set_open
 from grafu.export.blend.objects import build_object, remove_object, save_object
-from grafu.export.blend.transport import unpacked
+from grafu.export.blend.process import unpacked
 
 KINDS = ("objects", "meshes", "materials", "images", "actions", "collections", "node_groups", "scenes")
 

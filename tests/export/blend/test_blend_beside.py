@@ -12,7 +12,7 @@ from blend_reading import assert_posed
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.link_frames import link_origins
-from grafu.export.blend.transport import packed
+from grafu.export.blend.process import packed
 
 
 @pytest.fixture(scope="module")

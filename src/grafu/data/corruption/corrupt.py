@@ -1,9 +1,10 @@
 """One functional graph to corrupted pairs: a strategy is drawn, labels are masked, both sides mirrored.
 
 Many pairs come from each model: the natural one, and corrupted copies. A copy depends on seed, model and number alone.
+Where a network is judged, a model is asked about in three ways, which are drawn once and stay the same.
 """
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from hashlib import blake2b
 
 import numpy as np
@@ -12,8 +13,9 @@ from grafu.data.corruption.config import PAPER, STRATEGY_NAMES, CorruptionConfig
 from grafu.data.corruption.strategies import STRATEGIES, masked_each, probabilities
 from grafu.data.pair import GraphPair, natural_pair
 from grafu.errors import GraphError
-from grafu.graph.edit import mirrored, without_contacts
+from grafu.graph.edit import as_contacts, mirrored, relabelled, without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import PartLabel
 
 
 def corrupt(
@@ -96,3 +98,41 @@ def fold(natural: GraphPair, number: int, seed: int = 0, config: CorruptionConfi
     rng = np.random.default_rng([seed, digest, number])
     pair = corrupt(natural.target, rng, config, natural.apart)
     return GraphPair(pair.input, pair.target, pair.strategy, natural.model_id)
+
+
+VARIANTS = ("natural", "masked", "lacking")
+"""Each model as it was found, that with its labels hidden, and one from which the paper's corruptions took away."""
+
+MASKED = "natural, labels masked"  # named beside the strategies of corruption
+
+LACKING = CorruptionConfig(
+    weights=tuple(
+        (name, 0.0)
+        for name in (
+            "fully_anonymized",  # a variant of its own
+            "mask_materials_keep_edges",
+            "mask_random_edges_keep_types",
+            "drop_nodes_keep_edge_types",
+            "fully_functional_drop",  # in use, an input never knows the kinds of its edges
+            "drop_doors",
+            "drop_drawers",
+        )
+    ),
+    mirror_probability=0.0,
+    label_masking=PAPER.label_masking,
+)
+
+
+def asked_pairs(natural: GraphPair, number: int) -> Mapping[str, GraphPair]:
+    """Returns the pairs of model `number` by variant."""
+    return {
+        "natural": natural,
+        "masked": masked_pair(natural),
+        "lacking": fold(natural, number, config=LACKING),
+    }
+
+
+def masked_pair(natural: GraphPair) -> GraphPair:
+    """Returns a natural pair with every label of the input hidden."""
+    hidden = {node.id: PartLabel.UNKNOWN for node in natural.input.nodes}
+    return GraphPair(relabelled(as_contacts(natural.input), hidden), natural.target, MASKED, natural.model_id)

@@ -9,8 +9,7 @@ from grafu.asset.options import Limits
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.points import PointFolder
 from grafu.errors import GraphError, UnreadableAsset
-from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.groups import joined_groups
+from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.graph.json_values import Json
 from grafu.graph.official_json import graph_from_official
 from grafu.graph.serialize import load_json

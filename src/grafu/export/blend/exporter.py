@@ -8,10 +8,9 @@ from pathlib import Path
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.sweep import opening_stages
 from grafu.errors import ExportError
-from grafu.export.blend.process import blender_process
-from grafu.export.blend.transport import packed
+from grafu.export.blend.process import blender_process, packed
 from grafu.export.files import ExportFiles
-from grafu.processes.scratch import scratch_folder
+from grafu.processes.lifetime import scratch_folder
 
 INTERPRETER_VARIABLE = "GRAFU_BLENDER_PYTHON"
 """Names a Python with `grafu[blender]`, for those whose own Python is one that `bpy` is not made for."""

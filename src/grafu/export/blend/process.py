@@ -1,19 +1,56 @@
 """A Blender process that stays while this one writes several models: starting it takes longer than most models.
 
 It knows nothing of what it is asked to write. Whatever goes wrong ends the process; the next model gets a new one.
+
+An articulated object travels as bytes, for the other process may have an older numpy: values as what made them, without
+what was worked out meanwhile, and they check themselves again.
 """
 
 import atexit
+import io
 import os
+import pickle
 import subprocess
+from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryFile
 from threading import Event, Lock, Timer
-from typing import final
+from typing import Any, final
 
+import numpy as np
+
+from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.errors import ExportError
 from grafu.processes.lifetime import started_by_main_thread
+
+
+def packed(articulated: ArticulatedObject) -> bytes:
+    """Returns an object as bytes for `unpacked`."""
+    stream = io.BytesIO()
+    _Packer(stream, pickle.HIGHEST_PROTOCOL).dump(articulated)
+    return stream.getvalue()
+
+
+def unpacked(data: bytes) -> ArticulatedObject:
+    """Returns the object that `packed` was given; bytes of anybody else's must not be given, for they may run code."""
+    articulated: ArticulatedObject = pickle.loads(data)
+    return articulated
+
+
+@final
+class _Packer(pickle.Pickler):
+    def reducer_override(self, value: Any) -> Any:
+        if isinstance(value, np.ndarray):
+            return _array, (np.ascontiguousarray(value).tobytes(), value.dtype.str, value.shape)
+        if is_dataclass(value) and not isinstance(value, type):
+            return type(value), tuple(getattr(value, field.name) for field in fields(value) if field.init)
+        return NotImplemented
+
+
+def _array(data: bytes, dtype: str, shape: tuple[int, ...]) -> np.ndarray:
+    return np.frombuffer(data, np.dtype(dtype)).reshape(shape)
+
 
 ANSWER = b"written\n"
 MODELS = 100  # then a fresh process: Blender keeps some memory of every model

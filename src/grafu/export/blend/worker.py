@@ -12,8 +12,7 @@ import bpy
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.export.blend.objects import build_object, set_scene
-from grafu.export.blend.process import ANSWER
-from grafu.export.blend.transport import unpacked
+from grafu.export.blend.process import ANSWER, unpacked
 from grafu.processes.lifetime import is_killed_with
 from grafu.visible import visible
 

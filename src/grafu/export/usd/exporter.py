@@ -10,7 +10,7 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
 from grafu.export.usd.config import UsdConfig
-from grafu.processes.scratch import scratch_folder
+from grafu.processes.lifetime import scratch_folder
 
 DEFAULT_USD_CONFIG: Final = UsdConfig()
 _ALIGNMENT = 64  # bytes: where the data of every file in a USDZ begins

@@ -10,7 +10,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.components import connected_parts
-from grafu.geometry.outer_faces import outer_faces
+from grafu.geometry.raycast import outer_faces
 from grafu.geometry.solids import ConvexSolid, clip
 
 

@@ -12,8 +12,8 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
 from grafu.geometry.bodywork import Bodywork
 from grafu.geometry.box import Box
-from grafu.geometry.crossings import Crossings, line_crossings
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.geometry.raycast import Crossings, line_crossings
 from grafu.realization.grip.front import Front
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel

@@ -8,8 +8,8 @@ import numpy as np
 
 from grafu.geometry.arrays import Mask, Scalars, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.crossings import line_crossings
 from grafu.geometry.mesh import triangle_bounds
+from grafu.geometry.raycast import line_crossings
 from grafu.realization.grip.config import GripConfig, GripKind, GripSize
 from grafu.realization.grip.front import Front
 from grafu.realization.grip.ground import Grid, Ground, Site, Triangles, aside

@@ -62,7 +62,7 @@ def _is_pane(surface: Surface) -> bool:
 @final
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """A handle at one size in its own frame, see `grafu.templates.handle`."""
+    """A handle at one size in its own frame, see `grafu.templates.template`."""
 
     meshes: tuple[TriangleMesh, ...]
 

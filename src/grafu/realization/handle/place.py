@@ -21,7 +21,7 @@ from grafu.realization.handle.spots import Extent, Spot, spots_on
 from grafu.realization.handle.style import Sibling, Style, choose_style, named_template, siblings_of
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import MovingBody, Scene
-from grafu.templates.handle import HandleTemplate
+from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 _LEAST = 0.012  # metres: a handle that is smaller is nothing to hold
@@ -75,7 +75,7 @@ def add_handles(
         grasps: how each moving body can be grasped; those left out are not looked at.
         config: style, sizes, places.
         hints: by moving body, where a handle was predicted (object frame): taken where it is clear and sensible.
-        own: the user's handle templates by id, see `grafu.templates.user_handles`.
+        own: the user's handle templates by id, see `grafu.templates.user`.
         reliefs: those of the scene, where somebody has them already.
 
     Raises:

@@ -12,9 +12,9 @@ from grafu.geometry.box import Box
 from grafu.realization.handle.config import HandleConfig, size_factor
 from grafu.realization.handle.front import Front, front_of
 from grafu.realization.scene import Scene
-from grafu.templates.finish import BLACK, BRASS, BRONZE, NICKEL, STEEL
-from grafu.templates.handle import HandleTemplate
 from grafu.templates.handles import HANDLES, handle_template
+from grafu.templates.solids import BLACK, BRASS, BRONZE, NICKEL, STEEL
+from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 FINISHES: dict[str, Material] = {"steel": STEEL, "nickel": NICKEL, "brass": BRASS, "bronze": BRONZE, "black": BLACK}

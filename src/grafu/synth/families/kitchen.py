@@ -1,6 +1,8 @@
-"""Kitchens: base, wall, tall, sink and corner cabinets, islands, rows of units.
+"""Kitchens and bathrooms: base, wall, tall, sink and corner cabinets, rows of units, washstands.
 
 Sizes are the trade's: base units 300 to 1200 mm wide, 550 to 650 deep, 720 to 900 high; wall units 300 to 370 deep.
+Corner cabinets have an angled front, or are L-shaped with a straight door on one wing or on both. Washstands are low
+and wide, mostly hung on a wall and closed by one or two drawers as wide as they are.
 """
 
 from collections.abc import Mapping
@@ -9,15 +11,40 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.synth.cabinets.cabinet import Cabinet
+from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.layout import Bay, Blank, Door, Layout, Pair, Row, Stack
-from grafu.synth.sampling.carpentry import FREE, Site
+from grafu.synth.fronts.layout import Bay, Blank, Door, Layout, Pair, Rect, Row, Side, Stack
+from grafu.synth.sampling.carpentry import FREE, Site, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.fittings import fit_door
 from grafu.synth.sampling.style import Style, chunky, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
+
+BATH: Mapping[TraditionName, float] = {"frameless": 0.62, "minimal": 0.15, "flat-pack": 0.15, "shaker": 0.08}
+HUNG = Build(
+    bases=("none", "legs"), tops=("between", "none", "stretchers"), legs=(0.1, 0.25), moulded=False, framed=False
+)
+FRONTS = {1: 0.4, 2: 0.42, 0: 0.18}  # drawers above each other; 0: doors
+SLABS = 0.35  # washstands with a slab on them, for a basin that stands on it or hangs in it
+HAND = Site(hand=0.8)  # it hangs a hand's breadth above the knee
+
+
+def washstand(rng: np.random.Generator) -> Cabinet:
+    """Returns a washstand: drawers over its whole width, or doors below a basin."""
+    style = draw_style(rng, BATH)
+    size = draw_size(rng, (0.5, 1.3), (0.36, 0.52), (0.3, 0.6))
+    drawers = pick(rng, FRONTS)
+    layout: Layout = drawer_stack(rng, style, drawers) if drawers else doors_across(rng, size[0])
+    case = draw_case(rng, style, size, HUNG)
+    if chance(rng, SLABS):
+        over = between(rng, (0.003, 0.015)) if chance(rng, 0.2) else 0.0
+        slab = Top("over", between(rng, (0.012, 0.04)), over, sink=not drawers and chance(rng, 0.5))
+        case = replace(case, top=slab)
+    return cabinet_of(rng, "washstand", style, case, layout, HAND)
+
 
 KITCHEN: Mapping[TraditionName, float] = {
     "frameless": 0.42,
@@ -129,3 +156,62 @@ def _beside(rng: np.random.Generator, site: Site) -> Site:
     if not chance(rng, 0.2):
         return site
     return Site("left" if chance(rng, 0.5) else "right", site.hand)
+
+
+FRONT = Rect(0.0, 0.4, 0.1, 0.75)  # metres: about what a corner's door closes
+
+
+def corner_cabinet(rng: np.random.Generator) -> CornerCabinet | InnerCorner:
+    """Returns a corner unit: six in ten have an angled front, the others are L-shaped."""
+    style = draw_style(rng, KITCHEN)
+    return _angled(rng, style) if chance(rng, 0.6) else _inner(rng, style)
+
+
+def _angled(rng: np.random.Generator, style: Style) -> CornerCabinet:
+    wall = chance(rng, 0.5)
+    depth = between(rng, (0.3, 0.38)) if wall else between(rng, (0.45, 0.6))
+    along = depth + between(rng, (0.28, 0.45))
+    return CornerCabinet(
+        along_x=along,
+        along_y=along if chance(rng, 0.8) else depth + between(rng, (0.28, 0.45)),
+        depth=depth,
+        height=between(rng, (0.55, 0.95)),
+        panel=style.panel,
+        frame=max(style.frame, between(rng, (0.025, 0.05))),
+        door=_door(rng, style),
+        mount=style.mount,
+        finish=style.finish,
+    )
+
+
+def _inner(rng: np.random.Generator, style: Style) -> InnerCorner:
+    """Returns an L-shaped unit; its doors hang at the far ends, as the shape demands."""
+    depth, post = between(rng, (0.3, 0.6)), between(rng, (0.05, 0.09))
+    along = depth + post + between(rng, (0.28, 0.5))
+    base = between(rng, (0.08, 0.14)) if depth > 0.4 else 0.0
+    return InnerCorner(
+        along_x=along,
+        along_y=along if chance(rng, 0.7) else depth + post + between(rng, (0.28, 0.5)),
+        depth=depth,
+        height=between(rng, (0.72, 0.9)),
+        panel=style.panel,
+        post=post,
+        door=_door(rng, style, "right"),
+        second=_door(rng, style, "left") if chance(rng, 0.6) else None,
+        shelves=1 if chance(rng, 0.6) else 0,
+        base=base,
+        recess=between(rng, (0.02, 0.07)),
+        topped=chance(rng, 0.6),
+        front=style.front,
+        gap=max(style.gap, needed_gap(Door(), Rect(0.0, 0.28, 0.0, 0.6), style.front)),
+        finish=style.finish,
+    )
+
+
+def _door(rng: np.random.Generator, style: Style, side: Side | None = None) -> Door:
+    """Returns a door in the style, on the given side."""
+    if side is not None:
+        return fit_door(rng, Door(), side, FRONT, style, 1.05)
+    door = fitted(rng, Door(), FRONT, style)
+    assert isinstance(door, Door)
+    return door

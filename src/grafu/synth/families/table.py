@@ -19,7 +19,7 @@ from grafu.synth.cabinets.chest import Chest, make_chest
 from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_cabinet, make_inner_corner
 from grafu.synth.cabinets.ensemble import Ensemble, make_ensemble
 from grafu.synth.cabinets.rack import Rack, make_rack
-from grafu.synth.families import bath, bedroom, bureaus, composed, corners, kitchen, living, office, racks, tables
+from grafu.synth.families import bedroom, composed, kitchen, living, office, tables
 from grafu.synth.sampling.chance import pick
 from grafu.synth.tables.desk import Desk, make_desk
 from grafu.synth.tables.table import Table, make_table
@@ -31,8 +31,8 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "base cabinet": (14.5, kitchen.base_cabinet),
     "wall cabinet": (12.5, kitchen.wall_cabinet),
     "sink cabinet": (3.0, kitchen.sink_cabinet),
-    "corner cabinet": (1.8, corners.corner_cabinet),
-    "washstand": (5.5, bath.washstand),
+    "corner cabinet": (1.8, kitchen.corner_cabinet),
+    "washstand": (5.5, kitchen.washstand),
     "kitchen island": (1.0, composed.island),
     "kitchen units": (1.5, composed.kitchen_units),
     "tall cabinet": (8.3, kitchen.tall_cabinet),
@@ -49,14 +49,14 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "display cabinet": (2.5, living.display_cabinet),
     "hutch": (1.5, composed.hutch),
     "open shelf": (1.5, living.open_shelf),
-    "rack": (1.8, racks.rack),
+    "rack": (1.8, living.rack),
     "free form": (3.5, living.free_form),
     "filing cabinet": (1.5, office.filing_cabinet),
     "plan chest": (4.2, office.plan_chest),
     "desk": (4.0, tables.desk),
     "writing desk": (3.5, tables.writing_desk),
     "table with drawers": (8.5, tables.drawer_table),
-    "bureau": (1.0, bureaus.bureau),
+    "bureau": (1.0, office.bureau),
     "vanity": (1.2, tables.vanity),
     "fridge": (0.6, office.fridge),
     "oven": (0.8, office.oven),

@@ -15,8 +15,8 @@ from grafu.synth.fronts.leaf_shape import LeafShape
 from grafu.synth.fronts.leaves import face_at, filled_rect
 from grafu.synth.pieces.assembly import Piece
 from grafu.synth.pieces.finish import surface_of
-from grafu.templates.handle import HandleTemplate
 from grafu.templates.handles import handle_template
+from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 HIGH = 0.65  # of a door's height: where its handle is if nothing else is said

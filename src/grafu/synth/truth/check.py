@@ -17,8 +17,7 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.sweep import values_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.edges import Hinge, Rail
-from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.groups import joined_groups
+from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.synth.specimen import DefectKind, Specimen
 from grafu.synth.truth.articulated import articulated_of
