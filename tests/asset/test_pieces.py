@@ -38,6 +38,14 @@ def test_pieces_join_the_front_that_covers_them():
     assert len(notes) == 2
 
 
+def test_a_box_joins_the_plate_that_is_called_the_drawer():
+    front = part("bottom_left_drawer", (0, 0, 0), (1, 0.02, 0.3))
+    box = part("drawer_container", (0.05, 0.02, 0.03), (0.95, 0.6, 0.27))
+    other = part("drawer_container.001", (0.05, 0.02, 0.53), (0.95, 0.6, 0.77))
+    parts, _ = with_joined_pieces((front, box, other), WHOLE)
+    assert {p.id: len(p.surfaces) for p in parts} == {"bottom_left_drawer": 2, "drawer_container.001": 1}
+
+
 def test_a_two_sided_desk_joins_each_piece_to_the_nearer_front():
     near, far = part("drawer_front1", (0, 0, 0), (1, 0.02, 0.3)), part("drawer_front2", (0, 0.98, 0), (1, 1, 0.3))
     side = part("drawer_side", (0.1, 0.6, 0.02), (0.12, 0.98, 0.28))
@@ -92,3 +100,16 @@ def test_neighbouring_doors_and_whole_drawers_are_left_alone():
     doors = tuple(part(f"door_panel{i}", (i * 0.5, 0, 0), (i * 0.5 + 0.5, 0.02, 1), PartLabel.DOOR) for i in range(2))
     wholes = (part("drawer_1", (0, 0, 0), (1, 0.5, 0.3)), part("drawer_2", (0, 0, 0.01), (1, 0.5, 0.29)))
     assert with_joined_pieces(doors + wholes, WHOLE)[0] == doors + wholes
+
+
+def test_bar_and_posts_that_are_called_a_door_are_its_handle():
+    leaf = part("leftdoor", (0, 0, 0), (0.4, 0.02, 0.6), PartLabel.DOOR)
+    posts = [
+        part(f"leftdoor.00{k}", (0.3, -0.05, z), (0.31, 0, z + 0.01), PartLabel.DOOR) for k, z in ((2, 0.2), (3, 0.4))
+    ]
+    bar = part("leftdoor.004", (0.3, -0.06, 0.15), (0.31, -0.05, 0.45), PartLabel.DOOR)
+    small = part("flap", (0.42, 0, 0), (0.6, 0.02, 0.1), PartLabel.DOOR)
+    parts, _ = with_joined_pieces((bar, *posts, leaf, small), WHOLE)
+    assert {p.id: p.rides_on for p in parts if p.label is PartLabel.HANDLE} == dict.fromkeys(
+        ("leftdoor.004", "leftdoor.002", "leftdoor.003"), "leftdoor"
+    )

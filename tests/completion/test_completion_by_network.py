@@ -258,8 +258,9 @@ def test_what_nothing_carries_is_refused_with_the_reason() -> None:
     graph = replace(graph, nodes=tuple(replace(n, box=far) if n.label.is_movable else n for n in graph.nodes))
     completion = complete(graph, Answers())
 
-    assert [r.part for r in completion.refused] == ["door", "drawer"]
-    assert all("the network sees no part that carries it" in r.why for r in completion.refused)
+    assert [r.part for r in completion.refused] == ["knob", "door", "drawer"]
+    assert "sits on no door or drawer" in completion.refused[0].why  # the nearest is metres away
+    assert all("the network sees no part that carries it" in r.why for r in completion.refused[1:])
     assert [r.why for r in complete(cupboard("door", "drawer"), told_nothing()).refused] == [
         "there is no static part that could carry it: label the parts that stand still"
     ] * 2

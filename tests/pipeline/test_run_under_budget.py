@@ -117,5 +117,7 @@ def test_more_parts_than_the_network_holds_are_left_to_the_rule(asset: Asset) ->
     report = report_of(found)
     assert found.source is MotionSource.RULE
     assert report.motion.source is MotionSource.RULE
-    assert report.notes[0].startswith(f"motions come from the rule: the network's look at {len(bare.parts)} parts")
+    assert report.notes[0].startswith(
+        f"motions come from the rule: the network's forward pass over {len(bare.parts)} parts"
+    )
     assert {joint.child for joint in found.object.joints} == {DOOR, DRAWER}

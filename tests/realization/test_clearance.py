@@ -133,3 +133,15 @@ def test_what_lies_enclosed_in_a_drawer_moves_with_it():
     result = realized(replace(asset, parts=(*parts, runner)))
     assert [(c.part, c.kind) for c in installed(result)["drawer"].clearances] == [("runner", "joined")]
     assert "runner" in {v.name for v in result.object.link("drawer").visuals}
+
+
+@pytest.mark.parametrize(("name", "is_carved"), [("bearing_0", True), ("stud_0", False)])
+def test_a_drawn_bearing_makes_way_where_other_parts_would_lose_too_much(name, is_carved):
+    asset = drawer()
+    stuck = box(name, (0.186, -0.1, 0.09), (0.2265, -0.09, 0.1))
+    result = realized(replace(asset, parts=(*asset.parts, stuck)))
+    done = installed(result)["drawer"].clearances if "drawer" in installed(result) else ()
+    assert ((name, "carved") in {(c.part, c.kind) for c in done}) is is_carved
+    if is_carved:
+        assert installed(result)["drawer"].collision_share == 0.0
+        assert volume(visuals(result)[name].surfaces) >= 0.4 * volume(stuck.surfaces)

@@ -34,6 +34,7 @@ SHARES = [
     (GripConfig, "depth_share"),
     (InteriorConfig, "carried"),
     (RealizationConfig, "max_carve"),
+    (RealizationConfig, "max_carve_fitting"),
     (TopConfig, "coverage"),
 ]
 

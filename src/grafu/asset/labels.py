@@ -19,7 +19,11 @@ from grafu.vocabulary import PartLabel
 # Each row: a label and the phrases that give it. A phrase is words that adjoin (`drawer rail` also matches plurals);
 # `=top` matches only where it is the whole name. The phrase that ends last counts, the longest of several.
 TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
-    (PartLabel.DRAWER, "drawer, pull out, pullout, slide out tray, keyboard tray, tray surface, =tray, sliding tray"),
+    (
+        PartLabel.DRAWER,
+        "drawer, pull out, pullout, slide out tray, keyboard tray, tray surface, =tray, sliding tray, sliding shelf",
+    ),
+    (PartLabel.DRAWER, "sliding rack"),
     (PartLabel.DOOR, "door, door leaf, cabinetdoor, flap, lid, shutter, hatch, tambour"),
     (PartLabel.HANDLE, "handle, doorhandle, knob, nob, doorknob, grip, handgrip, pull, grasp"),
     (PartLabel.MISC, "tabletop connector, drawer rail, drawer slider, drawer slide, drawer runner, hinge, lock"),
@@ -50,13 +54,19 @@ TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
         PartLabel.SIDE_PANEL,
         "kickboard, baseboard, skirting, end panel, left panel, right panel, outer side, inner side",
     ),
-    (PartLabel.SIDE_PANEL, "lateral panel, =lateral"),
+    (PartLabel.SIDE_PANEL, "lateral panel, =lateral, wall"),
     (PartLabel.SIDE_PANEL, "left side, right side, cabinet side, carcass side, case side, side skin, left wall"),
     (PartLabel.SIDE_PANEL, "right wall, wall left, wall right, =side, =left, =right"),
-    (PartLabel.MISC, "misc, connector, glass, mirror, lamp, light, led, sink, basin, cushion, pillow, book, clock"),
+    (
+        PartLabel.MISC,
+        "misc, connector, glass, pane, window, mirror, lamp, light, led, sink, basin, cushion, pillow, book, clock",
+    ),
     (PartLabel.MISC, "decoration, cord, cable, hook, key, vase, rail, runner, slider, cloth, mattress, grille, vent"),
     (PartLabel.MISC, "gap, shadow, reveal, recess, cavity, slot, groove, trim, molding, moulding, bead, band"),
-    (PartLabel.MISC, "control panel, display, fixed slide, moving slide"),
+    (
+        PartLabel.MISC,
+        "control panel, display, slide, support, collar, sleeve, tube, ceiling, cover, handrail, rug, carpet",
+    ),
 )
 
 # Things that furniture annotations give joints to although no hinge or rail carries them.
@@ -72,6 +82,7 @@ _PIECES = word_set(
 )
 _LEAF_PIECES = word_set("stile rail mullion molding moulding trim bead slat")
 _VOIDS = word_set("recess shadow gap cavity slot groove cutout hole pocket")
+_FITTINGS = word_set("hinge lock rail slide slider runner screw knuckle bearing bracket wheel caster castor")
 _HARDWARE = frozenset({"hinge", "lock", "latch", "knuckle"})
 _PLURALS = frozenset({"doors", "drawers"})
 _CONTAINERS = word_set(
@@ -87,13 +98,16 @@ class Sense:
     """What a name says: the label, whether it is a piece of a door or drawer, and whether nothing blurs it.
 
     A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
-    `is_container` says that it is the name of a whole piece of furniture or of its body.
+    `is_container` says that it is the name of a whole piece of furniture or of its body, `mention` which door or drawer
+    it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like.
     """
 
     label: PartLabel
     is_piece: bool = False
     is_blurred: bool = False
     is_container: bool = False
+    is_fitting: bool = False
+    mention: PartLabel | None = None
 
 
 @lru_cache(maxsize=20_000)
@@ -152,8 +166,9 @@ def _sense(said: tuple[str, ...]) -> Sense:
     head = _last(said, _OF_OTHERS)
     container = max((i for i, w in enumerate(said) if w in _CONTAINERS), default=-1)
     if head is None or container >= head[1]:
-        return Sense(PartLabel.UNKNOWN, is_container=container >= 0)
-    return Sense(head[2])
+        mention = None if moving is None else moving[2]
+        return Sense(PartLabel.UNKNOWN, is_container=container >= 0, mention=mention if container >= 0 else None)
+    return Sense(head[2], is_fitting=bool(set(said[head[0] : head[1]]) & _FITTINGS))
 
 
 def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sense | None:

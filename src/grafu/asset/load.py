@@ -22,6 +22,7 @@ from grafu.asset.part import Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
 from grafu.asset.pieces import with_joined_pieces
 from grafu.asset.placing import Placing
+from grafu.asset.plausibility import with_plausible_labels
 from grafu.asset.reading import Reading
 from grafu.asset.regular_files import read_head
 from grafu.asset.resources import ModelFiles
@@ -87,6 +88,7 @@ def settled(reading: Reading, name: str, path: Path, options: LoadOptions = Load
     reading = _taken_apart(reading) if options.parts == "loose" else reading
     _check_parts(reading, path, options)
     reading = reading if reading.grouped or options.parts == "loose" else _joined(reading)
+    reading = _plausible(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
     place = Placing(frame)
@@ -183,6 +185,11 @@ def _taken_apart(reading: Reading) -> Reading:
 
 def _joined(reading: Reading) -> Reading:
     parts, notes = with_joined_pieces(reading.parts, whole_box(reading.parts))
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+
+
+def _plausible(reading: Reading) -> Reading:
+    parts, notes = with_plausible_labels(reading.parts)
     return replace(reading, parts=parts, notes=(*reading.notes, *notes))
 
 

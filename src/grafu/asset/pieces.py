@@ -1,8 +1,8 @@
 """Loose pieces of doors and drawers become one part each, by where they lie. It reads no names but to tell pieces.
 
-A drawer's sides, back and bottom belong to the `front` whose outline, seen from where it faces, covers them; so does
-the box's own front behind it. A door's pane or panel belongs to the larger door piece around it. Pieces that no front
-covers stay parts of their own.
+A drawer's sides, back, bottom and box belong to the `front` whose outline, seen from where it faces, covers them, or to
+the plate that is called the drawer; so does the box's own front behind it. A door's pane or panel belongs to the larger
+door piece around it. Pieces that no front covers stay parts of their own.
 """
 
 from dataclasses import dataclass, replace
@@ -11,8 +11,8 @@ from typing import final
 import numpy as np
 
 from grafu.asset.labels import is_piece
-from grafu.asset.names import words
 from grafu.asset.part import Part
+from grafu.asset.speech import spoken
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
@@ -20,6 +20,10 @@ from grafu.vocabulary import PartLabel
 _STAND_OUT, _TOUCH = 0.01, 0.004
 # A door's frame may have this share of its pane's face.
 _LEAF = 0.2
+# A drawer or door named as a whole that is only a front: its thickness as a share of its next side.
+_PLATE = 0.25
+# What sits on a front: its face as a share of the front's.
+_SMALL = 0.12
 
 
 @final
@@ -49,17 +53,23 @@ def with_joined_pieces(parts: tuple[Part, ...], whole: Box) -> tuple[tuple[Part,
     """
     hosts: dict[str, list[Part]] = {}
     for label in (PartLabel.DRAWER, PartLabel.DOOR):
-        pieces = [p for p in parts if p.label is label and is_piece(p.source.name)]
-        for piece, host in _pairs(pieces, label, whole.diagonal):
+        named = [p for p in parts if p.label is label]
+        pieces = [p for p in named if is_piece(p.source.name)]
+        plates = [p for p in named if p not in pieces and _is_plate(p.box)] if pieces else []
+        for piece, host in _pairs(pieces, plates, label, whole.diagonal):
             hosts.setdefault(host.id, []).append(piece)
     joined = {piece.id: host for host, members in hosts.items() for piece in members}
     kept = tuple(_joined(p, hosts.get(p.id, []), joined) for p in parts if p.id not in joined)
+    held = _held(kept, whole.diagonal)
+    kept = tuple(replace(p, label=PartLabel.HANDLE, rides_on=held[p.id]) if p.id in held else p for p in kept)
     notes = [f"{_names(members)} joined to {host}" for host, members in hosts.items()]
     return kept, notes
 
 
-def _pairs(pieces: list[Part], label: PartLabel, size: float) -> list[tuple[Part, Part]]:
-    fronts = {p.id: _Front(p, _faces(p)) for p in pieces if label is PartLabel.DOOR or _is_front(p)}
+def _pairs(pieces: list[Part], plates: list[Part], label: PartLabel, size: float) -> list[tuple[Part, Part]]:
+    """Returns each piece that belongs to a front, with it: to a piece that is one, or to a plate named as a whole."""
+    own = [p for p in pieces if label is PartLabel.DOOR or _is_front(p)]
+    fronts = {p.id: _Front(p, _faces(p)) for p in (*own, *plates)}
     ranked = sorted(fronts.values(), key=lambda f: -_face_area(f.part.box))
     pairs: list[tuple[Part, Part]] = []
     taken: set[str] = set()
@@ -70,6 +80,32 @@ def _pairs(pieces: list[Part], label: PartLabel, size: float) -> list[tuple[Part
             pairs.append((piece, host))
             taken.add(piece.id)
     return _followed(pairs)
+
+
+def _held(parts: tuple[Part, ...], size: float) -> dict[str, str]:
+    """Returns, for each small part that is called a door or drawer but sits on one, the front that it sits on.
+
+    The bar and the posts of a handle are often called as what they belong to. They touch the front or each other, lie
+    within its outline, and not in its plane.
+    """
+    moving = [p for p in parts if p.label.is_movable]
+    found: dict[str, str] = {}
+    for front in sorted((p for p in moving if _is_plate(p.box)), key=lambda p: -_face_area(p.box)):
+        seen = _Front(front, front.box.thin_axis)
+        small = [p for p in moving if p.id not in found and _face_area(p.box) <= _SMALL * _face_area(front.box)]
+        small = [p for p in small if seen.misses(p) <= _TOUCH * size and not _in_plane(front.box, p.box)]
+        reached = [front]
+        while reached:
+            last = reached.pop()
+            near = [p for p in small if p.id not in found and last.box.overlaps(p.box, _TOUCH * size)]
+            found |= dict.fromkeys((p.id for p in near), front.id)
+            reached += near
+    return found
+
+
+def _in_plane(front: Box, piece: Box) -> bool:
+    axis = front.thin_axis
+    return bool(front.low[axis] < piece.center[axis] < front.high[axis])
 
 
 def _followed(pairs: list[tuple[Part, Part]]) -> list[tuple[Part, Part]]:
@@ -83,7 +119,12 @@ def _followed(pairs: list[tuple[Part, Part]]) -> list[tuple[Part, Part]]:
 
 
 def _is_front(part: Part) -> bool:
-    return bool({"front", "face"} & set(words(part.source.name)))
+    return bool({"front", "face"} & set(spoken(part.source.name)))
+
+
+def _is_plate(box: Box) -> bool:
+    sides = np.sort(box.size)
+    return bool(sides[0] <= _PLATE * sides[1])
 
 
 def _host(piece: Part, fronts: list[_Front], size: float, touching: bool) -> Part | None:

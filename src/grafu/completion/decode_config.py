@@ -40,6 +40,9 @@ class DecodeConfig:
     reach: float = 0.15
     """A mount or parent farther away is not asked where nearer ones are: no hinge bridges that."""
 
+    grasp: float = 0.08
+    """A door or drawer farther than this from a handle is not its: a bar stands off by the length of its posts."""
+
     least_edge: float = 0.02
     """Below this probability of every hinge (or rail), nothing that the network sees carries a part: it moves as a
     carpenter finds, or is refused with the reason."""
@@ -69,5 +72,5 @@ class DecodeConfig:
         shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
         if not all(0.0 <= share <= 1.0 for share in (*shares, self.sure, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
-        if min(self.rounds, self.reach, self.outward) < 0:
-            raise ValueError(f"`rounds`, `reach` and `outward` must not be negative: got {self}")
+        if min(self.rounds, self.reach, self.grasp, self.outward) < 0:
+            raise ValueError(f"`rounds`, `reach`, `grasp` and `outward` must not be negative: got {self}")

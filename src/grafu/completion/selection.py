@@ -33,7 +33,9 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
     """Returns the door or drawer that a handle is fixed to, or why there is none."""
     if not len(view.moving_bodies):
         return RefusedMotion(handle.id, _NO_PARENT)
-    slots = view.within_reach(handle, view.moving_bodies)
+    slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.unit]
+    if not len(slots):
+        return RefusedMotion(handle.id, _NO_PARENT)
     shares, none = parent_shares(view.place[handle.id], slots, view)
     attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
     if none >= view.config.no_parent and attached.max() < 0.5:

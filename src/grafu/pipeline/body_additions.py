@@ -17,6 +17,7 @@ from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.top.complete import TopVerdict, missing_tops
 from grafu.realization.top.config import DEFAULT_TOP
 from grafu.realization.top.replace import ReplacedTop, replace_top
+from grafu.realization.top.unwanted import why_no_top
 from grafu.vocabulary import PartLabel
 
 
@@ -68,10 +69,22 @@ def _top(asset: Asset, completion: GraphCompletion, plan: RealizationPlan, confi
         nodes = completion.completed.nodes
         called = [node.id for node in nodes if node.label is PartLabel.TOP_PANEL]
         return replace_top(asset.parts, plan.joints, called, config.top, _predicted_top(completion))
-    top = missing_tops(asset.parts, plan.joints, config.top or DEFAULT_TOP, _predicted_top(completion))
+    predicted = _predicted_top(completion)
+    top = missing_tops(asset.parts, plan.joints, config.top or DEFAULT_TOP, predicted)
+    unwanted = _unwanted_top(asset, plan, predicted) if top.additions else ""
+    if unwanted:
+        return ReplacedTop(replace(top, covered=True, why=unwanted, addition=None, others=()))
     if config.top is None:
         return ReplacedTop(replace(top, addition=None, others=()))
     return ReplacedTop(top, frozenset(), top.why if top.missing and top.addition is None else "")
+
+
+def _unwanted_top(asset: Asset, plan: RealizationPlan, predicted: Box | None) -> str:
+    """Returns why furniture that is open above stays so, empty where it lacks its top."""
+    named = why_no_top((asset.name, *(part.source.name for part in asset.parts)))
+    if named or plan.joints or plan.refused or predicted is not None:
+        return named
+    return "nothing in it moves and no top was predicted: a crate or an open shelf stays open"
 
 
 def _kept(additions: Sequence[Addition], config: AdditionConfig) -> tuple[Addition, ...]:

@@ -22,6 +22,7 @@ from grafu.pipeline.annotation import complete_by_annotation
 from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.built_graph import as_built, without_removed
 from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
+from grafu.pipeline.idle import without_idle
 from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
@@ -198,6 +199,7 @@ def functionalize(
     body = stages.timed("body", add, partial(bare_body, asset, plan))  # top, drawer boxes
     build = partial(realize, body.plan, body.asset, gallery, config.realization, cache)
     realized = stages.timed("realize", build, partial(without_joints, body.plan, body.asset))  # joints
+    body, realized = without_idle(body, realized)
     fit = partial(add_fittings, realized.scene, completion, config.additions, config.own_handles)
     fittings = stages.timed("fittings", fit, partial(bare_fittings, realized.scene))
     with budget.in_force():

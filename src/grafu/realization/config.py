@@ -55,6 +55,8 @@ class RealizationConfig:
     """Largest share of a side by which a moving part is made smaller (design, section 5)."""
     max_carve: float = 0.05
     """Largest share of a static part's volume or surface that is carved (design, section 5)."""
+    max_carve_fitting: float = 0.6
+    """The same of a drawn rail, bearing or hinge, told by its name: it lies hidden, and makes way for what works."""
     coarse_poses: int = 19
     """Poses in which candidates are compared."""
     fine_poses: int = 61
@@ -66,6 +68,6 @@ class RealizationConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "depth", "contact", "flush", "anchor", "bridge", "door_opening", "body_tolerance")
-        require_shares(self, "restricted", "max_trim", "max_carve", "rail_share")
+        require_shares(self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_share")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

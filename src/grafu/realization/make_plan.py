@@ -14,6 +14,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.graph.completion import GraphCompletion, RefusedMotion
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
+from grafu.realization.carried import carried_parts
 from grafu.realization.plan import JointRequest, RealizationPlan, Refusal
 from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType
@@ -42,8 +43,10 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
 def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
     """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
     graph = completion.completed
-    attached = attached_to(asset, ((edge.parent, edge.child) for edge in graph.attachments))
     known = {part.id for part in asset.parts}
+    fixed_to = {part.id: part.rides_on for part in asset.parts if part.rides_on}
+    carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to) if part in known]
+    attached = attached_to(asset, [*((edge.parent, edge.child) for edge in graph.attachments), *carried])
     requests = []
     for hinge in graph.hinges:
         axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
@@ -57,7 +60,8 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
         mounts = tuple(rail.parent for rail in edges)
         rides = attached.get(child, ())
         requests.append(JointRequest(child, JointType.PRISMATIC, axis, completion.source, None, mounts, rides))
-    refused = tuple(_refusal(r) for r in completion.refused)
+    moved = {part for _, part in carried}
+    refused = tuple(_refusal(r) for r in completion.refused if r.part not in moved)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
 
 

@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
+from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
@@ -38,7 +39,8 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
         clipped = [clip(surface, near) for surface in part.surfaces]
         area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-        if not 0 < _lost_share(part, near, area, config.max_carve) < config.max_carve:
+        most = config.max_carve_fitting if sense_of(part.source.name).is_fitting else config.max_carve
+        if not 0 < _lost_share(part, near, area, most) < most:
             continue
         surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))

@@ -1,0 +1,131 @@
+"""What a name says, held against the shape of what it names. It reads no files and knows no up and no front.
+
+A word is evidence: a `drawer` that holds the rest of the object is its body, a strip of a few millimetres is no door, a
+`slide` as large as a door is no hardware. A name that mentions a door or drawer beside what it says it is
+(`drawer_stairs`, `drawer_sprocket`) is believed where the part is a plate at the outside.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final, final
+
+import numpy as np
+
+from grafu.asset.labels import sense_of
+from grafu.asset.part import Part
+from grafu.geometry.arrays import Scalars
+from grafu.geometry.box import Box
+from grafu.vocabulary import PartLabel
+
+BODY: Final = PartLabel.SIDE_PANEL
+"""What a body in one piece is labelled, as in what the network was trained on: it carries hinges and rails."""
+# Shares of the object's sides.
+_WHOLE = 0.85  # a part that takes this much of each of them is the body, if it holds others
+_BODY = 0.5  # what is called a cabinet, a desk, a bed, and takes this much of each, is
+_SPARE = 0.02  # how far what a body holds may stand out of it
+# Shares of the object's largest side.
+_STRIP = 0.025  # the second largest side of a door or drawer
+_FITTING, _GRASPED = 0.25, 0.45  # that of a hinge or a rail, and of a handle
+_PLATE, _OUTSIDE = 0.07, 0.06  # how thick a front is, and how far it may lie from the outside
+# A top is a plate: the share that its thickness may have of its width.
+_THICK = 0.35
+
+
+@final
+@dataclass(frozen=True)
+class _Scene:
+    """The boxes of all parts, and the box around them."""
+
+    whole: Box
+    low: np.ndarray
+    high: np.ndarray
+
+    @property
+    def unit(self) -> float:
+        return max(float(self.whole.size.max()), 1e-12)
+
+    def shares(self, box: Box) -> Scalars:
+        """Returns what share a box takes of each side of the whole."""
+        return box.size / np.maximum(self.whole.size, 1e-12)
+
+    def held(self, box: Box) -> int:
+        """Returns how many other parts, more than specks, lie in a box."""
+        spare = _SPARE * self.unit
+        inside = np.all(self.low >= box.low - spare, axis=1) & np.all(self.high <= box.high + spare, axis=1)
+        sides = np.sort(self.high - self.low, axis=1)
+        others = (sides[:, 1] > _STRIP * self.unit) & np.any(self.high - self.low < 0.98 * box.size, axis=1)
+        return int((inside & others).sum())
+
+
+def with_plausible_labels(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:
+    """Returns the parts with the labels that their names give but their shapes deny taken back, and notes on that."""
+    if not parts:
+        return parts, []
+    boxes = [part.box for part in parts]
+    low, high = np.array([b.low for b in boxes]), np.array([b.high for b in boxes])
+    scene = _Scene(Box(low.min(axis=0), high.max(axis=0)), low, high)
+    found = tuple(_judged(part, scene) for part in parts)
+    notes = [
+        f"{new.source.name} is no {old.label.value} by its shape: {_said(new.label)}"
+        for old, new in zip(parts, found, strict=True)
+        if new.label is not old.label and old.label is not PartLabel.UNKNOWN
+    ]
+    return found, notes
+
+
+def _said(label: PartLabel) -> str:
+    return (
+        "it stands still" if label is PartLabel.MISC else f"it may be a {label.value}" if label.is_movable else "open"
+    )
+
+
+def _judged(part: Part, scene: _Scene) -> Part:
+    if part.labelled_by not in ("name", "none"):
+        return part
+    label = _label(part, scene)
+    if label is part.label:
+        return part
+    return replace(part, label=label, labelled_by="none" if label is PartLabel.UNKNOWN else "name")
+
+
+def _label(part: Part, scene: _Scene) -> PartLabel:
+    """Returns the label that name and shape agree on."""
+    box = part.box
+    second = float(np.sort(box.size)[1]) / scene.unit
+    if part.label.is_movable:
+        blurred = sense_of(part.source.name).is_blurred
+        if _is_body(box, scene):
+            return BODY
+        return PartLabel.MISC if second < _STRIP or (blurred and not _is_front(box, scene)) else part.label
+    if part.label is PartLabel.HANDLE:
+        return PartLabel.UNKNOWN if second > _GRASPED else part.label
+    if part.label is PartLabel.MISC and sense_of(part.source.name).is_fitting:
+        return PartLabel.UNKNOWN if second > _FITTING else part.label
+    if part.label is PartLabel.TOP_PANEL:
+        sides = np.sort(box.size)
+        return PartLabel.UNKNOWN if sides[0] > _THICK * sides[1] and second > _STRIP else part.label
+    if part.label is PartLabel.UNKNOWN:
+        return _of_container(part, scene)
+    return part.label
+
+
+def _of_container(part: Part, scene: _Scene) -> PartLabel:
+    """Returns the label of a part whose name is that of a piece of furniture: its body, or a front in it."""
+    sense = sense_of(part.source.name)
+    if not sense.is_container:
+        return PartLabel.UNKNOWN
+    if sense.mention is not None and _is_front(part.box, scene):
+        return sense.mention
+    is_body = bool(np.all(scene.shares(part.box) >= _BODY)) and scene.held(part.box) > 0
+    return BODY if is_body else PartLabel.UNKNOWN
+
+
+def _is_body(box: Box, scene: _Scene) -> bool:
+    return bool(np.all(scene.shares(box) >= _WHOLE)) and scene.held(box) > 0
+
+
+def _is_front(box: Box, scene: _Scene) -> bool:
+    """Whether a box is a plate of some size at the outside of the object, facing out."""
+    thin = box.thin_axis
+    sides = np.sort(box.size) / scene.unit
+    gap = min(box.low[thin] - scene.whole.low[thin], scene.whole.high[thin] - box.high[thin]) / scene.unit
+    return bool(sides[0] <= _PLATE and sides[1] >= 2 * _STRIP and gap <= _OUTSIDE)

@@ -1,0 +1,80 @@
+import numpy as np
+import pytest
+
+from grafu.asset.labels import label_of
+from grafu.asset.part import Part, PartSource
+from grafu.asset.plausibility import BODY, with_plausible_labels
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.vocabulary import PartLabel
+
+
+def part(name, low, high):
+    mesh = TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+    label = label_of(name)
+    by = "none" if label is PartLabel.UNKNOWN else "name"
+    return Part(name, label, (Surface(mesh),), PartSource(name), by)
+
+
+CASE = ((0, 0, 0), (1, 0.5, 0.8))
+LEAF = ((0.05, -0.02, 0.05), (0.95, 0.0, 0.75))
+INSIDE = ((0.05, 0.1, 0.3), (0.95, 0.4, 0.32))
+
+
+def labels(*parts):
+    return {p.id: p.label for p in with_plausible_labels(parts)[0]}
+
+
+@pytest.mark.parametrize("name", ["kitchenCabinetDrawer", "door"])
+def test_a_door_that_holds_the_rest_is_the_body(name):
+    found, notes = with_plausible_labels((part(name, *CASE), part("shelf", *INSIDE), part("leaf", *LEAF)))
+    assert found[0].label is BODY
+    assert len(notes) == 1
+    assert name in notes[0]
+
+
+def test_a_door_that_fills_its_frame_stays_a_door():
+    leaf, frame = part("door", (0, 0, 0), (1, 0.04, 2)), part("frame", (-0.05, -0.02, 0), (1.05, 0.1, 2.05))
+    assert labels(leaf, frame)["door"] is PartLabel.DOOR
+
+
+def test_a_strip_is_no_drawer():
+    strip = part("drawer", (0, 0, 0.4), (1, 0.004, 0.404))
+    assert labels(part("case", *CASE), strip)["drawer"] is PartLabel.MISC
+
+
+def test_a_thin_front_stays_a_drawer():
+    front = part("drawer", (0.05, -0.004, 0.4), (0.95, 0.0, 0.6))
+    assert labels(part("case", *CASE), front)["drawer"] is PartLabel.DRAWER
+
+
+def test_a_blurred_name_is_believed_where_the_part_is_a_front():
+    outside = part("drawer_sprocket", *LEAF)
+    within = part("drawer_sprocket_2", *INSIDE)
+    found = labels(part("corpus", *CASE), outside, within)
+    assert found["drawer_sprocket"] is PartLabel.DRAWER
+    assert found["drawer_sprocket_2"] is PartLabel.MISC
+
+
+def test_a_front_that_a_containers_name_mentions_is_one():
+    found = labels(part("stairs", *CASE), part("drawerstairs3", *LEAF), part("drawer_unit", *INSIDE))
+    assert found["drawerstairs3"] is PartLabel.DRAWER
+    assert found["drawer_unit"] is PartLabel.UNKNOWN
+    assert found["stairs"] is BODY
+
+
+def test_a_slide_as_large_as_a_door_may_be_anything():
+    assert labels(part("case", *CASE), part("slide.002", *LEAF))["slide.002"] is PartLabel.UNKNOWN
+    assert labels(part("case", *CASE), part("slide", (0, 0, 0), (0.5, 0.02, 0.02)))["slide"] is PartLabel.MISC
+
+
+def test_a_block_is_no_top():
+    block, board = part("cabinet_top", (0, 0, 0.4), (1, 0.5, 0.8)), part("top", (0, 0, 0.8), (1, 0.5, 0.83))
+    found = labels(part("case", (0, 0, 0), (1, 0.5, 0.4)), block, board)
+    assert found == {"case": PartLabel.UNKNOWN, "cabinet_top": PartLabel.UNKNOWN, "top": PartLabel.TOP_PANEL}
+
+
+def test_labels_that_the_user_gives_are_kept():
+    stated = Part("x", PartLabel.DOOR, part("door", *CASE).surfaces, PartSource("door"), "user")
+    assert labels(stated, part("shelf", *INSIDE), part("y", *LEAF))["x"] is PartLabel.DOOR
