@@ -50,7 +50,7 @@ def expected() -> list:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "model.glb"
         objects.export_sources(bpy.context, objects.sources_of(session()), path)
-        asset = load_asset(path, settings.reading.options)
+        asset = load_asset(path, settings.reading)
     made = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline()).object
     things = [("link", link.id, 0.0) for link in made.links]
     things += [("joint", j.id, round(j.limits.upper, 4)) for j in made.joints]

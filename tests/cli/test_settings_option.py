@@ -1,4 +1,4 @@
-"""`--settings FILE` through the real command: it is followed, and options that say the same are refused."""
+"""`--settings FILE` through the real command: it is followed, and options beside it win over it."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,8 @@ import pytest
 from obj_inputs import write_cabinet
 
 from grafu.cli.main import main
-from grafu.pipeline.settings import SCHEMA, Settings
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import SCHEMA, settings_from_json
 
 
 def test_settings_are_followed_and_the_same_file_gives_the_same_again(tmp_path: Path) -> None:
@@ -23,15 +24,31 @@ def test_settings_are_followed_and_the_same_file_gives_the_same_again(tmp_path: 
     assert made[0] == made[1]
 
 
-@pytest.mark.parametrize(
-    "option", [["--no-top"], ["--motion", "rule"], ["--height", "1"], ["--no-trim"], ["--parts", "loose"]]
-)
-def test_options_that_settings_hold_are_refused_beside_them(tmp_path, capsys, option):
-    (tmp_path / "settings.json").write_text(json.dumps(Settings().to_json()))
+def test_options_win_over_the_settings_beside_them(tmp_path: Path) -> None:
+    in_file = {
+        "schema": SCHEMA,
+        "motion": "annotation",
+        "reading": {"height": 2.0, "parts": "loose", "limits": {"max_faces": 500_000}},
+        "additions": {"drawer_boxes": None, "handles": {"style": "knob-round", "length": 0.1}},
+        "joints": {"door": {"count": 3}},
+    }
+    (tmp_path / "settings.json").write_text(json.dumps(in_file))
+    given = [*["--motion", "rule", "--scale", "0.5", "--parts", "input", "--limit", "parts=900"]]
+    given += [*["--no-top", "--handle", "bar-round", "--no-trim"]]
     model = str(write_cabinet(tmp_path))
-    args = ["functionalize", model, "--settings", str(tmp_path / "settings.json"), "--out", str(tmp_path), *option]
-    assert main(args) == 2
-    assert f"`--settings` and `{option[0]}` exclude each other" in capsys.readouterr().err
+    args = ["functionalize", model, "--settings", str(tmp_path / "settings.json"), "--no-page", *given]
+    assert main([*args, "--formats", "urdf", "--out", str(tmp_path / "out")]) == 0
+
+    made = settings_from_json(json.loads((tmp_path / "out" / "cabinet" / "settings.json").read_text()))
+    reading, additions = made.reading, made.additions
+    assert (made.motion, made.trim) == (MotionSource.RULE, False)
+    assert (reading.scale, reading.height, reading.parts) == (0.5, None, "input")
+    assert (reading.limits.by_name()["faces"], reading.limits.by_name()["parts"]) == (500_000, 900)
+    assert additions.top is None
+    assert additions.drawer_boxes is None  # no option says otherwise
+    assert additions.handles is not None
+    assert (additions.handles.style, additions.handles.length) == ("bar-round", 0.1)
+    assert made.joints["door"].count == 3
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def edit(path: Path, **changes) -> None:
 
 
 def again(read):
-    asset = load_asset(read.source, read.settings.reading.options)
+    asset = load_asset(read.source, read.settings.reading)
     return functionalize(asset, read.settings.motion, builtin_gallery(), read.settings.pipeline()).object
 
 

@@ -11,13 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.pipeline.addition_config import NO_ADDITIONS, HandleChoice
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
-from grafu.pipeline.settings import SCHEMA, InputSettings, Settings, settings_from_json
+from grafu.pipeline.settings import SCHEMA, Settings, settings_from_json
 from grafu.realization.interior.request import CompartmentChoice
 from grafu.realization.interior.turned import compartments_of
 from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
@@ -84,7 +85,7 @@ def test_settings_come_back_from_json_as_they_were(base, fronts, compartments, r
 
 
 def test_nothing_added_comes_back_too():
-    chosen = replace(BASE, additions=NO_ADDITIONS, reading=InputSettings(up="+Y", height=0.7))
+    chosen = replace(BASE, additions=NO_ADDITIONS, reading=LoadOptions(up="+Y", height=0.7))
     assert settings_from_json(chosen.to_json()) == chosen
 
 

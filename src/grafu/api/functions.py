@@ -15,12 +15,13 @@ from grafu.api.request import (
 )
 from grafu.api.result import Result
 from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.pipeline.addition_choice import choose_additions
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.motion_source import MotionSource, parse_motion
-from grafu.pipeline.settings import InputSettings, Settings
+from grafu.pipeline.settings import Settings
 from grafu.realization.motion_choice import MotionChoice
 from grafu.templates.available import open_handles
 
@@ -54,7 +55,7 @@ def load(
         AssetError: if the input cannot be read, is one part only, or an argument contradicts it.
         OptionError: if `labels` or `parts` is another word.
     """
-    return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts).options)
+    return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts))
 
 
 def functionalize(
@@ -116,7 +117,7 @@ def functionalize(
     return Result.of(Request(asset, settings, foreign, folder))
 
 
-def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, InputSettings]:
+def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, LoadOptions]:
     unknown = sorted(set(reading) - set(_READING))
     if unknown:
         raise TypeError(f"`grafu.functionalize` has no argument {', '.join(unknown)}")
@@ -124,7 +125,7 @@ def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, InputSett
         if reading:
             raise OptionError(f"{', '.join(reading)} say how a path is read: give them to `grafu.load`")
         frame = source.frame
-        return source, InputSettings(frame.up, frame.front, frame.scale)
+        return source, LoadOptions(frame.up, frame.front, frame.scale)
     if not isinstance(source, str | PathLike):
         raise TypeError(f"`source` must be a path or the asset that `grafu.load` returned: got {described(source)}")
     return load(source, **reading), _reading(**reading)
@@ -137,7 +138,7 @@ def _reading(
     height: float | None = None,
     labels: str = "input",
     parts: str = "input",
-) -> InputSettings:
+) -> LoadOptions:
     for name, value in (("up", up), ("front", front)):
         if value is not None:
             require(value, str, name, "an axis such as `+Z`")
@@ -146,7 +147,7 @@ def _reading(
     if parts not in ("input", "loose"):
         raise OptionError(f"`parts` must be input or loose: got {parts!r}")
     numbers = optional_number(scale, "scale"), optional_number(height, "height")
-    return InputSettings(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
+    return LoadOptions(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
 
 
 def _motions(given: Mapping[str, str] | None) -> dict[str, MotionChoice]:

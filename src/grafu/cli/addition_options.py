@@ -37,8 +37,12 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--complete", choices=("carcass",), help="carcass: add backs and bottoms that are missing")
 
 
-def addition_config(options: argparse.Namespace, handles: "Collection[str]") -> "AdditionConfig":
-    """Returns what the arguments allow to be added; `handles` are the ids of all handle templates.
+def addition_config(
+    options: argparse.Namespace, handles: "Collection[str]", base: "AdditionConfig | None" = None
+) -> "AdditionConfig":
+    """Returns what the arguments allow to be added; what they leave out is as in `base` (None: by default).
+
+    `handles` are the ids of all handle templates.
 
     Raises:
         OptionError: if options contradict each other, or name a style or an interior that there is not.
@@ -53,11 +57,12 @@ def addition_config(options: argparse.Namespace, handles: "Collection[str]") -> 
     try:
         return choose_additions(
             handles,
-            top=not options.no_top and (options.top or True),
-            handles=not options.no_handles and (options.handle or True),
-            drawer_boxes=not options.no_drawer_boxes,
-            interior=options.interior or "predicted",
-            carcass=options.complete == "carcass",
+            base=base,
+            top=False if options.no_top else options.top,
+            handles=False if options.no_handles else options.handle,
+            drawer_boxes=False if options.no_drawer_boxes else None,
+            interior=options.interior,
+            carcass=True if options.complete == "carcass" else None,
         )
     except OptionError as error:
         raise OptionError(str(error).replace("`interior`", "`--interior`").replace("`handle`", "`--handle`")) from None

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
+from grafu.asset.options import Limits
 from grafu.errors import AssetError, ExportError, OptionError
 from grafu.export.files import require_free
 from grafu.export.marker import Marker, read_marker
@@ -85,8 +86,9 @@ def _settings_in(folder: Path) -> Settings | None:
 
 
 def _for_any_model(settings: Settings | None) -> dict[str, Any]:
-    """Returns the settings without what is decided of single parts: one model that was mended is done, too."""
+    """Returns the settings without what is decided of single parts, and without limits: they change no result."""
     if settings is None:
         return {}
     additions = replace(settings.additions, fronts={}, compartments={}, rejected=frozenset())
-    return replace(settings, labels={}, motions={}, joints={}, additions=additions).to_json()
+    reading = replace(settings.reading, limits=Limits())
+    return replace(settings, reading=reading, labels={}, motions={}, joints={}, additions=additions).to_json()

@@ -21,7 +21,6 @@ from grafu.errors import FunctionalizationError, OptionError
 from grafu.export.blend.process import packed
 from grafu.export.formats import exporter_for
 from grafu.export.output_names import output_name, why_not_apart
-from grafu.pipeline.motion_source import SourceOption
 from grafu.pipeline.settings import settings_from_bytes
 from grafu.visible import visible
 
@@ -51,8 +50,6 @@ def finalize(order_file: Path) -> str:
         return one_line(str(error))
     options = JobOptions(
         out=order.out,
-        motion=SourceOption(settings.motion),
-        load=settings.reading.options,
         formats=order.formats,
         settings=settings,
         overwrite=order.overwrite,

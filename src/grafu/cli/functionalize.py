@@ -6,17 +6,15 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grafu.cli.addition_options import add_addition_options, addition_config
-from grafu.cli.input_options import add_input_options, load_options, positive_count
+from grafu.cli.addition_options import add_addition_options
+from grafu.cli.input_options import add_input_options, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.messages import complain
 from grafu.cli.motion_option import motion_choice
 from grafu.cli.move_option import part_move, with_moves
-from grafu.cli.reading_limits import add_limit_option, with_limits
-from grafu.cli.settings_option import read_settings
+from grafu.cli.reading_limits import add_limit_option
 from grafu.export.formats import known_formats
-from grafu.pipeline.motion_source import SourceOption
-from grafu.templates.available import open_gallery, open_handles
+from grafu.templates.available import open_gallery
 
 if TYPE_CHECKING:
     from grafu.cli.job import Job, JobOptions, JobResult
@@ -48,7 +46,6 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--motion",
         type=motion_choice,
-        default=SourceOption(),
         metavar="SOURCE",
         help="where motions come from: network (trained), rule (labels, boxes and handles), auto (the network, or the "
         "rule without weights), annotation: the input's own joints, which the others do not read, or another system's "
@@ -83,8 +80,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--settings",
         type=Path,
         metavar="FILE",
-        help="settings.json, as the Blender extension writes it: how the input is read, what is added, and what is "
-        "decided of single parts and joints; it takes the place of the options that say so",
+        help="settings.json, as every run and the Blender extension write it: how the input is read, what is added, "
+        "what is decided of single parts and joints; other options of this command win over it",
     )
     again = parser.add_mutually_exclusive_group()
     again.add_argument("--overwrite", action="store_true", help="replace results that are there already")
@@ -134,6 +131,7 @@ def run(options: argparse.Namespace) -> int:
 def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     """Returns the shared options; what is wrong with them is said here, before any input is read."""
     from grafu.cli.job import JobOptions
+    from grafu.cli.settings_option import stated_settings
     from grafu.export.formats import exporter_for
 
     formats = tuple(dict.fromkeys(name.strip().lower() for name in options.formats.split(",") if name.strip()))
@@ -141,25 +139,23 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         exporter_for(name)
     open_gallery(options.templates)
     _require_weights(options)
-    settings = read_settings(options) if options.settings else None
-    made = JobOptions(
+    settings = stated_settings(options)
+    prediction = options.motion if options.motion and options.motion.source.is_foreign else None
+    if options.move:
+        settings = with_moves(settings, options.move, alone, prediction)
+    return JobOptions(
         out=options.out,
-        motion=SourceOption(settings.motion) if settings else options.motion,
-        load=with_limits(settings.reading.options if settings else load_options(options), options),
+        settings=settings,
+        prediction=prediction,
         formats=formats,
         templates=options.templates,
-        trim=not options.no_trim,
-        weights=options.weights,
         page=not options.no_page,
-        additions=addition_config(options, open_handles(options.templates)),
-        settings=settings,
         overwrite=options.overwrite,
         resume=options.resume,
         debug=options.debug,
         alone=alone,
         limits=limits_of(options),
     )
-    return with_moves(made, options.move) if options.move else made
 
 
 def _require_weights(options: argparse.Namespace) -> None:
@@ -169,7 +165,7 @@ def _require_weights(options: argparse.Namespace) -> None:
 
     if options.weights is None:
         return
-    source = options.motion.source
+    source = options.motion.source if options.motion else MotionSource.AUTO
     if source not in (MotionSource.AUTO, MotionSource.NETWORK):
         raise OptionError(f"`--weights` and `--motion {source}` exclude each other: leave one of them out")
     if not options.weights.is_file():

@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 
 from grafu.asset.options import LoadOptions
 
@@ -15,13 +16,11 @@ def add_input_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--labels",
         choices=LABELS,
-        default="input",
         help="take part categories from the input's names, or ignore them (default: input)",
     )
     group.add_argument(
         "--parts",
         choices=DIVISIONS,
-        default="input",
         help="take the input's objects as parts, or each connected shell of a mesh: for welded models (default: input)",
     )
     group.add_argument("--up", metavar="AXIS", help="the input's axis that points up, say +Z")
@@ -32,20 +31,17 @@ def add_input_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def load_options(options: argparse.Namespace) -> LoadOptions:
-    """Returns the reader's options that the arguments state.
+def load_options(options: argparse.Namespace, base: LoadOptions = LoadOptions()) -> LoadOptions:
+    """Returns the reader's options that the arguments state; what they leave out is as in `base`.
 
     Raises:
         AssetError: if a direction is not an axis or a size is not positive.
     """
-    return LoadOptions(
-        up=options.up,
-        front=options.front,
-        scale=options.scale,
-        height=options.height,
-        labels=options.labels,
-        parts=options.parts,
-    )
+    given = {name: getattr(options, name) for name in ("up", "front", "scale", "height", "labels", "parts")}
+    stated = {name: value for name, value in given.items() if value is not None}
+    if "scale" in stated:
+        stated = {"height": None, **stated}  # the height of `base` would win over it
+    return replace(base, **stated)
 
 
 def join_directions(arguments: Sequence[str]) -> list[str]:

@@ -9,7 +9,6 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, final
 
-from grafu.asset.options import LoadOptions
 from grafu.cli.limit_options import too_large
 from grafu.cli.messages import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
@@ -20,7 +19,6 @@ from grafu.templates.available import open_gallery
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
     from grafu.asset.foreign.motions import ForeignMotions
-    from grafu.pipeline.addition_config import AdditionConfig
     from grafu.pipeline.functionalize import PipelineConfig
     from grafu.pipeline.report_schema import Report
     from grafu.pipeline.settings import Settings
@@ -29,30 +27,37 @@ MODEL_PAGE = "report.html"
 _MOST_PAGE = 256 * 2**20  # bytes of a page that a picture is taken from
 
 
+def _default_settings() -> "Settings":
+    from grafu.pipeline.settings import Settings
+
+    return Settings()
+
+
 @final
 @dataclass(frozen=True)
 class JobOptions:
     """What all inputs of one call share; `alone` says that there is one only.
 
-    `templates` is a folder of the user's own, or None; `weights` a file of trained weights, or None; `additions` says
-    what may be added (None: all by default), unless `settings` say it.
+    `templates` is a folder of the user's own, or None. `prediction` is the file of another system's motions, which no
+    setting names; None: motions come from the source of the settings.
     """
 
     out: Path
-    motion: SourceOption = field(default_factory=SourceOption)
-    load: LoadOptions = LoadOptions()
+    settings: "Settings" = field(default_factory=_default_settings)
+    prediction: SourceOption | None = None
     formats: tuple[str, ...] = ("glb", "urdf")
     templates: Path | None = None
-    trim: bool = True
-    weights: Path | None = None
     page: bool = True
-    additions: "AdditionConfig | None" = None
-    settings: "Settings | None" = None
     overwrite: bool = False
     resume: bool = False
     debug: bool = False
     alone: bool = True
     limits: Limits = Limits()
+
+    @property
+    def saved_settings(self) -> "Settings | None":
+        """What is saved beside a result; None where motions are another system's: settings would not give the same."""
+        return None if self.prediction else self.settings
 
 
 @final
@@ -143,7 +148,7 @@ def _resumed(job: Job) -> Job | Succeeded:
     from grafu.cli.earlier import earlier_results
 
     options = job.options
-    earlier = earlier_results(job.folder, settings_of(options))
+    earlier = earlier_results(job.folder, options.saved_settings)
     if earlier is None:
         return job
     has_page = (job.folder / MODEL_PAGE).is_file()
@@ -153,8 +158,8 @@ def _resumed(job: Job) -> Job | Succeeded:
     formats = tuple(dict.fromkeys((*earlier.marker.formats, *options.formats)))
     options = replace(options, formats=formats, page=options.page or has_page, overwrite=True, resume=False)
     if made_with := earlier.settings:
-        load, motion = made_with.reading.options, SourceOption(made_with.motion)
-        options = replace(options, settings=made_with, load=load, motion=motion)
+        reading = replace(made_with.reading, limits=options.settings.reading.limits)
+        options = replace(options, settings=replace(made_with, reading=reading))
     return replace(job, options=options)
 
 
@@ -181,13 +186,13 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     budget = Budget.lasting(options.limits.seconds) if options.limits.seconds else UNLIMITED
     listener.on_stage("load")
     started = perf_counter()
-    asset = load_asset(job.input, options.load)
+    asset = load_asset(job.input, options.settings.reading)
     timings = {"load": perf_counter() - started}
     config, source = _config(options), _motions(job)
     made = functionalize(asset, source, open_gallery(options.templates), config, listener.on_stage, budget=budget)
     listener.on_stage("export")
     listener.on_object(made.object)
-    saved = files_of(made, job.name, options.formats, settings_of(options), options.page, timings)
+    saved = files_of(made, job.name, options.formats, options.saved_settings, options.page, timings)
     listener.on_stage("write")
     write_files(saved.files, job.folder, options.overwrite)
     return saved.report, saved.picture
@@ -196,27 +201,16 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
 def _motions(job: Job) -> "MotionSource | ForeignMotions":
     from grafu.pipeline.foreign import prediction_for
 
-    options, motion = job.options, job.options.motion
-    if not motion.source.is_foreign:
-        return motion.source
-    return prediction_for(motion, job.name, options.alone, options.load.limits)
+    options, settings = job.options, job.options.settings
+    if options.prediction is None:
+        return settings.motion
+    return prediction_for(options.prediction, job.name, options.alone, settings.reading.limits)
 
 
 def _config(options: JobOptions) -> "PipelineConfig":
-    from grafu.pipeline.addition_config import AdditionConfig
-    from grafu.pipeline.functionalize import PipelineConfig
-    from grafu.realization.config import RealizationConfig
     from grafu.templates.user import load_handles
 
-    own_handles = load_handles(options.templates) if options.templates else {}
-    if options.settings:
-        return options.settings.pipeline(own_handles)
-    return PipelineConfig(
-        realization=RealizationConfig(trim=options.trim),
-        additions=options.additions or AdditionConfig(),
-        own_handles=own_handles,
-        weights=options.weights,
-    )
+    return options.settings.pipeline(load_handles(options.templates) if options.templates else {})
 
 
 def _require_free(job: Job) -> None:
@@ -229,16 +223,3 @@ def _require_free(job: Job) -> None:
         require_free(job.folder, job.options.overwrite)
     except ExportError as error:
         raise ExportError(str(error).replace("give --overwrite", "give --overwrite or --resume")) from None
-
-
-def settings_of(options: JobOptions) -> "Settings | None":
-    """Returns what was chosen, for `--settings`; None where motions are another system's: no setting names these."""
-    from grafu.pipeline.addition_config import AdditionConfig
-    from grafu.pipeline.settings import InputSettings, Settings
-
-    if options.settings is not None or options.motion.source.is_foreign:
-        return options.settings
-    load = options.load
-    reading = InputSettings(load.up, load.front, load.scale, load.height, load.labels, load.parts)
-    additions = options.additions or AdditionConfig()
-    return Settings(options.motion.source, reading, options.trim, additions=additions, weights=options.weights)

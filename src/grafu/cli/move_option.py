@@ -1,13 +1,13 @@
 """The option `--move`: how single parts move, instead of what the motion source says. It moves nothing itself."""
 
 import argparse
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from grafu.cli.job import JobOptions
+    from grafu.pipeline.motion_source import SourceOption
+    from grafu.pipeline.settings import Settings
 
 SIDES = ("left", "right", "top", "bottom")
 WAYS = (*SIDES, "slides", "not")
@@ -26,21 +26,21 @@ def part_move(text: str) -> Move:
     return part, way
 
 
-def with_moves(options: "JobOptions", moves: "Sequence[Move]") -> "JobOptions":
-    """Returns the options as settings in which these parts move so.
+def with_moves(
+    settings: "Settings", moves: "Sequence[Move]", alone: bool, prediction: "SourceOption | None"
+) -> "Settings":
+    """Returns the settings in which these parts move so; `alone` says that there is one input only.
 
     Raises:
         OptionError: if there are several inputs, or the motions are another system's.
     """
-    from grafu.cli.job import settings_of
     from grafu.errors import OptionError
     from grafu.realization.motion_choice import choice_in_words
 
-    if not options.alone:
+    if not alone:
         raise OptionError("`--move` names parts of one model: give one input")
-    settings = settings_of(options)
-    if settings is None:
-        raise OptionError(f"`--move` and `--motion {options.motion.source}` exclude each other: leave one of them out")
+    if prediction is not None:
+        raise OptionError(f"`--move` and `--motion {prediction.source}` exclude each other: leave one of them out")
     for part, word in moves:
         settings = settings.with_motion(part, choice_in_words(word))
-    return replace(options, settings=settings)
+    return settings

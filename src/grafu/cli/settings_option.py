@@ -1,44 +1,53 @@
-"""The option `--settings`: a file of settings instead of the options that say the same. It runs nothing."""
+"""The settings of a run: those of `--settings FILE`, or the defaults, with what other options say instead.
+
+It runs nothing.
+"""
 
 import argparse
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from pathlib import Path
 
 from grafu.asset.options import Limits
-from grafu.cli.addition_options import add_addition_options
-from grafu.cli.input_options import add_input_options
+from grafu.asset.resources import read_bytes
+from grafu.cli.addition_options import addition_config
+from grafu.cli.input_options import load_options
+from grafu.cli.reading_limits import with_limits
 from grafu.errors import AssetError, OptionError
-from grafu.pipeline.motion_source import SourceOption
-
-if TYPE_CHECKING:
-    from grafu.pipeline.settings import Settings
+from grafu.pipeline.settings import Settings, settings_from_bytes
+from grafu.templates.available import open_handles
 
 _LIMITS = Limits(max_bytes=16 * 2**20)
 
 
-def read_settings(options: argparse.Namespace) -> "Settings":
-    """Returns the settings in the file `options.settings`.
+def stated_settings(options: argparse.Namespace) -> Settings:
+    """Returns the settings in the file `--settings`, or the defaults, with what the other options state in their place.
+
+    A motion source that reads another system's file (`--motion particulate:FILE`) is no setting: it is passed over.
 
     Raises:
-        OptionError: if the file cannot be read or is wrong, or another option says what it says.
+        FunctionalizationError: if the file cannot be read or is wrong, or an option is.
     """
-    from grafu.asset.resources import read_bytes
-    from grafu.pipeline.settings import settings_from_bytes
+    base = read_settings(options.settings) if options.settings else Settings()
+    settings = replace(
+        base,
+        reading=with_limits(load_options(options, base.reading), options),
+        additions=addition_config(options, open_handles(options.templates), base.additions),
+        trim=base.trim and not options.no_trim,
+        weights=options.weights or base.weights,
+    )
+    if options.motion is None or options.motion.source.is_foreign:
+        return settings
+    return replace(settings, motion=options.motion.source)
 
-    _require_alone(options)
+
+def read_settings(path: Path) -> Settings:
+    """Returns the settings in a file.
+
+    Raises:
+        OptionError: if the file cannot be read or is wrong.
+    """
     try:
-        data = read_bytes(options.settings, _LIMITS)
+        data = read_bytes(path, _LIMITS)
     except AssetError as error:
         raise OptionError(f"`--settings` must be a JSON file: {error}") from None
-    return settings_from_bytes(data, options.settings)
-
-
-def _require_alone(options: argparse.Namespace) -> None:
-    """Raises OptionError if an option is given that the settings hold."""
-    parser = argparse.ArgumentParser()
-    add_addition_options(parser)
-    add_input_options(parser)
-    usual = {**vars(parser.parse_args([])), "motion": SourceOption(), "no_trim": False, "weights": None}
-    for name, value in usual.items():
-        if getattr(options, name) != value:
-            spelled = "--" + name.replace("_", "-")
-            raise OptionError(f"`--settings` and `{spelled}` exclude each other: leave one of them out")
+    return settings_from_bytes(data, path)

@@ -9,7 +9,7 @@ from grafu.realization.carcass.config import CarcassConfig
 from grafu.realization.drawer_box.config import DrawerBoxConfig
 from grafu.realization.grip.config import GripConfig, GripKind
 from grafu.realization.handle.config import HandleConfig
-from grafu.realization.interior.request import parse_interior
+from grafu.realization.interior.request import InteriorRequest, parse_interior
 from grafu.realization.top.config import TopConfig
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")
@@ -20,16 +20,18 @@ GRIPS = ("grip", "groove", "edge", "hole")
 def choose_additions(
     known_handles: Collection[str],
     *,
-    top: bool | str = True,
-    handles: bool | str = True,
-    drawer_boxes: bool = True,
-    interior: str = "predicted",
-    carcass: bool = False,
+    base: AdditionConfig | None = None,
+    top: bool | str | None = None,
+    handles: bool | str | None = None,
+    drawer_boxes: bool | None = None,
+    interior: str | None = None,
+    carcass: bool | None = None,
 ) -> AdditionConfig:
-    """Returns the configuration that the words state.
+    """Returns the configuration that the words state; None leaves a choice as it is in `base`.
 
     Args:
         known_handles: the ids of all handle templates.
+        base: what is changed; None: the defaults.
         top: whether tops are added, or their shape: one of `TOP_SHAPES`.
         handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`.
         drawer_boxes: whether a drawer that is only a front gets a box.
@@ -39,32 +41,47 @@ def choose_additions(
     Raises:
         OptionError: if there is no such shape, style or interior.
     """
-    config = AdditionConfig(
-        top=_top(top),
-        drawer_boxes=DrawerBoxConfig() if drawer_boxes else None,
-        carcass=CarcassConfig() if carcass else None,
-    )
+    config = base or AdditionConfig()
+    if top is not None:
+        config = replace(config, top=_top(top, config.top))
+    if drawer_boxes is not None:
+        config = replace(config, drawer_boxes=(config.drawer_boxes or DrawerBoxConfig()) if drawer_boxes else None)
+    if carcass is not None:
+        config = replace(config, carcass=(config.carcass or CarcassConfig()) if carcass else None)
+    if interior is not None:
+        config = replace(config, interior=_interior(interior))
+    return config if handles is None else _with_handles(config, handles, known_handles)
+
+
+def _interior(wanted: str) -> InteriorRequest:
     try:
-        config = replace(config, interior=parse_interior(interior))
+        return parse_interior(wanted)
     except ValueError as error:
         raise OptionError(str(error)) from None
-    return _with_handles(config, handles, known_handles)
 
 
-def _top(wanted: bool | str) -> TopConfig | None:
-    if isinstance(wanted, bool):
-        return TopConfig() if wanted else None
+def _top(wanted: bool | str, before: TopConfig | None) -> TopConfig | None:
+    if wanted is False:
+        return None
+    top = before or TopConfig()
+    if wanted is True:
+        return top
     if wanted not in TOP_SHAPES:
         raise OptionError(f"`top` must be one of {', '.join(TOP_SHAPES)}: got {wanted!r}")
-    return TopConfig(shape=wanted)  # type: ignore[arg-type]  # it is one of them
+    return replace(top, shape=wanted)  # type: ignore[arg-type]  # it is one of them
 
 
 def _with_handles(config: AdditionConfig, wanted: bool | str, known: Collection[str]) -> AdditionConfig:
-    if isinstance(wanted, bool):
-        return config if wanted else replace(config, handles=None, grips=None)
+    if wanted is False:
+        return replace(config, handles=None, grips=None)
+    if wanted is True:
+        usual = AdditionConfig()
+        has_any = config.handles is not None or config.grips is not None
+        return config if has_any else replace(config, handles=usual.handles, grips=usual.grips)
     if wanted in GRIPS:
         kind = GripConfig() if wanted == "grip" else GripConfig(GripKind(wanted))
         return replace(config, handles=None, grips=kind)
     if wanted not in known:
         raise OptionError(f"`handle` must be one of {', '.join((*known, *GRIPS))}: got {wanted!r}")
-    return replace(config, handles=HandleConfig(style=wanted))
+    handles, grips = config.handles or HandleConfig(), config.grips or GripConfig()
+    return replace(config, handles=replace(handles, style=wanted), grips=grips)

@@ -37,7 +37,7 @@ def run(source: Path, settings_file: Path, folder: Path, cache: Cache = NO_CACHE
     """
     settings = settings_from_bytes(read_own(settings_file, "settings of grafu"), settings_file)
     _say("load")
-    asset = load_asset(source, settings.reading.options)
+    asset = load_asset(source, settings.reading)
     asset = cache.value("asset", _itself, asset)  # the same object: what was worked out on its meshes stays
     result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say, cache)
     _say("write")

@@ -11,11 +11,12 @@ from typing import final
 from pydantic import ValidationError
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.asset.options import LoadOptions
 from grafu.asset.own_files import read_own
 from grafu.errors import UnreadableAsset
 from grafu.export.glb_object import read_glb_object
 from grafu.pipeline.report_schema import Report
-from grafu.pipeline.settings import InputSettings, Settings, settings_from_bytes
+from grafu.pipeline.settings import Settings, settings_from_bytes
 
 REPORT, MODEL, SETTINGS, SOURCE = "report.json", "model.glb", "settings.json", "source.glb"
 _NAMED = 4  # results of a folder that a refusal names
@@ -100,7 +101,7 @@ def _settings_of(folder: Path, report: Report) -> Settings:
     if stated := read_settings(folder):
         return stated
     frame, source = report.frame, report.motion.source
-    reading = InputSettings(up=frame.up, front=frame.front, scale=frame.scale)
+    reading = LoadOptions(up=frame.up, front=frame.front, scale=frame.scale)
     return Settings(reading=reading) if source.is_foreign else Settings(source, reading)
 
 

@@ -1,6 +1,7 @@
-"""All that somebody chose for one model, as one value and as JSON (`grafu.settings/1`) that gives the same again.
+"""All that is chosen for one model, as one value and as JSON (`grafu.settings/1`) that gives the same again.
 
-The command reads it (`--settings`), the Blender extension keeps it in its scene. It runs nothing.
+The command (`--settings`, its options), the Python functions and the Blender extension fill the same value. It runs
+nothing.
 """
 
 from collections.abc import Mapping
@@ -12,7 +13,7 @@ from typing import Any, final
 from pydantic import TypeAdapter, ValidationError
 
 from grafu.asset.json_files import parse_json
-from grafu.asset.options import Division, Labelling, LoadOptions
+from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, OptionError
 from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
 from grafu.pipeline.functionalize import PipelineConfig
@@ -29,28 +30,6 @@ SCHEMA = "grafu.settings/1"
 
 @final
 @dataclass(frozen=True)
-class InputSettings:
-    """How the input is read; see `LoadOptions`."""
-
-    up: str | None = None
-    front: str | None = None
-    scale: float | None = None
-    height: float | None = None
-    labels: Labelling = "input"
-    parts: Division = "input"
-
-    @property
-    def options(self) -> LoadOptions:
-        """The reader's options.
-
-        Raises:
-            AssetError: if a direction is not an axis or a size is not positive.
-        """
-        return LoadOptions(self.up, self.front, self.scale, self.height, self.labels, self.parts)
-
-
-@final
-@dataclass(frozen=True)
 class Settings:
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
@@ -60,7 +39,7 @@ class Settings:
     """
 
     motion: MotionSource = MotionSource.AUTO
-    reading: InputSettings = InputSettings()
+    reading: LoadOptions = LoadOptions()
     trim: bool = True
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)
@@ -150,7 +129,6 @@ def settings_from_json(data: object) -> Settings:
     try:
         settings = _adapter().validate_python(given)
         _require_known(given, _adapter().dump_python(settings, mode="json"))
-        _ = settings.reading.options
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"]) or "motion"
