@@ -48,7 +48,7 @@ def test_what_is_done_is_not_made_again(done: Job) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"trim": False}, "other options"),
+        ({"settings": Settings(trim=False)}, "other options"),
         ({"resume": False}, "--resume"),
     ],
 )

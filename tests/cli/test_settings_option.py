@@ -33,8 +33,8 @@ def test_options_win_over_the_settings_beside_them(tmp_path: Path) -> None:
         "joints": {"door": {"count": 3}},
     }
     (tmp_path / "settings.json").write_text(json.dumps(in_file))
-    given = [*["--motion", "rule", "--scale", "0.5", "--parts", "input", "--limit", "parts=900"]]
-    given += [*["--no-top", "--handle", "bar-round", "--no-trim"]]
+    given = ["--motion", "rule", "--scale", "0.5", "--parts", "input", "--limit", "parts=900"]
+    given += ["--no-top", "--handle", "bar-round", "--no-trim"]
     model = str(write_cabinet(tmp_path))
     args = ["functionalize", model, "--settings", str(tmp_path / "settings.json"), "--no-page", *given]
     assert main([*args, "--formats", "urdf", "--out", str(tmp_path / "out")]) == 0
