@@ -40,11 +40,15 @@ _LOOSE = "floating"  # the link moves, the file does not say how
 @final
 @dataclass(frozen=True)
 class UrdfBodies:
-    """The bodies of a URDF, its visuals link by link as the file has them, and notes on what was left out."""
+    """The bodies of a URDF, its visuals link by link as the file has them, and notes on what was left out.
+
+    `up` is the root link's Z in the coordinates of the visuals.
+    """
 
     bodies: tuple[Body, ...]
     visuals: tuple[Visual, ...]
     notes: tuple[str, ...]
+    up: tuple[float, float, float] = (0.0, 0.0, 1.0)
 
 
 @final
@@ -108,7 +112,8 @@ def read_bodies(path: Path, files: ModelFiles, mesh_frame: bool = False) -> Urdf
     if not in_order:
         missing = f" ({shapes.notes[0]})" if shapes.notes else ""
         raise UnreadableAsset(f"{path} has no visual shape that can be read{missing}: expected visuals with meshes")
-    return UrdfBodies(bodies, in_order, (*shapes.notes, *_kind_notes(tree)))
+    x, y, z = T_base_root[:3, 2].tolist()
+    return UrdfBodies(bodies, in_order, (*shapes.notes, *_kind_notes(tree)), (x, y, z))
 
 
 def _read_tree(path: Path, files: ModelFiles) -> _Tree:
