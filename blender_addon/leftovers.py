@@ -22,12 +22,12 @@ def hold(said) -> None:
 
 
 def clear() -> None:
-    """Removes the folders that nobody uses any more."""
+    """Removes the folders that are no longer used."""
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
         try:
             if time() - folder.stat().st_mtime > _YOUNG and not _is_held(folder):
                 shutil.rmtree(folder, ignore_errors=True)
-        except OSError:  # somebody else's, or gone meanwhile
+        except OSError:  # of another process, or gone meanwhile
             continue
 
 

@@ -12,7 +12,7 @@ class GRAFU_UL_joints(bpy.types.UIList):
     """One row per door and drawer."""
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
-        """Draws level, part (with a star where somebody chose something) and mechanism."""
+        """Draws level, part (with a star if the user chose something) and mechanism."""
         row = layout.split(factor=_NAMES, align=True)
         row.label(text=item.part + (" *" if item.changed else ""), icon=LEVEL_ICONS[item.level])
         row.label(text=item.mechanism or "no joint")

@@ -6,11 +6,11 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from .run_operators import Applies
 from .state import ID, session_of, settings_of
 
-TURNS, SLIDES, NOT = "turns", "slides", "not"
+TURNS, SLIDES, FIXED = "turns", "slides", "fixed"
 MOVES = [
     (TURNS, "Turns", "A door, flap or lid: it turns about the border that is chosen"),
     (SLIDES, "Slides", "A drawer, or a sliding door: it slides to the side that is chosen"),
-    (NOT, "Stands still", "It is no door and no drawer: it gets no joint"),
+    (FIXED, "Fixed", "It is no door and no drawer: it gets no joint"),
 ]
 USUAL = "usual"
 SIDES = [
@@ -63,7 +63,7 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
         layout.use_property_split = True
         layout.prop_search(self, "part", session_of(context), "parts")
         layout.prop(self, "moves")
-        if self.moves != NOT:
+        if self.moves != FIXED:
             layout.prop(self, "side", text="Border" if self.moves == TURNS else "To the")
         if self.moves == TURNS:
             layout.prop(self, "inwards")
@@ -79,7 +79,7 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
             raise ValueError("choose a part: select its object")
         if self.moves == TURNS and self.side == USUAL:
             raise ValueError(f"choose the border that `{self.part}` turns about")
-        side = None if self.side == USUAL or self.moves == NOT else Side(self.side)
+        side = None if self.side == USUAL or self.moves == FIXED else Side(self.side)
         choice = MotionChoice(Moves(self.moves), side, self.inwards and self.moves == TURNS)
         return settings.with_motion(self.part, choice)
 
@@ -88,11 +88,11 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
         from grafu.pipeline.triage import lost, not_built
 
         others = lost(before, after, besides=(self.part,))
-        return others if self.moves == NOT else (*others, *not_built(after, self.part))
+        return others if self.moves == FIXED else (*others, *not_built(after, self.part))
 
 
 class GRAFU_OT_reset_motion(Applies, bpy.types.Operator):
-    """Leaves it to the model, the network or the rule again how a part moves"""
+    """Uses the motion of the input, the network or the rule again"""
 
     bl_idname = "grafu.reset_motion"
     bl_label = "Motion as found"

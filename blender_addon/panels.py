@@ -26,7 +26,7 @@ class _ResultPanel(_Panel):
 
 
 class GRAFU_PT_main(_Panel, bpy.types.Panel):
-    """The first panel: run, stop, what came of it."""
+    """The first panel: run, stop, result."""
 
     bl_label = "GraFu"
 
@@ -70,7 +70,7 @@ class GRAFU_PT_joints(_ResultPanel, bpy.types.Panel):
     bl_label = "Joints"
 
     def draw_header_preset(self, context):
-        """Draws how many need somebody's eye."""
+        """Draws how many need attention."""
         levels = [row.level for row in session_of(context).joints]
         for level in ("warning", "error"):
             if level in levels:

@@ -82,7 +82,7 @@ def judge_path(path: Path, kinds: Sequence[str] = KINDS) -> Verdict:
 
 
 def judge_made(seed: int, number: int, kinds: Sequence[str] = KINDS) -> Verdict:
-    """Returns the figures of a made piece, with its true joints, and what somebody left out of it left out."""
+    """Returns the figures of a made piece, with its true joints, without the parts that were removed from it."""
     specimen = make_specimen(seed, number)
     whole = specimen.whole
     missing = set(specimen.missing)

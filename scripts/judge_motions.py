@@ -2,11 +2,11 @@
 
     python scripts/judge_motions.py MODELS [--rule] [--copies 4] [--jobs 2] [--json FILE]
 
-MODELS is a folder as `grafu evaluate --data` takes it. Of each model the network (with --rule the carpenters' rules) is
-asked about the parts alone (as the annotation groups them), no joints, in seven ways: as they are, without labels, and
-of copies that lack something. What is drawn is drawn --copies times. A motion is right by the definition of
-`grafu evaluate`: `aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two ways each part that
-is wrong.
+MODELS is a folder as `grafu evaluate --data` takes it. Of each model the network (with --rule the rule-based baseline)
+is asked about the parts alone (as the annotation groups them), no joints, in seven ways: as they are, without labels,
+and of copies that lack something. What is drawn is drawn --copies times. A motion is right by the definition of `grafu
+evaluate`: `aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two ways each part that is
+wrong.
 """
 
 import argparse
@@ -62,7 +62,7 @@ def main() -> int:
     """Judges, and prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", type=Path, help="a folder of annotated models")
-    parser.add_argument("--rule", action="store_true", help="judge the carpenters' rules instead")
+    parser.add_argument("--rule", action="store_true", help="judge the rule-based baseline instead")
     parser.add_argument("--copies", type=int, default=4, help="draws of what is drawn (default: 4; 0 leaves it out)")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--json", type=Path, help="also write the counts there")

@@ -56,7 +56,7 @@ def main() -> int:
     """Judges, and prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--weights", type=Path, default=SHIPPED_WEIGHTS)
-    parser.add_argument("--rule", action="store_true", help="judge the carpenters' rules instead")
+    parser.add_argument("--rule", action="store_true", help="judge the rule-based baseline instead")
     parser.add_argument("--count", type=int, default=200, help="models (default: 200)")
     parser.add_argument("--seed", type=int, default=TEST_SEED)
     parser.add_argument("--jobs", type=int, default=2)

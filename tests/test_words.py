@@ -18,6 +18,12 @@ RETIRED = {
     r"(?i)(?<![a-z])movers?(?![a-z])": "moving body",
     r"(?i)(?<![a-z])riders?(?![a-z])": "attached part",
     r"\bWay\b|\bscene\.ways\b|\bmotion_about\b|\bway_box\b": "joint motion, path",
+    r"\bMoves\.NOT\b|--move \S+=not\b": "fixed",
+    r"\bLack\b|\blacks_of\b": "missing panel",
+    r"(?i)unfurnished|\bFreedom\b|freedom_of": "before interiors, cut-outs",
+    r"(?i)how sure": "confidence",
+    r"\bsomebody\b": "the user",
+    r"\bcame of\b": "outcome",
 }
 # Names of files, keys and columns that others read stay as they are: (path, the text that may stand there).
 ALLOWED: frozenset[tuple[str, str]] = frozenset()

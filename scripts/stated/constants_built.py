@@ -42,7 +42,7 @@ def additions() -> Iterator[Sentence]:
     """Yields what docs/additions.md repeats."""
     page = "additions.md"
     yield page, "do not hide it (up to {} m)", (TOP.gallery,)
-    yield page, "a top that is let in (up to {} m)", (TOP.recess,)
+    yield page, "an inset top (up to {} m)", (TOP.recess,)
     yield page, "Openings under {} % of the footprint are sinks and gaps", (per_cent(coverage._LEAST),)
     yield page, "{} to {} m above the floor)", supports._HEIGHTS
     yield page, "they stand around {} % of the footprint", (per_cent(supports._FOOTPRINT),)

@@ -15,7 +15,7 @@ def run(folder: Path, *options: str) -> int:
 
 
 def test_parts_move_as_told_and_the_settings_say_so(tmp_path: Path) -> None:
-    assert run(tmp_path, "--move", "door=right", "--move", "drawer=not") == 0
+    assert run(tmp_path, "--move", "door=right", "--move", "drawer=fixed") == 0
     result = tmp_path / "out" / "cabinet"
     joints = {joint["part"]: joint for joint in json.loads((result / "report.json").read_text())["joints"]}
     settings = json.loads((result / "settings.json").read_text())
@@ -23,7 +23,15 @@ def test_parts_move_as_told_and_the_settings_say_so(tmp_path: Path) -> None:
     assert set(joints) == {"door"}
     assert joints["door"]["origin"][0] > 0.2
     assert settings["motions"]["door"]["side"] == "right"
-    assert settings["motions"]["drawer"]["moves"] == "not"
+    assert settings["motions"]["drawer"]["moves"] == "fixed"
+
+
+def test_the_old_word_for_fixed_is_refused_with_the_new_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        run(tmp_path, "--move", "drawer=not")
+
+    assert stopped.value.code == 2
+    assert "use --move drawer=fixed" in capsys.readouterr().err
 
 
 def test_it_goes_with_settings(tmp_path: Path) -> None:

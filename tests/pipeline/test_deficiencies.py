@@ -20,8 +20,8 @@ def made(handle: str = "bar-round") -> Asset:
 
 
 def kinds(asset: Asset) -> list[tuple[KIND, PartLabel]]:
-    lacks = find_deficiencies(asset, parse_graph(asset))
-    return [(lack.kind, asset.part(lack.part).label) for lack in lacks if lack.part]
+    missing = find_deficiencies(asset, parse_graph(asset))
+    return [(one.kind, asset.part(one.part).label) for one in missing if one.part]
 
 
 def test_hardware_is_missing_where_something_moves() -> None:
@@ -43,25 +43,25 @@ def test_handles_are_missing_where_none_rides() -> None:
 def test_labels_are_missing_once_masked_and_the_top_is_there_all_the_same() -> None:
     asset = made()
     masked = asset.with_labels({part.id: PartLabel.UNKNOWN for part in asset.parts})
-    lacks = find_deficiencies(masked, parse_graph(masked))
+    missing = find_deficiencies(masked, parse_graph(masked))
 
-    assert len([lack for lack in lacks if lack.kind is KIND.LABEL]) == len(asset.parts)
-    assert KIND.TOP not in {lack.kind for lack in lacks}
+    assert len([one for one in missing if one.kind is KIND.LABEL]) == len(asset.parts)
+    assert KIND.TOP not in {one.kind for one in missing}
 
 
 def test_a_top_is_missing_once_it_is_taken_away() -> None:
     asset = made()
     topless = replace(asset, parts=tuple(p for p in asset.parts if p.label is not PartLabel.TOP_PANEL))
-    lacks = find_deficiencies(topless, parse_graph(topless))
+    missing = find_deficiencies(topless, parse_graph(topless))
 
-    assert [lack.part for lack in lacks if lack.kind is KIND.TOP] == [""]
+    assert [one.part for one in missing if one.kind is KIND.TOP] == [""]
 
 
 def found_by_a_run(asset: Asset) -> dict[KIND, list[str]]:
     made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
-    findings = Findings(made.body.top, made.body.carcass.lacks, made.body.drawers.verdicts, made.fittings.grasps)
-    lacks = find_deficiencies(asset, made.completion.completed, findings)
-    return {kind: [lack.part for lack in lacks if lack.kind is kind] for kind in KIND}
+    findings = Findings(made.body.top, made.body.carcass.missing, made.body.drawers.verdicts, made.fittings.grasps)
+    missing = find_deficiencies(asset, made.completion.completed, findings)
+    return {kind: [one.part for one in missing if one.kind is kind] for kind in KIND}
 
 
 def test_a_run_says_what_geometry_lacks() -> None:

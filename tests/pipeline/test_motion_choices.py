@@ -29,6 +29,7 @@ from grafu.realization.motion_choice import (
     Moves,
     Side,
     axis_of_motion,
+    choice_in_words,
     motion_as_choice,
 )
 from grafu.realization.plan import JointChoice
@@ -160,11 +161,19 @@ def test_a_motion_that_cannot_be_is_refused_in_one_line(asset, part, choice, lab
 
 
 @pytest.mark.parametrize(
-    "given_values", [{"moves": "turns"}, {"moves": "not", "side": "left"}, {"moves": "slides", "inwards": True}]
+    "given_values", [{"moves": "turns"}, {"moves": "fixed", "side": "left"}, {"moves": "slides", "inwards": True}]
 )
 def test_a_motion_that_contradicts_itself_is_no_setting(given_values):
     with pytest.raises(OptionError, match=r"`motions\.door` is wrong"):
         settings_from_json({"schema": "grafu.settings/1", "motions": {"door": given_values}})
+
+
+def test_settings_of_earlier_versions_may_spell_fixed_in_the_old_way():
+    old = settings_from_json({"schema": "grafu.settings/1", "motions": {"door": {"moves": "not"}}})
+
+    assert old.motions["door"] == STANDS_STILL
+    with pytest.raises(OptionError, match="use fixed"):
+        choice_in_words("not")
 
 
 def test_a_choice_of_none_is_forgotten():

@@ -54,7 +54,7 @@ def test_the_new_top_stands_for_the_old_one_everywhere(source):
     assert old.id not in names | nodes
     assert {p.id: p.link for p in report.parts}[old.id] == ""
     assert [a.why for a in report.added if a.part == new] == ["it was chosen"]
-    assert not [lack for lack in report.deficiencies if lack.kind == "top panel"]
+    assert not [missing for missing in report.deficiencies if missing.kind == "top panel"]
     assert [j.part for j in report.joints] == [j.part for j in report_of(plain).joints]
     assert all(joint.collision_share == 0 for joint in report.joints)
 

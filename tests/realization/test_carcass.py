@@ -12,7 +12,7 @@ from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.realization.carcass.complete import complete_carcass
-from grafu.realization.carcass.lacks import carcass_lacks
+from grafu.realization.carcass.missing_panels import missing_panels
 from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.realize import realize
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -40,8 +40,8 @@ def without(asset: Asset, label: PartLabel) -> Asset:
     return replace(asset, parts=tuple(p for p in asset.parts if p.label is not label))
 
 
-def lacks(asset: Asset) -> list[PartLabel]:
-    return [lack.what for lack in carcass_lacks(asset.parts, plan_from_annotation(asset))]
+def missing(asset: Asset) -> list[PartLabel]:
+    return [panel.what for panel in missing_panels(asset.parts, plan_from_annotation(asset))]
 
 
 def closed(asset: Asset):
@@ -51,7 +51,7 @@ def closed(asset: Asset):
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("mount", ["overlay", "inset"])
 def test_a_whole_cabinet_lacks_nothing(layout, mount):
-    assert lacks(cabinet(layout, mount)) == []
+    assert missing(cabinet(layout, mount)) == []
 
 
 @pytest.mark.parametrize("label", [PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL])
@@ -60,7 +60,7 @@ def test_a_whole_cabinet_lacks_nothing(layout, mount):
 def test_what_is_taken_away_is_missed_and_closed_again(label, layout, mount):
     asset = without(cabinet(layout, mount), label)
     made = closed(asset)
-    assert {lack.what for lack in made.lacks} == {label}
+    assert {panel.what for panel in made.missing} == {label}
     assert {a.part.label for a in made.additions} == {label}
     assert made.refused == ()
     for addition in made.additions:
@@ -71,7 +71,7 @@ def test_what_is_taken_away_is_missed_and_closed_again(label, layout, mount):
         still = [p for p in asset.parts if not p.label.is_movable and p.rides_on is None]
         assert min(MeshCollider(board).distance(MeshCollider(p.mesh)) for p in still) < 1e-3
     whole = replace(asset, parts=(*asset.parts, *(a.part for a in made.additions)))
-    assert lacks(whole) == []
+    assert missing(whole) == []
 
 
 @pytest.mark.parametrize("label", [PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL])
@@ -90,7 +90,7 @@ def test_a_closed_carcass_opens_as_far_as_before(label, layout):
 
 def test_one_back_closes_adjoining_bays():
     made = closed(without(cabinet("doors on a divider"), PartLabel.BACK_PANEL))
-    assert len(made.lacks) == 2
+    assert len(made.missing) == 2
     assert len(made.additions) == 1
     assert made.additions[0].part.box.size[0] > 0.7
 
@@ -98,13 +98,13 @@ def test_one_back_closes_adjoining_bays():
 def test_labels_are_not_needed():
     asset = without(cabinet("pair"), PartLabel.BACK_PANEL)
     nameless = asset.with_labels({p.id: PartLabel.UNKNOWN for p in asset.parts})
-    assert lacks(nameless) == [PartLabel.BACK_PANEL]
+    assert missing(nameless) == [PartLabel.BACK_PANEL]
 
 
 @pytest.mark.parametrize("turn", [30.0, 90.0, 180.0])
 def test_turned_cabinets_are_judged_alike(turn):
     whole = yawed(cabinet("pair"), radians(turn))
-    assert lacks(whole) == []
+    assert missing(whole) == []
     made = closed(without(whole, PartLabel.BACK_PANEL))
     assert [a.part.label for a in made.additions] == [PartLabel.BACK_PANEL]
 
@@ -122,20 +122,20 @@ def test_any_scale_is_judged_alike(factor):
 
 @pytest.mark.parametrize("options", [{}, {"has_aprons": False}, {"two_sided": True}])
 def test_tables_have_no_carcass(options):
-    assert lacks(make_table(Table(**options))) == []
+    assert missing(make_table(Table(**options))) == []
 
 
 def test_open_shelves_and_racks_have_no_carcass():
     boards = [box("left", (-0.4, -0.15, 0.0), (-0.38, 0.15, 1.2)), box("right", (0.38, -0.15, 0.0), (0.4, 0.15, 1.2))]
     boards += [box(f"board_{k}", (-0.38, -0.15, 0.4 * k), (0.38, 0.15, 0.4 * k + 0.02)) for k in range(3)]
-    assert lacks(scene(*boards)) == []
+    assert missing(scene(*boards)) == []
 
 
 def test_a_door_on_a_frame_without_depth_has_no_carcass():
     post = box("post", (-0.06, -0.02, 0.0), (0.0, 0.02, 0.6))
     other = box("other", (0.4, -0.02, 0.0), (0.46, 0.02, 0.6))
     door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
-    assert lacks(scene(post, other, door, joints=(hinged(),))) == []
+    assert missing(scene(post, other, door, joints=(hinged(),))) == []
 
 
 def test_a_back_door_closes_the_back():
@@ -144,8 +144,8 @@ def test_a_back_door_closes_the_back():
     front = box("drawer_front", (-0.4, -0.22, 0.0), (0.4, -0.2, 0.6))
     rear = box("drawer_rear", (-0.4, 0.2, 0.0), (0.4, 0.22, 0.6))
     joints = (sliding("drawer_front", (0.0, -1.0, 0.0)), sliding("drawer_rear", (0.0, 1.0, 0.0)))
-    assert lacks(scene(*walls, front, rear, joints=joints)) == []
-    assert lacks(scene(*walls, front, joints=joints[:1])) == [PartLabel.BACK_PANEL]
+    assert missing(scene(*walls, front, rear, joints=joints)) == []
+    assert missing(scene(*walls, front, joints=joints[:1])) == [PartLabel.BACK_PANEL]
 
 
 def test_low_drawers_leave_no_room_for_a_bottom():
@@ -153,15 +153,15 @@ def test_low_drawers_leave_no_room_for_a_bottom():
     walls.append(box("back", (-0.38, 0.18, 0.0), (0.38, 0.2, 0.4)))
     drawer = box("drawer", (-0.37, -0.2, 0.0), (0.37, 0.17, 0.38))
     made = closed(scene(*walls, drawer, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)))
-    assert [lack.what for lack in made.lacks] == [PartLabel.BOTTOM_PANEL]
+    assert [panel.what for panel in made.missing] == [PartLabel.BOTTOM_PANEL]
     assert made.additions == ()
     assert made.refused[0].why.startswith("no bottom panel: no board fits")
 
 
 @pytest.mark.parametrize("kind", ["no top", "chest with a lid", "corner door at 45 degrees", "desk with a pedestal"])
 def test_other_furniture_that_is_whole_lacks_nothing(kind):
-    assert lacks(made_kind(kind)) == []
+    assert missing(made_kind(kind)) == []
 
 
 def test_a_model_without_fronts_lacks_nothing():
-    assert lacks(scene(box("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))) == []
+    assert missing(scene(box("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))) == []

@@ -71,7 +71,7 @@ def test_all_places_show_one_colour_and_the_same_line(made, fault, capsys, tmp_p
 
 def test_a_front_that_stands_still_has_the_line_that_moves_it_on_the_page_and_in_the_terminal(made, capsys, tmp_path):
     part = made.report.joints[0].part
-    changes = {**silent(made), "moves": {part: (f"--move {part}=left", f"--move {part}=not")}}
+    changes = {**silent(made), "moves": {part: (f"--move {part}=left", f"--move {part}=fixed")}}
     read = page_with(made, **changes)
     report = made.report.model_copy(update=changes)
     print_results([Succeeded(Job(Path("made.glb"), "made", JobOptions(tmp_path)), report, 1.0)])

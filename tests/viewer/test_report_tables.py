@@ -20,7 +20,7 @@ def said_of(made, part):
 def test_every_joint_has_its_lines_and_the_command_takes_them(made):
     assert {joint.part for joint in made.report.joints} == set(made.report.moves)
     for joint in made.report.joints:
-        assert said_of(made, joint.part)[-1] == (joint.part, "not")
+        assert said_of(made, joint.part)[-1] == (joint.part, "fixed")
 
 
 def test_a_door_turns_about_the_other_side_instead(made):
@@ -34,10 +34,10 @@ def test_a_door_turns_about_the_other_side_instead(made):
 @pytest.mark.parametrize(
     ("motion", "ways"),
     [
-        (MotionChoice(Moves.TURNS, Side.TOP), ["bottom", "not"]),
-        (MotionChoice(Moves.TURNS, Side.BACK), ["not"]),  # no way that `--move` knows
-        (MotionChoice(Moves.SLIDES, Side.LEFT), ["not"]),
-        (None, ["not"]),
+        (MotionChoice(Moves.TURNS, Side.TOP), ["bottom", "fixed"]),
+        (MotionChoice(Moves.TURNS, Side.BACK), ["fixed"]),  # no motion that `--move` knows
+        (MotionChoice(Moves.SLIDES, Side.LEFT), ["fixed"]),
+        (None, ["fixed"]),
     ],
 )
 def test_the_way_follows_the_motion(made, monkeypatch, motion, ways):

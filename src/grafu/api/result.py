@@ -232,7 +232,8 @@ class Result:
         """Returns the result without these added parts.
 
         Raises:
-            OptionError: if one of them was not added; a part of the input stands still with `with_motion(part, "not")`.
+            OptionError: if one of them was not added; a part of the input gets no joint with `with_motion(part,
+            "fixed")`.
         """
         settings, known = self.settings, {record.part: record for record in self.added}
         for part in parts:

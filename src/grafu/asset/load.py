@@ -1,7 +1,7 @@
 """`load_asset`: from a path to an asset in the object frame. It knows which reader reads what, and no format.
 
-What the input is, is told by its content: PartNet-Mobility's files, a GLB with annotated parts beside it, a `<robot>`
-element, glTF's JSON or magic bytes.
+The kind of an input is detected from its content: PartNet-Mobility's files, a GLB with annotated parts beside it, a
+`<robot>` element, glTF's JSON or magic bytes.
 """
 
 from collections.abc import Callable

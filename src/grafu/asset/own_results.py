@@ -1,4 +1,4 @@
-"""How a folder that grafu wrote is told from an input: by the marker in it. It reads no input."""
+"""How a folder that grafu wrote is distinguished from an input: by the marker in it. It reads no input."""
 
 from pathlib import Path
 from typing import Final

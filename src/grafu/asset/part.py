@@ -197,7 +197,7 @@ class Asset:
         """Returns the same parts without the joints and attachments of the input, and without labels from joints alone.
 
         Of an asset as a file is read, these are the parts of the same file without joints. Of one `as_annotated`, that
-        some pieces are one part is kept: a method that is given them is told what hangs together, not how it moves.
+        some pieces are one part is kept: a method that is given them knows what belongs together, not how it moves.
         """
         bare = tuple(_without_annotation(part) for part in self.parts)
         return replace(self, parts=bare, joints=(), annotation=None)

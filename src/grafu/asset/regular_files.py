@@ -41,7 +41,8 @@ def read_regular(path: Path, most: int, root: Path | None = None) -> bytes:
     """Returns the content of a regular file of at most `most` bytes.
 
     Args:
-        path: the file. With a `root` it must be a real path, without links, and the root one, too: a link that somebody
+        path: the file. With a `root` it must be a real path, without links, and the root one, too: a link that another
+        user
             puts there meanwhile is not followed. Without, links are followed.
         most: the largest number of bytes.
         root: a folder above it.

@@ -16,7 +16,7 @@ DIR/table.csv, anew after each that is finished. Stopped or killed, the same com
 trained again, so that another seed may be asked for later.
 
 losses: the paper's six hold-outs of loss terms; then the choices in which paper, authors' code and `base` differ
-folds:  0, 5, 10, 17, 20 corrupted copies of each of 200 made models, and copies without end
+folds:  0, 5, 10, 17, 20 corrupted copies of each of 200 made models, and new copies every time
 
 The default, config `small` for 2000 steps, takes about an hour on two cores for `losses`, and shows which way things
 go; for the last figure train longer: --config base --steps 20000.

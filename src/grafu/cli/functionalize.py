@@ -29,7 +29,7 @@ examples:
   grafu functionalize cabinet.glb --out results
   grafu functionalize models/* --motion annotation --jobs 4 --out results
   grafu functionalize models/* --out results --resume
-  grafu functionalize cabinet.glb --move door_2=right --move board_7=not --out results --overwrite
+  grafu functionalize cabinet.glb --move door_2=right --move board_7=fixed --out results --overwrite
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
   grafu functionalize cabinet.obj --motion particulate:eval/pred.npz --out results
   grafu functionalize cabinet.glb --handle knob-round --interior shelves=2 --out results

@@ -104,24 +104,24 @@ class Failed:
 JobResult = Succeeded | Failed
 
 
-def _tell_nobody(_: object) -> None:
+def _ignore(_: object) -> None:
     """Hears of a stage or an object and does nothing."""
 
 
 @final
 @dataclass(frozen=True)
 class Listener:
-    """Who is told each stage as it begins, and what was made, before it is written."""
+    """What is called with each stage as it begins, and with the result before it is written."""
 
-    on_stage: Callable[[str], None] = _tell_nobody
-    on_object: "Callable[[ArticulatedObject], None]" = _tell_nobody
+    on_stage: Callable[[str], None] = _ignore
+    on_object: "Callable[[ArticulatedObject], None]" = _ignore
 
 
 NOBODY = Listener()
 
 
 def run_job(job: Job, listener: Listener = NOBODY) -> JobResult:
-    """Returns what came of a job; a failure is a value, but for an interruption."""
+    """Returns the outcome of a job; a failure is a value, except for an interruption."""
     try:
         resumed = _resumed(job) if job.options.resume else job
         if isinstance(resumed, Succeeded):

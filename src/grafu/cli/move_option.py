@@ -1,4 +1,4 @@
-"""The option `--move`: how single parts move, instead of what the motion source says. It moves nothing itself."""
+"""The option `--move`: how single parts move, instead of what the motion source states. It moves nothing itself."""
 
 import argparse
 from typing import TYPE_CHECKING
@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
 
 SIDES = ("left", "right", "top", "bottom")
-WAYS = (*SIDES, "slides", "not")
+MOTIONS = (*SIDES, "slides", "fixed")
+OLD_FIXED = "not"  # the word of earlier versions for `fixed`
 Move = tuple[str, str]
 
 
@@ -20,10 +21,12 @@ def part_move(text: str) -> Move:
     Raises:
         argparse.ArgumentTypeError: if it is not of that form.
     """
-    part, _, way = text.rpartition("=")
-    if not part or way not in WAYS:
-        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(WAYS)}: got {text!r}")
-    return part, way
+    part, _, motion = text.rpartition("=")
+    if part and motion == OLD_FIXED:
+        raise argparse.ArgumentTypeError(f"`not` is called `fixed` now: use --move {part}=fixed")
+    if not part or motion not in MOTIONS:
+        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTIONS)}: got {text!r}")
+    return part, motion
 
 
 def with_moves(

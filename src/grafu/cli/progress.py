@@ -69,7 +69,7 @@ def with_progress(
 
 @contextmanager
 def with_stages(name: str) -> Iterator[Callable[[str], None]]:
-    """Gives a function that is told each stage as it begins, and shows it beside the name and the time gone."""
+    """Gives a function that takes each stage as it begins, and shows it beside the name and the elapsed time."""
     columns = (
         SpinnerColumn(),
         TextColumn("{task.fields[name]}: {task.description}", markup=False),

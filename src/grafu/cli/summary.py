@@ -134,7 +134,7 @@ def _total(results: Sequence[JobResult]) -> str:
 
 
 def _stated(results: Sequence[JobResult]) -> list[str]:
-    """Returns in words how many inputs state joints that nobody read, if any do."""
+    """Returns in words how many inputs state joints that were not read, if any do."""
     unused = [result.report.motion.unused_joints for result in results if isinstance(result, Succeeded)]
     inputs, joints = sum(count > 0 for count in unused), sum(unused)
     states = "states" if inputs == 1 else "state"

@@ -1,4 +1,4 @@
-"""The verb `synth`: makes furniture without end, as a data set, as pictures to look at, or as numbers to compare."""
+"""The verb `synth`: makes synthetic furniture with ground truth: a data set, pictures, or statistics."""
 
 import argparse
 import os

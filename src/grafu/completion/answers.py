@@ -17,7 +17,7 @@ from grafu.graph.functional_graph import PartNode
 from grafu.vocabulary import PartLabel
 
 MotionAnswer = tuple[tuple[Edge, ...], tuple[Decision, ...]] | RefusedMotion
-"""The edges that a part moves by, with how sure each choice is; or why there are none."""
+"""The edges of a moving part with the confidence of each choice; or why there are none."""
 
 _DECIDING = 0.9  # of the time that is left: with so many doors, some decided are worth more than none
 _TIME_IS_UP = "with so many doors and drawers there was no time left to decide how it moves"

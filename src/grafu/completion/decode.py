@@ -1,6 +1,6 @@
 """Decodes probabilities into a completed graph: exclusive, consistent, and with an answer for every part.
 
-The order is that of a carpenter: whose handle is whose, then how doors and drawers move. What each part is, is settled
+Handles are assigned first, then the motions of doors and drawers. What each part is, is settled
 before. Edges that the input states are kept as they are.
 """
 

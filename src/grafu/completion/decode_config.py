@@ -45,18 +45,18 @@ class DecodeConfig:
 
     least_edge: float = 0.02
     """Below this probability of every hinge (or rail), nothing that the network sees carries a part: it moves as a
-    carpenter finds, or is refused with the reason."""
+    rule finds, or is refused with the reason."""
 
     sure: float = 0.5
-    """Below this probability of every hinge a carpenter says how a door hangs: with sides missing from real cabinets
-    the network was right about 2 of 22 such doors, the carpenter about all. On whole furniture it is above 0.9."""
+    """Below this probability of every hinge the rule decides how a door hangs: with sides missing from real cabinets
+    the network was right about 2 of 22 such doors, the rule about all. On whole furniture it is above 0.9."""
 
     second_rail: float = 0.3
     """The rail on a drawer's other flank is taken from this probability on."""
 
     outward: float = 0.5
     """Power of a rule's view of where a door's front is, and a drawer's way out, in the choice of which way they open;
-    the scores that are told stay the network's. 0 leaves it out."""
+    the reported scores stay the network's. 0 leaves it out."""
 
     edge_for_label: float = 0.2
     """What remains of the probability that an unlabelled part is a door, drawer or handle if no part can carry it."""

@@ -1,4 +1,4 @@
-"""How a door hangs: its front, the border of its hinge, and the part that carries it (carpenters' rules on boxes).
+"""How a door hangs: its front, the border of its hinge, and its mount (the rule-based baseline, on boxes).
 
 The handle decides where it sits clearly off-centre: the hinge is opposite. Else doors of a pair hang on their outer
 sides, a wide flap on its top or bottom, a lid on its back, a single door on the side nearer to the body's end. Every
@@ -37,7 +37,7 @@ _EDGE, _UPRIGHT = 0.5, 0.7
 
 
 def hang_door(door: PartNode, scene: RuleScene) -> MotionAnswer:
-    """Returns the hinge of a door with how sure each choice is, or why it gets none."""
+    """Returns the hinge of a door with the confidence of each choice, or why it gets none."""
     if not scene.supports:
         return RefusedMotion(door.id, "there is no static part to hang it on: label the parts that stand still")
     thin = door.box.thin_axis

@@ -1,4 +1,4 @@
-"""How a drawer runs: the way it opens and the parts that its rails are on (carpenters' rules on boxes).
+"""How a drawer runs: the direction it opens in and the parts that its rails are on (the rule-based baseline, on boxes).
 
 A drawer opens towards its handle, away from what stands in its way, towards the nearer outer face of the body. It runs
 between two flanks where there are two, else on whatever is near.
@@ -15,17 +15,17 @@ from grafu.graph.edges import Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import code_to_direction, opposite, signed_axis
 
-_WAYS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
+_DIRECTIONS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
 _NEAR = 0.03  # shares of the object
 _REACH = 0.15
 _LEAST_FLANK = 0.05
 
 
 def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
-    """Returns the rails of a drawer with how sure each choice is, or why it gets none."""
+    """Returns the rails of a drawer with the confidence of each choice, or why it gets none."""
     if not scene.supports:
         return RefusedMotion(drawer.id, "there is no static part to run it on: label the parts that stand still")
-    way = vote_way(drawer, scene)
+    way = vote_direction(drawer, scene)
     mounts = _flanks(drawer, way.choice, scene) or _nearest(drawer, scene)
     if not mounts:
         return RefusedMotion(drawer.id, "no static part is near enough to carry a rail")
@@ -34,15 +34,15 @@ def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
     return rails, (decision_of(drawer.id, "slide", way), *decisions)
 
 
-def vote_way(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
+def vote_direction(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     """Returns the signed axis along which the drawer opens."""
-    votes: Votes[SignedAxis] = Votes(_WAYS)
+    votes: Votes[SignedAxis] = Votes(_DIRECTIONS)
     votes.add(2, 0.6)
     for handle in scene.handles_of(drawer):
-        for way in _WAYS:
+        for way in _DIRECTIONS:
             votes.add(way, 5.0 * _sits_on(handle.box, drawer.box, way))
     blocked = _blocked_shares(drawer, scene)
-    for way in _WAYS:
+    for way in _DIRECTIONS:
         inside = max(_depth_inside(drawer.box, scene.body, way) / scene.unit, 0.0)
         votes.add(way, 1.5 * float(np.exp(-inside / 0.05)))
         votes.add(way, -4.0 * blocked[way])
@@ -72,7 +72,7 @@ def _blocked_shares(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, floa
     shares = scene.blocker_boxes.overlap_shares(drawer.box)
     places = scene.blocker_boxes.offset_shares(drawer.box)
     found: dict[SignedAxis, float] = {}
-    for way in _WAYS:
+    for way in _DIRECTIONS:
         place = places[:, way // 2] * code_to_direction(way)[way // 2]
         weight = np.where(place > 1.0, 1.0, np.where(place > 0.8, 0.5, 0.0))
         section = np.delete(shares, way // 2, axis=1).prod(axis=1)

@@ -22,7 +22,7 @@ _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, o
 @final
 @dataclass(frozen=True)
 class Attachments:
-    """The graph with its handles attached, how sure each is, and the handles that sit on nothing that moves."""
+    """The graph with its handles attached, their confidences, and the handles that sit on nothing that moves."""
 
     graph: FunctionalGraph
     decisions: tuple[Decision, ...]

@@ -21,7 +21,7 @@ _CARRIED_BY = {DOOR: HINGE, DRAWER: RAIL, HANDLE: ATTACHED}
 def choose_labels(
     graph: FunctionalGraph, probabilities: Probabilities, config: DecodeConfig
 ) -> tuple[dict[str, PartLabel], tuple[Decision, ...]]:
-    """Returns a label, never `unknown`, for each unlabelled part, and how sure it is.
+    """Returns a label, never `unknown`, for each unlabelled part, and its confidence.
 
     An edge that the input states at the part allows only the labels that it can join.
     """

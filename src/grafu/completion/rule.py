@@ -1,4 +1,4 @@
-"""Completes a graph by the carpenter's rules: the baseline, and the fallback, of the learned completion.
+"""Completes a graph by rules of geometry: the baseline and the fallback of the network.
 
 It looks at labels, boxes and contacts. Every door leaves with a hinge or a refusal, every drawer with its rails, every
 handle with its door or drawer. Edges that the input states already are kept as they are.
@@ -19,7 +19,7 @@ def complete_by_rule(graph: FunctionalGraph) -> GraphCompletion:
     """Returns the graph with a motion, or a stated reason against it, for every door and drawer.
 
     Parts without a label become doors, drawers or handles where their shape and place say so clearly. Scores are
-    shares of votes in 0..1: they rank decisions, they are no probabilities.
+    fractions of votes in 0..1: they rank decisions and are no probabilities.
     """
     labels, label_decisions = guess_labels(graph)
     attached = attach_handles(relabelled(graph, labels))

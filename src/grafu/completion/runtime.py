@@ -8,7 +8,7 @@ from grafu.processes.privacy import keep_private
 def onnx_runtime() -> ModuleType:
     """Returns the module `onnxruntime`, which sends nothing and writes nothing of its own.
 
-    Where somebody else had imported it before, its events are off from now on.
+    If it was imported before, its events are off from now on.
     """
     keep_private()
     import onnxruntime

@@ -55,10 +55,10 @@ def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
 
 
 def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
-    """Returns the hinge of a door with how sure each choice is, or why it gets none.
+    """Returns the hinge of a door with the confidence of each choice, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
-    missing it never saw any, and a carpenter hangs them on what there is. Where it is of two minds, the door opens
+    missing it never saw any, and the rule hangs them on what there is. Where it is of two minds, the door opens
     outwards. `scene` is the same graph with its handles attached: where they sit says which face is the front.
     """
     if not len(view.supports):
@@ -115,7 +115,7 @@ def _by(ranking: Ranking[Any]) -> str:
 
 
 def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
-    """Returns a carpenter's answer without what hangs on parts that the input lacks; None where nothing is left."""
+    """Returns the rule's answer without what hangs on parts that the input lacks; None where nothing is left."""
     if isinstance(answer, RefusedMotion):
         return None
     edges, decisions = answer
@@ -125,7 +125,7 @@ def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
 
 
 def _plain_flap(door: PartNode, said: HingeBorder, scene: RuleScene) -> Ranking[HingeBorder] | None:
-    """Returns the carpenter's border of a door that is plainly a flap where the network says another one, else None."""
+    """Returns the rule's border of a door that is plainly a flap where the network says another one, else None."""
     flap = plain_flap(door, scene)
     if flap is None or flap == said:
         return None
@@ -134,7 +134,7 @@ def _plain_flap(door: PartNode, said: HingeBorder, scene: RuleScene) -> Ranking[
 
 
 def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: RuleScene) -> Ranking[str] | None:
-    """Returns what a carpenter hangs a plain flap on; None where that is nothing that the input has."""
+    """Returns what the rule hangs a plain flap on; None where that is nothing that the input has."""
     mount = vote_mount(door, flap, scene)
     return mount if mount is not None and mount.choice in view.given else None
 

@@ -1,13 +1,13 @@
-"""Which way a door or drawer opens, where the network leaves it open: a rule of geometry leans the choice.
+"""The direction in which a door or drawer opens: a rule of geometry weighs the network's choice.
 
 A door rather opens towards the face that looks away from the body, a drawer to where nothing stands. The rule's view
-weighs what is chosen, never the probabilities that are told: these are the network's own.
+weighs what is chosen, never the reported probabilities: these are the network's own.
 """
 
 import numpy as np
 
 from grafu.completion.doors import vote_front
-from grafu.completion.drawers import vote_way
+from grafu.completion.drawers import vote_direction
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.votes import Ranking
 from grafu.geometry.arrays import Scalars
@@ -26,7 +26,7 @@ def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleS
 
 def leaned_way(drawer: PartNode, shares: Scalars, power: float, scene: RuleScene) -> Scalars:
     """Returns what the network says of the signed axes along which a drawer opens (6), weighed by the way out."""
-    return shares * _opinion(vote_way(drawer, scene), power)
+    return shares * _opinion(vote_direction(drawer, scene), power)
 
 
 def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:

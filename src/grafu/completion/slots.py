@@ -71,7 +71,7 @@ def with_parts(graph: FunctionalGraph, parts: tuple[NewPart, ...]) -> Functional
 
 
 def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | None:
-    """Returns the part that a slot stands for, or None where its label may not be added or it is nobody's handle."""
+    """Returns the part of a slot; None if its label may not be added, or if it is a handle without a parent."""
     probabilities = view.probabilities
     shares = probabilities.label[slot, _ADDABLE]
     if shares.sum() < view.config.addable:

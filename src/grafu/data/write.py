@@ -53,7 +53,7 @@ def write_furfun_models(plan: DatasetPlan, folder: Path, jobs: int = 1, check: b
         if start < plan.count:
             for name in SPLIT_NAMES:
                 (folder / SPLITS / f"{name}.json").unlink(missing_ok=True)
-            with suppress(OSError):  # somebody put something in
+            with suppress(OSError):  # it is not empty
                 (folder / SPLITS).rmdir()
         with closing(ordered_map(made, start, plan.count, jobs)) as models:
             for summary, files in models:

@@ -171,7 +171,7 @@ def _write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
             path.unlink()
         for name in (UNFUNCTIONAL, FUNCTIONAL, GEOMETRY, SPLITS):
             for empty in (*(folder / name).glob("*/"), folder / name):
-                with suppress(OSError):  # somebody put something in, or it is not there
+                with suppress(OSError):  # it is not empty, or not there
                     empty.rmdir()
     except OSError as error:
         raise ExportError(f"cannot write the output `{folder}`: {error.strerror}") from error

@@ -2,7 +2,7 @@
 
     {"schema": "grafu.output/1", "files": [NAME, ...], "formats": {FORMAT: [NAME, ...]}}
 
-Names are relative, with `/`, sorted. A folder without a marker is somebody else's; so is, in a folder with one, every
+Names are relative, with `/`, sorted. A folder without a marker is not grafu's; nor is, in a folder with one, every
 file that the marker does not list.
 """
 
@@ -66,7 +66,7 @@ def read_marker(folder: Path) -> Marker | None:
     except AssetError:
         stated = None
     if not _is_marker(stated):
-        raise ExportError(f"`{path}` is damaged, so nobody knows which files are grafu's: move `{folder}` away")
+        raise ExportError(f"`{path}` is damaged, so it is unknown which files are grafu's: move `{folder}` away")
     return Marker(tuple(stated["files"]), {name: tuple(names) for name, names in stated["formats"].items()})
 
 

@@ -1,4 +1,4 @@
-"""Single files that nobody ever sees half of: each is written beside its place and put there by one rename.
+"""Single files, never half-written: each is written beside its place and put there by one rename.
 
 Until then it has a hidden name, which says which process of which machine makes it: what is left when a process dies is
 found by it, and what others are still making is never touched.
@@ -64,7 +64,7 @@ def _is_alive(process: int) -> bool:
         os.kill(process, 0)
     except (ProcessLookupError, OverflowError):
         return False
-    except OSError:  # it is somebody else's
+    except OSError:  # it belongs to another user
         return True
     return True
 

@@ -117,7 +117,7 @@ def fits(count: int, size: int) -> bool:
 def within(part: float, work: Callable[[], T], instead: Callable[[str], T]) -> T:
     """Returns what `work` makes within this part (0..1) of the time that is left, else what is made `instead`.
 
-    `instead` is told why, in words. It runs under the budget that was in force before, which may be spent, too.
+    `instead` is given the reason, in words. It runs under the budget that was in force before, which may be spent, too.
     """
     try:
         with _present.get().share(part).in_force():

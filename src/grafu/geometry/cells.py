@@ -1,7 +1,7 @@
 """Where triangles lie in a box, cell by cell: they are split until none is larger than a cell. It knows no parts.
 
-What is left of a triangle is told by the box around each of its pieces. They cover it wholly, so what no piece reaches
-is free; a slanted triangle counts as a little more than it is, one that lies across an axis exactly.
+What is left of a triangle is represented by the box around each of its pieces. They cover it wholly, so what no piece
+reaches is free; a slanted triangle counts as a little more than it is, one that lies across an axis exactly.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a completion returns: the graph before and after, how sure each decision is, and what was refused."""
+"""What a completion returns: the graph before and after, the confidence of each decision, and what was refused."""
 
 from dataclasses import dataclass
 from typing import Literal, final

@@ -1,7 +1,7 @@
 """The graph encoder: nodes and edges encoded, then layers over the fully connected graph (supplement, Graph Encoder).
 
 A node is its category, box and points side by side; an edge its kind and where its boxes stand. Nodes attend along
-edges, then edges are told by their nodes again.
+edges, then edges are updated from their nodes.
 
 Points go through a lightweight PointNet++ of two stages over groups made beforehand. The first stage looks at each
 group, the second at all groups of a part. The authors' second stage groups once more; here it takes all groups at once:

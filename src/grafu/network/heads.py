@@ -1,7 +1,7 @@
 """What is read from slots: existence, category, box; of pairs their edge, parent and mount; of moving pairs the motion.
 
-Where the part of a free slot is, is told from the nodes that the slot points at, in units of their sizes. Motions are
-classes (paper, Motion Parameters).
+The position of the part of a free slot is computed from the nodes that the slot points at, in units of their sizes.
+Motions are classes (paper, Motion Parameters).
 """
 
 from typing import NamedTuple, final

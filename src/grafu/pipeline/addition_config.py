@@ -44,7 +44,8 @@ class HandleChoice:
 class AdditionConfig:
     """Each of None is not added.
 
-    A front that nobody can grasp gets a handle, and where none fits a recessed grip; without `handles`, a grip at once.
+    A front that cannot be grasped gets a handle, and where none fits a recessed grip; without `handles`, a grip at
+    once.
     """
 
     top: TopConfig | None = field(default_factory=TopConfig)

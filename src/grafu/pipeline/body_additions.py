@@ -10,7 +10,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.realization.addition import Addition
 from grafu.realization.carcass.complete import CarcassCompletion, complete_carcass
-from grafu.realization.carcass.lacks import carcass_lacks
+from grafu.realization.carcass.missing_panels import missing_panels
 from grafu.realization.drawer_box.complete import DrawerBoxes, complete_drawers, with_attached
 from grafu.realization.plan import RealizationPlan
 from grafu.realization.report import Skipped, SkipReason
@@ -51,7 +51,7 @@ def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPl
     drawers = replace(drawers, additions=_kept(drawers.additions, config))
     grown, plan = _with(grown, drawers.additions), with_attached(plan, drawers)
     if config.carcass is None:
-        carcass = CarcassCompletion(carcass_lacks(grown.parts, plan))
+        carcass = CarcassCompletion(missing_panels(grown.parts, plan))
     else:
         carcass = complete_carcass(grown.parts, plan, config.carcass)
     carcass = replace(carcass, additions=_kept(carcass.additions, config))

@@ -1,4 +1,4 @@
-"""How sure motions are: what was decided about parts, and what would have come next, in words. It decides nothing."""
+"""The confidence of motions: what was decided about parts, and the runner-up, in words. It decides nothing."""
 
 from collections.abc import Set
 

@@ -7,7 +7,7 @@ from typing import final
 
 from grafu.asset.part import Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.realization.carcass.lacks import Lack
+from grafu.realization.carcass.missing_panels import MissingPanel
 from grafu.realization.drawer_box.verdict import BoxVerdict
 from grafu.realization.handle.grasp import Grasp
 from grafu.realization.top.complete import TopVerdict, missing_top
@@ -44,7 +44,7 @@ class Findings:
     """What a run found missing by geometry, once it knew what moves: see `body_additions` and `fittings`."""
 
     top: TopVerdict
-    carcass: Sequence[Lack]
+    carcass: Sequence[MissingPanel]
     drawers: Sequence[BoxVerdict]
     grasps: Mapping[str, Grasp]
 
@@ -56,7 +56,7 @@ def find_deficiencies(asset: Asset, graph: FunctionalGraph, findings: Findings |
     """
     label_of = {node.id: node.label for node in graph.nodes}
     jointed = {joint.part for joint in asset.joints}
-    found = [lack for part in asset.parts for lack in _of_part(part, label_of[part.id], part.id in jointed)]
+    found = [one for part in asset.parts for one in _of_part(part, label_of[part.id], part.id in jointed)]
     found += _without_handle(asset, graph, findings.grasps if findings else {})
     top = findings.top if findings else missing_top(asset.parts)
     if top.missing:
@@ -78,7 +78,7 @@ def _without_handle(asset: Asset, graph: FunctionalGraph, grasps: Mapping[str, G
 
 
 def _of_boards(findings: Findings) -> list[Deficiency]:
-    found = [Deficiency(DeficiencyKind(lack.what.value), "", lack.why) for lack in findings.carcass]
+    found = [Deficiency(DeficiencyKind(one.what.value), "", one.why) for one in findings.carcass]
     open_boxes = (verdict for verdict in findings.drawers if verdict.missing)
     found += [Deficiency(DeficiencyKind.DRAWER_BOX, v.drawer, f"{v.kind}: {v.why}") for v in open_boxes]
     return found

@@ -20,7 +20,7 @@ class FaultKind(StrEnum):
     SHUT = "does not open"  # it opens so little that it is no motion
     RESTRICTED = "restricted"  # it opens less than it should
     GUESSED = "guessed"  # how it moves, or that it does, was a guess that is not sure
-    NO_GRASP = "no grasp"  # nobody could take hold of it
+    NO_GRASP = "no grasp"  # it cannot be grasped
     CARVED = "carved"  # more of a part was cut away than should be
     NOTED = "note"  # its hardware is not what it should be, or the budget allowed a simpler way only
     NOT_BUILT = "not built"  # something else that was asked for

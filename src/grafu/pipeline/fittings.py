@@ -18,7 +18,7 @@ from grafu.realization.grip.outcome import Carved
 from grafu.realization.handle.grasp import Grasp, find_grasps
 from grafu.realization.handle.place import Handles, add_handles, bodies_without
 from grafu.realization.handle.relief import Reliefs
-from grafu.realization.interior.furnish import Furnished, Unfurnished
+from grafu.realization.interior.furnish import Furnished, RefusedInterior
 from grafu.realization.interior.request import InteriorKind, PanelHint
 from grafu.realization.interior.turned import furnish_scene
 from grafu.realization.report import Skipped, SkipReason
@@ -33,7 +33,7 @@ class Fittings:
     """What was added, which parts were carved, and how each moving body can be grasped now.
 
     `grasps` holds for each moving body what was found before anything was added to it. `removed` names the handles of
-    the input that were replaced. `unfurnished` is the scene before shelves and dividers (None: as it is).
+    the input that were replaced. `before_interiors` is the scene before shelves and dividers (None: as it is).
     """
 
     scene: Scene
@@ -42,12 +42,12 @@ class Fittings:
     grasps: Mapping[str, Grasp] = field(default_factory=dict)
     skipped: tuple[Skipped, ...] = ()
     removed: frozenset[str] = frozenset()
-    unfurnished: Scene | None = None
+    before_interiors: Scene | None = None
 
     def afresh(self) -> "Fittings":
         """Returns the same with scenes that hold nothing but what they are made of."""
-        before = None if self.unfurnished is None else self.unfurnished.afresh()
-        return replace(self, scene=self.scene.afresh(), unfurnished=before)
+        before = None if self.before_interiors is None else self.before_interiors.afresh()
+        return replace(self, scene=self.scene.afresh(), before_interiors=before)
 
 
 def add_fittings(
@@ -70,7 +70,7 @@ def add_fittings(
     fronts = fit_fronts(scene, config, _handle_hints(completion), own)
     skipped += fronts.skipped
     inside = _interior(fronts.scene, completion, config)
-    skipped += [_unfurnished(one) for one in inside.refused]
+    skipped += [_refused_interior(one) for one in inside.refused]
     panels = tuple(addition for addition in inside.additions if addition.part.id not in config.rejected)
     scene = replace(fronts.scene, parts={**fronts.scene.parts, **{panel.part.id: panel.part for panel in panels}})
     additions = (*kept, *fronts.additions, *panels)
@@ -160,7 +160,7 @@ def _panel_hints(completion: GraphCompletion) -> list[PanelHint]:
     return [PanelHint(node.id, node.label, node.box) for node in nodes if node.label in inner]
 
 
-def _unfurnished(one: Unfurnished) -> Skipped:
+def _refused_interior(one: RefusedInterior) -> Skipped:
     what = "interior" if one.label is None else one.label.value
     where = "" if one.compartment is None else f" of compartment {one.compartment + 1}"
     return Skipped(f"{what}{where}", SkipReason.NOT_ADDED, one.why)

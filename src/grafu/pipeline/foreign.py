@@ -1,6 +1,6 @@
 """`read_foreign`: another system's prediction from its file, whatever the format. It matches nothing with an asset.
 
-What a file is, is told by its content; `grafu.asset.foreign.attach.attach_motions` lays it over an asset.
+The kind of a file is detected from its content; `grafu.asset.foreign.attach.attach_motions` lays it over an asset.
 """
 
 from collections.abc import Callable

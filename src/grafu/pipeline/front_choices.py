@@ -1,4 +1,4 @@
-"""Doors and drawers grasped as somebody chose: handles replaced, added, carved or left out. It chooses nothing."""
+"""Handles and grips of single fronts as the user chose: replaced, added, carved or left out. It chooses nothing."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -66,13 +66,13 @@ class PipelineConfig:
 @final
 @dataclass(frozen=True, repr=False)
 class Functionalized:
-    """Everything that came of one asset.
+    """Everything that was made of one asset.
 
     `asset` is the input as the motion source saw it, `source` that source (never `auto`). `completion` is the graph as
     it was built, additions included. `body` and `fittings` say what was missing and what was added. `timings` are
     seconds per stage, in order. `notes` say what was done in a simpler way, or left out, because the budget did not
     hold it. `stated_joints` counts the joints that the input states, whether they were read or not.
-    `decided` are the parts of which somebody said how they move, or that they do not.
+    `decided` are the parts whose motion the user stated or rejected.
     """
 
     asset: Asset
@@ -160,10 +160,10 @@ def functionalize(
     """Returns the asset as an object that works, and how it came about.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
-    that cannot be made to move is no error: the report says which, and why. `on_stage` is told each stage as it begins.
-    What the `cache` holds of earlier runs is not computed again; the result is the same. What `budget` does not hold is
-    left out: joints are skipped as too complex, `notes` say what was done in a simpler way. Where it holds all, nothing
-    changes.
+    that cannot be made to move is no error: the report says which, and why. `on_stage` is called with each stage as it
+    begins. What the `cache` holds of earlier runs is not computed again; the result is the same. What `budget` does not
+    hold is left out: joints are skipped as too complex, `notes` say what was done in a simpler way. Where it holds all,
+    nothing changes.
 
     Raises:
         OptionError: if what is chosen for a part or joint does not exist.

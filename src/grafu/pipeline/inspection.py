@@ -67,7 +67,7 @@ def inspect(asset: Asset, graph: FunctionalGraph) -> Inspection:
         parts=tuple(_part(part) for part in asset.parts),
         contacts=tuple((contact.a, contact.b) for contact in graph.contacts),
         joints=tuple(_joint(joint) for joint in asset.stated_joints),
-        deficiencies=tuple(deficiency_record(lack) for lack in find_deficiencies(asset, graph)),
+        deficiencies=tuple(deficiency_record(one) for one in find_deficiencies(asset, graph)),
     )
 
 

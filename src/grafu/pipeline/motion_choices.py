@@ -1,4 +1,4 @@
-"""Motions that somebody states or rejects part by part, whoever completed the graph: in the graph and in the plan.
+"""Motions that the user states or rejects part by part, for any motion source: in the graph and in the plan.
 
 It searches no hardware; what the codes of a graph cannot say is refused there, and built from the plan all the same.
 """
@@ -55,7 +55,7 @@ def with_moving(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel])
 
 
 def _moved(part: Part, choice: MotionChoice | None, labels: Mapping[str, PartLabel]) -> Part:
-    if choice is None or choice.moves is Moves.NOT:
+    if choice is None or choice.moves is Moves.FIXED:
         return part
     label = label_of_motion(part, choice)
     if labels.get(part.id, label) is not label:
@@ -82,7 +82,7 @@ def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, 
     graph = _without_motion(completion.completed, part.id)
     decisions = tuple(d for d in completion.decisions if d.part != part.id or d.question not in _OF_MOTIONS)
     refused = tuple(r for r in completion.refused if r.part != part.id)
-    if choice.moves is Moves.NOT:
+    if choice.moves is Moves.FIXED:
         left = (RefusedMotion(part.id, REJECTED),) if graph.node(part.id).label.is_movable else ()
         return replace(completion, completed=graph, decisions=decisions, refused=(*refused, *left))
     graph = relabelled(graph, {part.id: part.label})
@@ -145,13 +145,13 @@ def plan_with_motions(
     moved = {request.moving for request in plan.joints} | {refusal.part for refusal in plan.refused}
     attachments = ((edge.parent, edge.child) for edge in completion.completed.attachments)
     attached = attached_to(asset, attachments)
-    stated = [part for part, choice in motions.items() if choice.moves is not Moves.NOT]
+    stated = [part for part, choice in motions.items() if choice.moves is not Moves.FIXED]
     kept = tuple(_without_attached(r, stated) for r in plan.joints if r.moving not in motions)
     requests = [_request(asset.part(p), motions[p], attached.get(p, ()), completion, asset) for p in stated]
     moving_bodies = {request.moving for request in (*kept, *requests)}
     requests = [_without_attached(request, sorted(moving_bodies - {request.moving})) for request in requests]
     refused = tuple(r for r in plan.refused if r.part not in motions)
-    still = (p for p, c in motions.items() if c.moves is Moves.NOT and (p in moved or asset.part(p).label.is_movable))
+    still = (p for p, c in motions.items() if c.moves is Moves.FIXED and (p in moved or asset.part(p).label.is_movable))
     rejected = tuple(Refusal(part, REJECTED, SkipReason.REJECTED) for part in still)
     return RealizationPlan((*kept, *requests), (*refused, *rejected))
 

@@ -14,7 +14,7 @@ class MotionSource(StrEnum):
     AUTO = "auto"  # the first of `AUTO_ORDER` that can answer
     ANNOTATION = "annotation"  # the joints that the input states
     NETWORK = "network"  # the trained network
-    RULE = "rule"  # carpenters' rules on labels, boxes and handles
+    RULE = "rule"  # the rule-based baseline: labels, boxes and handles
     PARTICULATE = "particulate"  # a file that Particulate wrote
     SINGAPO = "singapo"  # an object.json of SINGAPO or CAGE
     GRAFU_PRED = "grafu-pred"  # a predicted graph of the authors' own code

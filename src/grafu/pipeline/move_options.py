@@ -28,7 +28,7 @@ def move_options(result: Functionalized) -> dict[str, tuple[str, ...]]:
     motions = motions_of(result.object)
     moving = {joint.child: _instead(motions.get(joint.child)) for joint in result.object.moving_joints}
     still = {part.id: list(_into_motion(part, result)) for part in _still(result, set(moving))}
-    ways = {part: (*found, str(Moves.NOT)) for part, found in (moving | still).items()}
+    ways = {part: (*found, str(Moves.FIXED)) for part, found in (moving | still).items()}
     return {part: tuple(f"--move {part}={way}" for way in found) for part, found in ways.items()}
 
 
@@ -49,7 +49,7 @@ def _still(result: Functionalized, moving: set[str]) -> list[Part]:
 
 
 def _into_motion(part: Part, result: Functionalized) -> Iterator[str]:
-    """Yields the ways in which a part can be told to move, the likeliest first, without the one that was not built."""
+    """Yields the motions that can be stated for a part, the likeliest first, without the one that was built."""
     planned = _planned(part, result)
     for choice in _choices(part, result):
         if choice != planned and _can(part, choice, result.asset):
@@ -57,7 +57,7 @@ def _into_motion(part: Part, result: Functionalized) -> Iterator[str]:
 
 
 def _choices(part: Part, result: Functionalized) -> list[MotionChoice]:
-    """Returns ways to move, the likeliest first: a drawer slides, a door turns about the side nearer to the body's."""
+    """Returns motions, the likeliest first: a drawer slides, a door turns about the side nearer to the body's."""
     node = next((n for n in result.completion.completed.nodes if n.id == part.id), None)
     label = {d.part: d.runner_up for d in result.completion.decisions if d.question == "label"}.get(part.id, "")
     outer = Side.LEFT if part.box.center[0] <= result.asset.box.center[0] else Side.RIGHT

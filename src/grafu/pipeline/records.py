@@ -15,9 +15,9 @@ def frame_record(frame: Frame) -> FrameRecord:
     )
 
 
-def deficiency_record(lack: Deficiency) -> DeficiencyRecord:
+def deficiency_record(deficiency: Deficiency) -> DeficiencyRecord:
     """Returns one thing that was lacking."""
-    return DeficiencyRecord(kind=lack.kind, part=lack.part, detail=lack.detail)
+    return DeficiencyRecord(kind=deficiency.kind, part=deficiency.part, detail=deficiency.detail)
 
 
 def source_record(source: PartSource) -> SourceRecord:

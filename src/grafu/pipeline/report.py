@@ -34,9 +34,9 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     (reading, exporting).
     """
     findings = Findings(
-        result.body.top, result.body.carcass.lacks, result.body.drawers.verdicts, result.fittings.grasps
+        result.body.top, result.body.carcass.missing, result.body.drawers.verdicts, result.fittings.grasps
     )
-    lacks = find_deficiencies(result.asset, _with_removed(result), findings)
+    missing = find_deficiencies(result.asset, _with_removed(result), findings)
     timings = {**dict(result.timings), **(other_timings or {})}
     report = Report(
         version=__version__,
@@ -47,7 +47,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         ),
         size=vector(result.asset.box.size),
         parts=_part_records(result),
-        deficiencies=tuple(deficiency_record(lack) for lack in lacks),
+        deficiencies=tuple(deficiency_record(one) for one in missing),
         joints=_joint_records(result),
         added=_added_records(result),
         skipped=tuple(

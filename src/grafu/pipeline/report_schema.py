@@ -93,10 +93,10 @@ class ClearanceRecord(ReportRecord):
     """Material that was taken away so that a part can move."""
 
     part: str = Field(description="what was cut")
-    kind: str = Field(description="joined, closed, trimmed (the moving part), eased, carved (a static part)")
+    kind: str = Field(description="joined, closed, trimmed (the moving part), eased (shrunk), carved (a static part)")
     amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the surface")
     share: Share = Field(
-        description="what went: carved: the larger of the next two shares; eased: of the volume; trimmed: of a side"
+        description="fraction removed: carved: the larger of the next two; eased: of the volume; trimmed: of a side"
     )
     surface_share: Share = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
     volume_share: Share = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
@@ -164,16 +164,16 @@ class MotionRecord(ReportRecord):
 
 
 class GuessRecord(ReportRecord):
-    """A decision that a motion rests on, by whoever completed the graph; what somebody stated is none."""
+    """A decision of the motion source that a motion rests on; what the user stated is none."""
 
     part: str = Field(description="the part")
     question: Question = Field(
         description="label: its category; border: the side it turns about; sign, slide: that it opens to"
     )
     choice: str = Field(description="the answer: a category, or a side of the piece")
-    score: Share = Field(description="how sure it is")
+    score: Share = Field(description="the confidence, 0..1")
     runner_up: str = Field(description="what would have come next, or empty")
-    runner_up_score: Share = Field(description="how sure that would be")
+    runner_up_score: Share = Field(description="the confidence of the runner-up")
 
 
 class FaultRecord(ReportRecord):
@@ -187,7 +187,7 @@ class FaultRecord(ReportRecord):
 
 
 class VerdictRecord(ReportRecord):
-    """What came of the piece: green where all doors and drawers work and nothing was guessed."""
+    """The verdict on the result: green if all doors and drawers work and nothing was guessed."""
 
     colour: Colour = Field(description="red, yellow or green: that of the worst line; green: there is none")
     sentence: str = Field(description="the same in one sentence")
@@ -206,7 +206,7 @@ class Report(ReportRecord):
     frame: FrameRecord = Field(description="how coordinates were mapped")
     motion: MotionRecord = Field(description="where the motions came from")
     verdict: VerdictRecord | None = Field(
-        default=None, description="what came of it; null: written by an earlier version"
+        default=None, description="the verdict on the result; null: written by an earlier version"
     )
     size: Vector | None = Field(
         default=None, description="the size of the input, metres; null: written by an earlier version"

@@ -1,4 +1,4 @@
-"""Which joints of a report need somebody's eye: ok, warning or error, as its verdict says. It judges nothing."""
+"""Which joints of a report need attention: ok, warning or error, as in its verdict. It judges nothing."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ class JointState:
 def joint_states(report: Report) -> tuple[JointState, ...]:
     """Returns the state of every joint that was built, then of the parts that should move and stand still.
 
-    What somebody stopped is no fault. Levels are the colours of the report's verdict.
+    What the user fixed is no fault. Levels are the colours of the report's verdict.
     """
     lines = [line for line in verdict_of(report).lines if line.kind is not FaultKind.CARVED]
     joints = {joint.part: joint.id for joint in report.joints}
@@ -69,7 +69,7 @@ def not_built(after: Report, part: str) -> tuple[str, ...]:
     """Returns why a part has no joint, in words; empty where it has one."""
     if part in {joint.part for joint in after.joints}:
         return ()
-    return (_why_not(after, part, "nobody says how it moves: state a motion, or correct its category"),)
+    return (_why_not(after, part, "its motion is unknown: state a motion, or correct its category"),)
 
 
 def _why_not(report: Report, part: str, otherwise: str) -> str:

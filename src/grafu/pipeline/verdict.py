@@ -1,6 +1,6 @@
-"""What came of a piece, as a traffic light with its reasons: the one judgement that all pages and lists show.
+"""The verdict on a result: green, yellow or red, with its reasons, as all pages and lists show it.
 
-It reads the figures of a report and measures nothing anew. What somebody wants to stand still is no fault.
+It reads the figures of a report and measures nothing. A part that the user fixed is no fault.
 """
 
 from collections import Counter
@@ -15,7 +15,7 @@ from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType, PartLabel
 
 LEAST_CONFIDENCE: Final = 0.8
-"""A decision below this score is a guess that somebody should look at."""
+"""A decision with a lower score is a guess that the user should check."""
 LEAST_OPENING: Final = 0.7
 """A joint that opens less than this share of what it should is restricted."""
 LEAST_MOTION: Final = 0.3
@@ -43,12 +43,12 @@ def verdict_of(report: Report) -> VerdictRecord:
 
 
 def not_built(report: Report) -> tuple[SkippedRecord, ...]:
-    """Returns what was asked for and could not be built; what somebody stopped is no fault."""
+    """Returns what was asked for and could not be built; what the user fixed is no fault."""
     return tuple(skip for skip in report.skipped if skip.reason is not SkipReason.REJECTED)
 
 
 def stopped(report: Report) -> tuple[str, ...]:
-    """Returns the parts that stand still because somebody said so."""
+    """Returns the parts that stand still because the user fixed them."""
     return tuple(skip.request for skip in report.skipped if skip.reason is SkipReason.REJECTED)
 
 

@@ -1,4 +1,4 @@
-"""A process that stays while somebody works on a model: `python -m grafu.pipeline.worker FOLDER`.
+"""A process that keeps running while the user works on a model: `python -m grafu.pipeline.worker FOLDER`.
 
 Every line on stdin is a JSON list of three paths: input, settings and where results go, as `interactive` takes them. It
 answers on stdout with that module's lines, and then `done` or `error WHY`. What a change does not touch is not made

@@ -1,4 +1,4 @@
-"""Builds one joint on a scene: clearance where it is needed, then hinges or rails, then what came of it.
+"""Builds one joint on a scene: clearance where it is needed, then hinges or rails, then the outcome.
 
 A part that keeps cutting into its neighbours at rest, because clearance is not allowed or would cost too much, still
 gets its joint; what it cuts into is left out of account, and the report says in how many poses it collides.

@@ -40,7 +40,7 @@ def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
 def build_fairly(
     requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Outcomes:
-    """Returns what came of all requests, each joint keeping out of the expected motions of those built after it.
+    """Returns the outcomes of all requests, each joint keeping out of the expected motions of those built after it.
 
     Doors for which that left no place are given the way that was asked for, and all is built again; the first try
     stands unless the second builds more.

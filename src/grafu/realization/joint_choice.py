@@ -1,4 +1,4 @@
-"""What somebody decides about one joint instead of the search: class, template, size, number, side, opening, mount.
+"""What the user decides about one joint instead of the search: class, template, size, number, side, opening, mount.
 
 A choice narrows the search; what it leaves must still hold and be free, or the joint is not built. It searches nothing.
 """
@@ -107,7 +107,7 @@ def flipped_axis(part: Part, axis: Axis) -> Axis:
 
 
 def short_of_chosen(request: JointRequest, template: str, upper: float) -> tuple[str, ...]:
-    """Returns a note where a joint opens less than somebody chose: by more than a degree, or 2 mm.
+    """Returns a note where a joint opens less than the user chose: by more than a degree, or 2 mm.
 
     `upper` is how far it opens, radians or metres.
     """

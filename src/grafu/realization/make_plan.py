@@ -103,7 +103,7 @@ def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
     drawn_at = -before if min(-before, after) > _PLAY * max(-before, after) else 0.0
     reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
     if not joint.limited and joint.type is JointType.PRISMATIC:
-        reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out, nobody knows
+        reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out is unknown
     attached = attached_to(asset, ()).get(joint.part, ())
     return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), attached, drawn_at)
 

@@ -1,6 +1,6 @@
 """What is measured on joints that stand: in how many poses they still cut in, and how far their hardware comes loose.
 
-A joint that cannot be measured within its share of the time is not delivered: nobody would know what it does.
+A joint that cannot be measured within its share of the time is not delivered: its behaviour would be unknown.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""What somebody says of how one part moves, instead of whoever completes the graph. It knows no graph and no hardware.
+"""A motion that the user states for one part; it replaces that of the motion source. It knows no graph and no hardware.
 
 Sides are those of the object frame: the front looks along -Y, the left lies at -X, so they are one's own before it.
 """
@@ -20,14 +20,20 @@ from grafu.realization.rail.search import slides_in_its_plane
 from grafu.vocabulary import JointType, PartLabel
 
 _LEVEL = 1e-6
+OLD_FIXED = "not"
+"""The word of earlier versions for `fixed`; saved settings are still read."""
 
 
 class Moves(StrEnum):
     """Whether a part moves, and how."""
 
-    NOT = "not"  # it stands still, whatever it is called
+    FIXED = "fixed"  # it gets no joint, whatever its label
     TURNS = "turns"
     SLIDES = "slides"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Moves | None":
+        return cls.FIXED if value == OLD_FIXED else None  # as settings of earlier versions spell it
 
 
 class Side(StrEnum):
@@ -72,8 +78,8 @@ class MotionChoice:
             raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
         if self.moves is not Moves.TURNS and self.inwards:
             raise ValueError(f"`MotionChoice.inwards` is for parts that turn: got it for one that moves {self.moves}")
-        if self.moves is Moves.NOT and self.side is not None:
-            raise ValueError(f"`MotionChoice.side` must be None for a part that stands still: got {self.side}")
+        if self.moves is Moves.FIXED and self.side is not None:
+            raise ValueError(f"`MotionChoice.side` must be None for a fixed part: got {self.side}")
 
     @property
     def type(self) -> JointType:
@@ -82,28 +88,30 @@ class MotionChoice:
         return types.get(self.moves, JointType.FIXED)
 
 
-STANDS_STILL = MotionChoice(Moves.NOT)
+STANDS_STILL = MotionChoice(Moves.FIXED)
 
 TURNING_SIDES = ("left", "right", "top", "bottom")
 """The borders that a part can turn about, as words."""
 
 
 def choice_in_words(word: str) -> MotionChoice:
-    """Returns the choice that one word states: a border of `TURNING_SIDES`, `slides`, or `not`.
+    """Returns the choice that one word states: a border of `TURNING_SIDES`, `slides`, or `fixed`.
 
     Raises:
         OptionError: if it is another word.
     """
     if word in TURNING_SIDES:
         return MotionChoice(Moves.TURNS, Side(word))
-    if word not in (Moves.SLIDES.value, Moves.NOT.value):
-        raise OptionError(f"must be one of {', '.join((*TURNING_SIDES, Moves.SLIDES, Moves.NOT))}: got {word!r}")
+    if word == OLD_FIXED:
+        raise OptionError("`not` is called `fixed` now: use fixed")
+    if word not in (Moves.SLIDES.value, Moves.FIXED.value):
+        raise OptionError(f"must be one of {', '.join((*TURNING_SIDES, Moves.SLIDES, Moves.FIXED))}: got {word!r}")
     return MotionChoice(Moves(word))
 
 
 def label_of_motion(part: Part, choice: MotionChoice) -> PartLabel:
     """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
-    if choice.moves is Moves.NOT:
+    if choice.moves is Moves.FIXED:
         return part.label
     if choice.moves is Moves.TURNS or slides_in_its_plane(part.mesh, _direction(choice)):
         return PartLabel.DOOR

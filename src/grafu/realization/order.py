@@ -114,7 +114,7 @@ def _leaves_free(
     paths: _PathBoxes,
     config: RealizationConfig,
 ) -> bool:
-    """Whether nobody runs into a door that stands open by `upper`."""
+    """Whether no body hits a door that stands open by `upper`."""
     scene = paths.scene
     obstacle = _open(door, upper, scene)
     others = [(other, reaches[other.moving]) for other in joints if other is not door]

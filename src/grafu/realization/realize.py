@@ -40,7 +40,7 @@ _ORDERING = 0.5  # of the time that is left when all joints stand; the rest is f
 @final
 @dataclass(frozen=True)
 class Realized:
-    """The working object, what came of each request, and the final scene.
+    """The working object, the outcome of each request, and the final scene.
 
     The scene holds the parts as they are built, at rest, all hardware, the moving bodies that have a joint, and their
     ways with the final opening as `upper` and the order in which they open.
@@ -133,7 +133,7 @@ def _built_joint(built: Built) -> BuiltJoint:
 
 
 def _without_order(built: Sequence[Built], why: str) -> dict[str, Order]:
-    """Returns for each moving body that it waits for nobody; a note says that neighbours may meet, and why."""
+    """Returns for each moving body an order without waiting; a note says that neighbours may meet, and why."""
     note = f"whether it must wait for its neighbours was not found out: {why}"
     return {b.request.moving: Order((), b.placement.upper, note) for b in built}
 

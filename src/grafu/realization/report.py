@@ -1,4 +1,4 @@
-"""What came of each request: installed with its figures, or skipped with a reason from a closed list."""
+"""The outcome of each request: installed with its figures, or skipped with a reason from a closed list."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -14,8 +14,8 @@ class SkipReason(StrEnum):
     NO_FACING_SURFACES = "no facing surfaces"  # nothing static near enough to carry a mechanism
     NO_ROOM = "no room"  # a mechanism would cut into parts
     BLOCKED = "blocked"  # the part cannot move freely about any candidate axis
-    NO_MOTION = "no motion"  # nobody could say how the part moves
-    REJECTED = "rejected"  # somebody decided that the part stands still
+    NO_MOTION = "no motion"  # its motion is unknown
+    REJECTED = "rejected"  # the user fixed the part
     UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (drawers that slide up or down)
     TOO_COMPLEX = "too complex"  # the work on it would take more time or memory than its share of the budget
     NOT_ADDED = "not added"  # a part that is missing finds no place: a top, a handle, a shelf

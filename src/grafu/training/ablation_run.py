@@ -142,7 +142,7 @@ def begin_ablation(folder: Path, asked: Mapping[str, str]) -> None:
         raise ExportError(f"`{folder}` holds another ablation ({path.name} says which): choose another --out")
 
 
-_LOOK = 0.5  # seconds between two looks whether somebody asked to stop
+_LOOK = 0.5  # seconds between two checks whether a stop was requested
 
 
 def do_runs(

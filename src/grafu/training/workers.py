@@ -1,7 +1,7 @@
 """Several processes that train one network (torchrun), each on its own models: who is who, and what they agree on.
 
 Gradients are averaged here in one message, not by torch's wrapper for modules: that wrapper stumbles over a head that
-no graph of a batch needs (a batch without drawers). The same message says whether somebody was asked to stop: Ctrl-C
+no graph of a batch needs (a batch without drawers). The same message says whether a stop was requested: Ctrl-C
 and termination end a run after the step at hand, with everything saved.
 """
 
@@ -24,7 +24,7 @@ _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 @final
 class StopRequest:
-    """Whether somebody asked. A second Ctrl-C interrupts at once."""
+    """Whether a stop was requested. A second Ctrl-C interrupts at once."""
 
     def __init__(self) -> None:
         self.is_made = False

@@ -63,7 +63,7 @@ _ROLES = ((VisualRole.HARDWARE, "hardware", "Hardware"), (VisualRole.ADDED, "add
 def model_page(
     asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report, stills: Stills
 ) -> str:
-    """Returns the page of a model: what was read, what came of it, and its report as words, tables and pictures."""
+    """Returns the page of a model: the input, the result, and its report as text, tables and pictures."""
     scene = scene_data(articulated, report)
     body = joined([
         tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), _facts(asset, report)),

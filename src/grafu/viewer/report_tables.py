@@ -49,7 +49,7 @@ def joints_table(
     report: Report, completion: GraphCompletion, corrections: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 ) -> Html:
     """Returns one row per joint; `corrections` are the options that set it right, by part (none: no column)."""
-    columns: tuple[str, ...] = ("part", "moves", "mechanism", "axis", "measured", "how sure", "notes")
+    columns: tuple[str, ...] = ("part", "moves", "mechanism", "axis", "measured", "confidence", "notes")
     rows = [_joint_row(joint, completion) for joint in report.joints]
     if corrections:
         columns = (*columns, "if it is wrong")

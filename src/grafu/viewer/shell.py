@@ -68,7 +68,7 @@ def _plain(value: Any) -> Any:
 
 
 def light_of(colour: str) -> Html:
-    """Returns a coloured mark that names its colour: nobody must see it to read it."""
+    """Returns a coloured mark that also names its colour, for readers who cannot see it."""
     return tag("span", colour, class_=f"light {colour}")
 
 

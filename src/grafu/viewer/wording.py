@@ -25,7 +25,7 @@ def facts(report: Report) -> str:
 
 
 def unused_joints(report: Report) -> str:
-    """Returns in words that the input states joints which nobody read; nothing where there are none."""
+    """Returns in words that the input states joints that were not read; nothing where there are none."""
     count = report.motion.unused_joints
     them = "it" if count == 1 else "them"
     return f"states {counted(count, 'joint')}; --motion annotation builds {them}" if count else ""

@@ -91,7 +91,7 @@ def why_skipped(data: Json, whole: bool) -> str:
         return "it has no nodes"
     whole = whole and (MADE_BY[0], data.get(MADE_BY[0])) != MADE_BY
     if not whole or not isinstance(listed, dict | list) or not isinstance(edges, list):
-        return ""  # whoever reads a damaged graph is told
+        return ""  # a reader of a damaged graph reports it
     ids = [str(n.get("id")) if isinstance(n, Mapping) else str(n) for n in listed]
     neighbours: dict[str, list[str]] = {i: [] for i in ids}
     for edge in edges:

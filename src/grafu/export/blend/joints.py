@@ -1,6 +1,6 @@
 """Joints in Blender: an empty with limits and one property that opens it, a driver on the link, keys, muting.
 
-Everything here takes Blender's own objects; they are told apart by their custom properties (`layout`).
+Everything here takes Blender's own objects; they are identified by their custom properties (`layout`).
 """
 
 import json
@@ -98,7 +98,7 @@ def mute_joint(empty: Empty, mute: bool = True) -> None:
 
 
 def open_curves(empty: Empty) -> list[Any]:
-    """Returns the F-curves that animate `open`: at most one, unless somebody added more."""
+    """Returns the F-curves that animate `open`: at most one, unless the user added more."""
     data = empty.animation_data
     if data is None or data.action is None:
         return []

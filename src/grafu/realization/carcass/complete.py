@@ -19,7 +19,7 @@ from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.carcass.bays import Bay, View
 from grafu.realization.carcass.board_room import BoardRoom
 from grafu.realization.carcass.config import CarcassConfig
-from grafu.realization.carcass.lacks import DEFAULT, Lack, lacks_of
+from grafu.realization.carcass.missing_panels import DEFAULT, MissingPanel, panels_missing
 from grafu.realization.drawer_box.surroundings import Surroundings, surroundings_of
 from grafu.realization.likeness import surface_like
 from grafu.realization.plan import RealizationPlan, Refusal
@@ -38,7 +38,7 @@ _TOUCH = 5e-4  # metres: less deep than this a board and its neighbour merely to
 class CarcassCompletion:
     """What the carcasses lack, the boards added, and those that could not be, with why."""
 
-    lacks: tuple[Lack, ...] = ()
+    missing: tuple[MissingPanel, ...] = ()
     additions: tuple[Addition, ...] = ()
     refused: tuple[Refusal, ...] = ()
 
@@ -48,53 +48,53 @@ def complete_carcass(
 ) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
     around = surroundings_of(parts, plan)
-    lacks = lacks_of(around, config)
+    missing = panels_missing(around, config)
     additions: list[Addition] = []
     refused: list[Refusal] = []
     taken = {part.id for part in parts}
-    rooms = {id(lack.view): _room(lack.view, around) for lack in {id(k.view): k for k in lacks}.values()}
-    for group in _groups(lacks, around.scene.unit):
+    rooms = {id(panel.view): _room(panel.view, around) for panel in {id(k.view): k for k in missing}.values()}
+    for group in _groups(missing, around.scene.unit):
         room = rooms[id(group[0].view)]
         whole = _whole(group)
         together = _board(whole, room, config) is not None
-        for lack in [whole] if together else group:
-            board = _board(lack, room, config)
+        for panel in [whole] if together else group:
+            board = _board(panel, room, config)
             if board is None:
-                refused.append(Refusal(lack.moving_bodies[0], f"no {lack.what.value}: {_NO_ROOM}"))
+                refused.append(Refusal(panel.moving_bodies[0], f"no {panel.what.value}: {_NO_ROOM}"))
                 continue
-            room = rooms[id(lack.view)] = room.with_board(board)
-            additions.append(_addition(lack, board, around, taken))
+            room = rooms[id(panel.view)] = room.with_board(board)
+            additions.append(_addition(panel, board, around, taken))
             taken.add(additions[-1].part.id)
-    return CarcassCompletion(lacks, tuple(additions), tuple(refused))
+    return CarcassCompletion(missing, tuple(additions), tuple(refused))
 
 
-def _addition(lack: Lack, board: Box, around: Surroundings, taken: Collection[str]) -> Addition:
-    (part_id,) = free_ids(lack.what.value.replace(" ", "_"), 1, taken)
-    mesh = TriangleMesh.box_mesh(board).transformed(from_rotation(lack.view.rotation))
-    return Addition(added_part(part_id, lack.what, (surface_like(mesh, around.body),)), lack.why, "carcass board")
+def _addition(panel: MissingPanel, board: Box, around: Surroundings, taken: Collection[str]) -> Addition:
+    (part_id,) = free_ids(panel.what.value.replace(" ", "_"), 1, taken)
+    mesh = TriangleMesh.box_mesh(board).transformed(from_rotation(panel.view.rotation))
+    return Addition(added_part(part_id, panel.what, (surface_like(mesh, around.body),)), panel.why, "carcass board")
 
 
-def _groups(lacks: Iterable[Lack], unit: float) -> list[list[Lack]]:
+def _groups(missing: Iterable[MissingPanel], unit: float) -> list[list[MissingPanel]]:
     """Returns the lacks of bays that adjoin one another together: they may share one board."""
-    groups: list[list[Lack]] = []
-    for lack in lacks:
-        group = next((g for g in groups if _adjoins(lack, _whole(g), unit)), None)
+    groups: list[list[MissingPanel]] = []
+    for panel in missing:
+        group = next((g for g in groups if _adjoins(panel, _whole(g), unit)), None)
         if group is None:
-            groups.append([lack])
+            groups.append([panel])
         else:
-            group.append(lack)
+            group.append(panel)
     return groups
 
 
-def _whole(group: Sequence[Lack]) -> Lack:
+def _whole(group: Sequence[MissingPanel]) -> MissingPanel:
     """Returns lacks as one."""
     bay = group[0].bay
-    for lack in group[1:]:
-        bay = bay.joined(lack.bay)
-    return replace(group[0], bay=bay, moving_bodies=bay.moving_bodies, why="; ".join(lack.why for lack in group))
+    for panel in group[1:]:
+        bay = bay.joined(panel.bay)
+    return replace(group[0], bay=bay, moving_bodies=bay.moving_bodies, why="; ".join(panel.why for panel in group))
 
 
-def _adjoins(a: Lack, b: Lack, unit: float) -> bool:
+def _adjoins(a: MissingPanel, b: MissingPanel, unit: float) -> bool:
     if a.view is not b.view or a.what is not b.what:
         return False
     low, high = np.minimum(a.bay.low, b.bay.low), np.maximum(a.bay.high, b.bay.high)
@@ -104,10 +104,12 @@ def _adjoins(a: Lack, b: Lack, unit: float) -> bool:
     return bool(gaps.max() < _SIDE_BY_SIDE * unit and whole - sum(areas) < _WASTED * whole)
 
 
-def _board(lack: Lack, room: BoardRoom, config: CarcassConfig) -> Box | None:
+def _board(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Box | None:
     """Returns the board that a carcass lacks, in its view; None where none fits."""
-    for board in _backs(lack.bay, room, config) if lack.what is PartLabel.BACK_PANEL else _bottoms(lack, room, config):
-        if _fills(board, lack.bay) and room.is_free(board, _TOUCH) and room.holds(board):
+    for board in (
+        _backs(panel.bay, room, config) if panel.what is PartLabel.BACK_PANEL else _bottoms(panel, room, config)
+    ):
+        if _fills(board, panel.bay) and room.is_free(board, _TOUCH) and room.holds(board):
             return board
     return None
 
@@ -143,12 +145,12 @@ def _backs(bay: Bay, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
     yield _box((low[0], edge, low[2]), (high[0], edge + thick, high[2]))
 
 
-def _bottoms(lack: Lack, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
+def _bottoms(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
     """Yields bottoms, best first: behind fronts that lie before the walls, below those between them; else the other.
 
     A face frame, or a front between the walls, stands before the board. Where drawers run low, a thinner one is tried.
     """
-    bay = lack.bay
+    bay = panel.bay
     width, depth = (float(bay.high[axis] - bay.low[axis]) for axis in (0, 1))
     full = min(config.bottom, config.thickness_share * min(width, depth))
     foot, floor = float(bay.outline[2]), float(room.box.low[2])

@@ -40,7 +40,7 @@ _OVER = 1e-3  # metres by which such boards may stick out of the drawer's outlin
 @final
 @dataclass(frozen=True)
 class DrawerBoxes:
-    """What came of all drawers of a plan: what each has, the boards added, and those that could not be, with why.
+    """The outcome for all drawers of a plan: what each has, the boards added, and those that could not be, with why.
 
     `loose` names parts of the input that turned out to be boards of a drawer's box: drawer, then part. They must move
     with it (`with_attached`).

@@ -1,4 +1,4 @@
-"""Boards of a drawer's box that the input draws as parts of their own, and of which nobody said that they move.
+"""Boards of a drawer box that are parts of their own in the input, without a stated motion.
 
 They lie behind a mere front, within its outline, hang together with it and with nothing that stands still, and make at
 least both sides of a box with a bottom or a back. What is labelled as a panel of the case is none of them. Boards that

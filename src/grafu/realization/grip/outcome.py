@@ -1,4 +1,4 @@
-"""What came of carving a grip: the part with its grip, or a reason from a closed list."""
+"""The outcome of carving a grip: the part with its grip, or a reason from a closed list."""
 
 from dataclasses import dataclass
 from enum import StrEnum

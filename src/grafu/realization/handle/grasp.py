@@ -16,7 +16,7 @@ from grafu.vocabulary import PartLabel
 GraspKind = Literal["handle", "recess", "edge", "none"]
 
 _SMALL = 0.3  # of the front's two sides multiplied: an unlabelled part that is larger is no handle
-_SITS = 0.006  # metres: how far a handle that nobody attached may be from the front that it sits on
+_SITS = 0.006  # metres: how far a handle that is not attached may be from the front that it sits on
 _NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
 _LABELLED, _UNLABELLED, _UNATTACHED = 1.0, 0.8, 0.6
 
@@ -49,7 +49,7 @@ def find_grasp(
     """Returns how a moving body of the scene can be grasped at rest.
 
     Handles come first; then what fingers can reach round, get into or pinch, wherever it opens the moving body: on
-    doors beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, where somebody has them already.
+    doors beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, if they exist already.
 
     Raises:
         KeyError: if the scene knows no such moving body, or not how it moves.

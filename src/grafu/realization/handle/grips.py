@@ -1,6 +1,6 @@
 """Grips that are geometry of a door or drawer itself: what stands out, holes, channels, notches, free edges.
 
-It weighs what `finger_room` finds and says how sure each is; it knows no handle parts.
+It weighs what `finger_room` finds and states the confidence of each; it knows no handle parts.
 """
 
 from collections.abc import Iterator
@@ -95,7 +95,7 @@ def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarra
 
 
 def _sureness(held: Side | None, step: Step) -> float:
-    """Returns how sure it is that a free edge, reached round towards `step`, is what a front is opened at.
+    """Returns the confidence that a free edge, reached round towards `step`, is what a front is opened at.
 
     The edge that a door is held at and the upper edge of a drawer are; others serve where there is nothing else.
     """

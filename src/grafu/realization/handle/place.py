@@ -1,4 +1,4 @@
-"""Adds handles to doors and drawers that nobody can grasp: chosen, sized, set flush, clear through all motions.
+"""Adds handles to doors and drawers that cannot be grasped: chosen, sized, set flush, clear through all motions.
 
 A handle that finds no place is refused with a reason from a closed list; nothing that can be grasped gets another one.
 """

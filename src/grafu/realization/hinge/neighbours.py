@@ -22,7 +22,7 @@ _POSES = 19
 class Neighbour:
     """Another moving body with what rides on it and its hardware, prepared for queries; not a value.
 
-    `way` is None where nobody knows how it moves; `depth` is the tolerated penetration in metres.
+    `joint_motion` is None where its motion is unknown; `depth` is the tolerated penetration in metres.
     """
 
     def __init__(self, moving_id: str, scene: Scene, depth: float) -> None:

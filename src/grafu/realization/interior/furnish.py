@@ -39,7 +39,7 @@ _INSETS = 5  # depths at which a panel is tried
 
 @final
 @dataclass(frozen=True)
-class Unfurnished:
+class RefusedInterior:
     """Something that was asked for and not built: the compartment's number (None: the whole object), and why."""
 
     compartment: int | None
@@ -53,7 +53,7 @@ class Furnished:
     """The panels that were added, and what was not, and why."""
 
     additions: tuple[Addition, ...] = ()
-    refused: tuple[Unfurnished, ...] = ()
+    refused: tuple[RefusedInterior, ...] = ()
 
 
 @final
@@ -81,12 +81,12 @@ def furnish(
     if request.kind is InteriorKind.NONE and not chosen:
         return Furnished()
     if not compartments:
-        return Furnished((), (Unfurnished(None, None, why_inapplicable(scene)),))
+        return Furnished((), (RefusedInterior(None, None, why_inapplicable(scene)),))
     sizes = config.sizes(scene.unit)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
     wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
     beyond = [k for k in chosen if k >= len(compartments)]
-    refused += [Unfurnished(k, None, f"there is no such compartment, only {len(compartments)}") for k in beyond]
+    refused += [RefusedInterior(k, None, f"there is no such compartment, only {len(compartments)}") for k in beyond]
     chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
     if all(arrangement == Arrangement() for arrangement in wanted):
         return Furnished((), tuple(refused))
@@ -108,7 +108,7 @@ def _fewer_than_chosen(
     panels: Sequence[_Panel],
     chosen: Mapping[int, CompartmentChoice],
     told: Collection[tuple[int | None, PartLabel | None]],
-) -> list[Unfurnished]:
+) -> list[RefusedInterior]:
     """Returns the compartments that took fewer panels than were chosen for them, unless that was told."""
     found = []
     for number, choice in chosen.items():
@@ -116,7 +116,7 @@ def _fewer_than_chosen(
         cells = made[PartLabel.DIVIDER] + 1
         wanted = {PartLabel.DIVIDER: choice.dividers, PartLabel.SHELF: choice.shelves * cells}
         found += [
-            Unfurnished(number, label, f"there is room for {made[label]} only")
+            RefusedInterior(number, label, f"there is room for {made[label]} only")
             for label, count in wanted.items()
             if made[label] < count and (number, label) not in told
         ]
@@ -153,7 +153,7 @@ def _arranged(
     sizes: Sizes,
     config: InteriorConfig,
     hints: Sequence[PanelHint],
-) -> tuple[list[Arrangement], list[Unfurnished]]:
+) -> tuple[list[Arrangement], list[RefusedInterior]]:
     """Returns what each compartment is to get, and what none can."""
     if request.kind is InteriorKind.NONE:
         return [Arrangement()] * len(compartments), []
@@ -161,14 +161,14 @@ def _arranged(
         return [by_size(compartment, sizes, config.most_panels) for compartment in compartments], []
     if request.kind is InteriorKind.PREDICTED:
         placed, lost = placed_hints(compartments, hints, sizes)
-        return placed, [Unfurnished(None, hint.label, f"`{hint.id}` {why}") for hint, why in lost]
+        return placed, [RefusedInterior(None, hint.label, f"`{hint.id}` {why}") for hint, why in lost]
     return _counted(compartments, request, sizes)
 
 
 def _counted(
     compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes
-) -> tuple[list[Arrangement], list[Unfurnished]]:
-    refused: list[Unfurnished] = []
+) -> tuple[list[Arrangement], list[RefusedInterior]]:
+    refused: list[RefusedInterior] = []
     shelves, dividers = [0] * len(compartments), [0] * len(compartments)
     for label, groups, counts, wanted in (
         (PartLabel.SHELF, stacked(compartments, sizes), shelves, request.shelves),
@@ -177,7 +177,7 @@ def _counted(
         for group in groups:
             able = [k for k in group if label is PartLabel.DIVIDER or not compartments[k].is_chest]
             if not able and wanted:
-                refused.append(Unfurnished(group[0], label, "a chest that opens upwards takes no shelves"))
+                refused.append(RefusedInterior(group[0], label, "a chest that opens upwards takes no shelves"))
                 continue
             axes = [2 if label is PartLabel.SHELF else compartments[k].side_axis for k in able]
             lengths = [float(compartments[k].box.size[a]) for k, a in zip(able, axes, strict=True)]
@@ -186,7 +186,7 @@ def _counted(
                 counts[k] = count
             if able and sum(given) < wanted - (len(able) - 1):
                 why = f"there is room for {sum(given) + len(able) - 1} only, with {sizes.least_pitch:.2f} m between"
-                refused.append(Unfurnished(able[0], label, why))
+                refused.append(RefusedInterior(able[0], label, why))
     return [Arrangement(s, d) for s, d in zip(shelves, dividers, strict=True)], refused
 
 
@@ -210,7 +210,7 @@ class _Maker:
         self._config = config
         self._walls = walls
 
-    def panels(self, wanted: Arrangement) -> Iterator[_Panel | Unfurnished]:
+    def panels(self, wanted: Arrangement) -> Iterator[_Panel | RefusedInterior]:
         """Yields the dividers, then the shelves between them, or why one is missing."""
         dividers = []
         for outcome in self._row(self._whole, PartLabel.DIVIDER, wanted.dividers, wanted.divider_at):
@@ -224,7 +224,7 @@ class _Maker:
 
     def _row(
         self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float]
-    ) -> Iterator[_Panel | Unfurnished]:
+    ) -> Iterator[_Panel | RefusedInterior]:
         """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
         if not (count or at):
             return
@@ -236,7 +236,7 @@ class _Maker:
         for middle in middles:
             made = self._tried(Place(compartment, label, middle, self._sizes.inset), float(room))
             if isinstance(made, str):
-                yield Unfurnished(self._number, label, made)
+                yield RefusedInterior(self._number, label, made)
             else:
                 self._clearing.add(f"{label.value}", made.mesh)
                 yield made

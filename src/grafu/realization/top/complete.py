@@ -19,8 +19,8 @@ from grafu.realization.likeness import surface_like
 from grafu.realization.plan import JointRequest
 from grafu.realization.top.config import DEFAULT_TOP, TopConfig, metre_of
 from grafu.realization.top.coverage import Coverage, coverage_of
+from grafu.realization.top.cutouts import cutouts_of, thick_enough
 from grafu.realization.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
-from grafu.realization.top.freedom import freedom_of, thick_enough
 from grafu.realization.top.outline import (
     let_in,
     one_piece,
@@ -189,7 +189,7 @@ def _slab(
     plan = with_fronts(rim, roles.moving, metre)
     plan = overhanging(plan, *over_the_base(plan, roles, rim.seat, config, metre))
     plan = with_corners(plan, config.shape, metre)
-    free = freedom_of(roles.moving, plan, rim.seat, thickness, gap, metre)
+    free = cutouts_of(roles.moving, plan, rim.seat, thickness, gap, metre)
     standing = what_pierces(roles, rim, thickness, config.seat * unit, metre)
     left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, metre))
     outline = one_piece(left, coverage, metre)

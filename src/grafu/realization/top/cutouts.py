@@ -30,16 +30,16 @@ _THICKEST = 0.05  # metres that a slab spans above its seat for the sake of such
 
 @final
 @dataclass(frozen=True, eq=False)
-class Freedom:
+class Cutouts:
     """What a slab must leave free: `cut` through its whole thickness, and `grooves` up to heights."""
 
     cut: BaseGeometry
     grooves: tuple[tuple[BaseGeometry, float], ...]
 
 
-def freedom_of(
+def cutouts_of(
     moving_bodies: tuple[Closed, ...], outline: BaseGeometry, seat: float, thickness: float, gap: float, metre: float
-) -> Freedom:
+) -> Cutouts:
     """Returns what a slab over `outline` that stands at height `seat` must leave free, `gap` metres of air included."""
     cuts, grooves = [], []
     for moving in moving_bodies:
@@ -57,7 +57,7 @@ def freedom_of(
             cuts.append(way)
         else:
             grooves.append((way, top + gap))
-    return Freedom(shapely.union_all(cuts) if cuts else EMPTY, tuple(grooves))
+    return Cutouts(shapely.union_all(cuts) if cuts else EMPTY, tuple(grooves))
 
 
 def thick_enough(

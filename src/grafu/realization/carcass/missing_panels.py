@@ -30,7 +30,7 @@ _BELOW = (
 
 @final
 @dataclass(frozen=True, eq=False)
-class Lack:
+class MissingPanel:
     """A board that a carcass lacks, behind or below which doors and drawers: `covered` is the share that is there.
 
     `view` and `bay` say where, for `complete_carcass`.
@@ -44,15 +44,17 @@ class Lack:
     bay: Bay
 
 
-def carcass_lacks(parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT) -> tuple[Lack, ...]:
+def missing_panels(
+    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT
+) -> tuple[MissingPanel, ...]:
     """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
     around = surroundings_of(parts, plan)
-    return lacks_of(around, config)
+    return panels_missing(around, config)
 
 
-def lacks_of(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[Lack, ...]:
+def panels_missing(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[MissingPanel, ...]:
     """Returns what the bodies lack, all moving bodies closed."""
-    found: list[Lack] = []
+    found: list[MissingPanel] = []
     for view in find_views(around.scene, around.requests):
         bays = [
             bay
@@ -62,18 +64,20 @@ def lacks_of(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[Lac
         for bay in bays:
             covered = _back_covered(view, bay)
             if covered < config.covered:
-                found.append(_lack(PartLabel.BACK_PANEL, bay, covered, view))
+                found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
             if not any(_under(other, bay) for other in bays):
                 covered = _bottom_covered(view, bay, around.scene.unit)
                 if covered < config.covered:
-                    found.append(_lack(PartLabel.BOTTOM_PANEL, bay, covered, view))
+                    found.append(_missing_panel(PartLabel.BOTTOM_PANEL, bay, covered, view))
     return tuple(found)
 
 
-def _lack(what: PartLabel, bay: Bay, covered: float, view: View) -> Lack:
+def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: View) -> MissingPanel:
     side = "back" if what is PartLabel.BACK_PANEL else "bottom"
     named = ", ".join(bay.moving_bodies[:3]) + (" and others" if len(bay.moving_bodies) > 3 else "")
-    return Lack(what, bay.moving_bodies, covered, f"the {side} behind {named} is covered to {covered:.0%}", view, bay)
+    return MissingPanel(
+        what, bay.moving_bodies, covered, f"the {side} behind {named} is covered to {covered:.0%}", view, bay
+    )
 
 
 def _is_carcass(bay: Bay, unit: float, view: View, config: CarcassConfig) -> bool:
