@@ -5,7 +5,7 @@
 Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.corruption.corrupt`).
 Prints a table in Markdown, the paper's column beside ours, with the half widths of 95 % intervals from resampled
 models; then, of the doors as they were found, how many turn as they should, by what their handles say of the hinge's
-side. With --rule the carpenters' rules are judged instead.
+side. With --rule the rule-based baseline is judged instead.
 """
 
 import argparse

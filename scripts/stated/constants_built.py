@@ -129,7 +129,7 @@ def realization() -> Iterator[Sentence]:
     yield page, "length {} of the body", (BUILT.rail_share,)
     yield page, "Travel: {} of the rail", (TRAVEL,)
     yield page, "| {} % of the side |", (per_cent(BUILT.max_trim),)
-    yield page, "made smaller all round | {} % of its volume |", (per_cent(BUILT.max_carve),)
+    yield page, "shrunk on all sides | {} % of its volume |", (per_cent(BUILT.max_carve),)
     yield page, "cut out of a static part | {} % of its surface or volume |", (per_cent(BUILT.max_carve),)
     yield page, "in how many of {} poses", (ConnectivityConfig().poses,)
     yield "templates.md", "by more than {} % are refused", (per_cent(user._FIT),)

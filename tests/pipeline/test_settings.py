@@ -201,7 +201,7 @@ def test_rejected_additions_are_left_out_and_the_rest_stays(asset):
 
 def test_compartments_get_what_is_chosen_for_each(asset):
     plain = run(asset, BASE)
-    found, _ = compartments_of(plain.fittings.unfurnished)
+    found, _ = compartments_of(plain.fittings.before_interiors)
     behind = next(k for k, c in enumerate(found) if c.behind)
     result = run(asset, BASE.with_compartment(behind, CompartmentChoice(shelves=2, thickness=0.01)))
     shelves = [a.part for a in result.additions if a.part.label is PartLabel.SHELF]

@@ -1,4 +1,4 @@
-"""What the generator returns: furniture as an artist would model it, and its ground truth. It draws nothing at random."""
+"""What the generator returns: furniture as an artist models it, and its ground truth. It draws nothing at random."""
 
 from dataclasses import dataclass
 from functools import cached_property

@@ -133,7 +133,7 @@ _COLUMNS = (
     Column("restricted", "number", about="joints that open less than 70 % of what they should"),
     Column("collision", "percent", histogram=True, about="the worst joint's share of poses that cut into something"),
     Column("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
-    Column("no grasp", "number", about="joints that nobody could take hold of"),
+    Column("no grasp", "number", about="joints that cannot be grasped"),
     Column("added", "number", histogram=True, about="parts that the input did not have, hinges and rails left out"),
     Column("seconds", "seconds", histogram=True, about="from reading to writing"),
 )

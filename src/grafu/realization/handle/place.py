@@ -76,7 +76,7 @@ def add_handles(
         config: style, sizes, places.
         hints: by moving body, where a handle was predicted (object frame): taken where it is clear and sensible.
         own: the user's handle templates by id, see `grafu.templates.user`.
-        reliefs: those of the scene, where somebody has them already.
+        reliefs: those of the scene, if they exist already.
 
     Raises:
         TemplateError: if the config names a style that there is not.
