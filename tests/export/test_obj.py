@@ -80,6 +80,17 @@ def test_names_are_safe_and_apart_on_any_disk(folder):
     assert names == ["Door_1.obj", "door_1_2.obj", "_door_1.obj", "_.obj"]
 
 
+def test_no_file_is_called_as_a_device_of_windows(folder):
+    mesh = board(0, 0, 0, 1, 1, 1)
+    look = Material("nul", base_color_texture=Texture("aux.png", png((1, 0, 0)), "image/png"))
+
+    names = [folder.add_visual(Visual(n, (Surface(mesh, look, uv=np.zeros((8, 2))),)), ORIGIN) for n in ("CON", "con")]
+    names.append(folder.add_mesh("com1", mesh, ORIGIN))
+
+    assert names == ["_CON.obj", "_con_2.obj", "_com1.obj"]
+    assert set(folder.files) == {*names, "_CON.mtl", "_con_2.mtl", "textures/_aux.png"}
+
+
 def test_vertex_colours_are_kept(folder):
     colors = np.tile(np.array([255, 0, 51, 255], np.uint8), (8, 1))
 

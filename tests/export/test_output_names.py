@@ -1,6 +1,7 @@
 """Names of result folders: each can be a folder on every system, stays inside, and differs from all others."""
 
 import os
+import re
 from pathlib import Path, PureWindowsPath
 
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.errors import AssetError
-from grafu.export.output_names import MOST_BYTES, output_name, same_place, why_not_apart
+from grafu.export.output_names import MOST_BYTES, file_safe, output_name, same_place, why_not_apart
 from grafu.export.whole_file import hidden_name
 from grafu.visible import visible
 
@@ -142,3 +143,23 @@ def test_places_are_compared_as_the_disk_knows_them(models: Path, monkeypatch: p
     monkeypatch.setattr(os.path, "samefile", folding)  # a disk on which case does not count
 
     assert why_not_apart(Path("MODELS/CAB"), [Path("models/cab/cab.urdf")])
+
+
+@pytest.mark.parametrize("name", ["CON", "aux", "nul", "Com1", "lpt9", "prn.x", ".con", "-aux", "aux.2", "con."])
+def test_a_file_within_results_is_never_called_as_a_device(name: str) -> None:
+    assert file_safe(name).startswith("_")
+    assert file_safe(name).lower().endswith(name.lower().lstrip(".-"))
+
+
+@given(NAMES)
+def test_every_name_of_a_file_within_results_is_one_on_every_system(name: str) -> None:
+    stem = file_safe(name)
+    assert re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*(~[0-9a-f]{8})?", stem)
+    assert len(stem.encode()) <= MOST_BYTES
+    assert not PureWindowsPath(f"{stem}.obj").is_reserved()
+    assert file_safe(stem) == stem or "~" in stem
+
+
+def test_long_names_within_results_stay_apart() -> None:
+    assert file_safe("x" * 300 + "a") != file_safe("x" * 300 + "b")
+    assert file_safe("console") == "console"

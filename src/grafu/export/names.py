@@ -1,9 +1,8 @@
-"""Names that are unique and safe in files and formats, and numbers as XML attributes hold them.
+"""Names that are unique and fit into formats, and numbers as XML attributes hold them.
 
 Numbers are short, without minus zero or rounding noise. It knows nothing of what they name.
 """
 
-import re
 from collections.abc import Iterable
 from typing import final
 
@@ -37,11 +36,6 @@ class NameBook:
 
     def _key(self, name: str) -> str:
         return name if self._case_counts else name.lower()
-
-
-def file_safe(name: str) -> str:
-    """Returns a name of letters, digits, `_`, `-` and `.` that is no hidden file and never empty."""
-    return re.sub(r"[^A-Za-z0-9_.-]+", "_", name).lstrip(".-") or "unnamed"
 
 
 def printable(name: str) -> str:

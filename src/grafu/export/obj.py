@@ -12,7 +12,8 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.physics import PhysicsModel
-from grafu.export.names import NameBook, file_safe
+from grafu.export.names import NameBook
+from grafu.export.output_names import file_safe
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Indices, Vec3

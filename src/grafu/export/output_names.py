@@ -1,4 +1,4 @@
-"""The one way from an input to the name of its results' folder: a name that every system can hold, or a refusal.
+"""The one way to names of results' folders and of files within: names that every system can hold, or a refusal.
 
 A name that Windows cannot hold is refused on every system: results are passed on. One that is longer than most tools
 and disks bear, or no Unicode, is mended, and ends in `~` and eight digits of its digest: two such names stay apart.
@@ -75,6 +75,16 @@ def output_name(path: Path) -> str:
             f"the results of `{visible(str(path))}` would go to `{visible(name)}`, {why}: rename the input"
         )
     return _mended(name)
+
+
+def file_safe(name: str) -> str:
+    """Returns a name for a file within results, before its ending: letters, digits, `_`, `-` and `.`, on any system.
+
+    It is no hidden file and never empty. One that Windows keeps for a device begins with `_`; one that is too long is
+    cut as those of results are.
+    """
+    plain = re.sub(r"[^A-Za-z0-9_.-]+", "_", name).lstrip(".-") or "unnamed"
+    return _mended(f"_{plain}" if _RESERVED.fullmatch(plain) else plain)
 
 
 def same_place(name: str) -> str:

@@ -3,7 +3,10 @@
 import os
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryFile
+from typing import IO
 
 import pytest
 
@@ -125,6 +128,38 @@ def test_a_blender_that_hangs_is_stopped_and_leaves_nothing(blenders, monkeypatc
     with pytest.raises(ExportError, match="was stopped"):
         export_blend(cabinet)
     assert os.listdir(tmp_path) == ["python"]
+
+
+def opened_files(monkeypatch) -> list[IO[bytes]]:
+    """Returns the temporary files that are opened from now on."""
+    opened: list[IO[bytes]] = []
+
+    def open_one() -> IO[bytes]:
+        opened.append(TemporaryFile())  # noqa: SIM115  # whoever asked for it closes it
+        return opened[-1]
+
+    monkeypatch.setattr(process, "TemporaryFile", open_one)
+    return opened
+
+
+@pytest.mark.parametrize("script", [WRITES, "exit 3"])
+def test_no_file_stays_open_when_blender_has_ended(tmp_path, cabinet, monkeypatch, script):
+    opened = opened_files(monkeypatch)
+    blender = process.BlenderProcess([fake_python(tmp_path, script)])
+    assert not opened  # nor before it has begun
+    for _ in range(2):
+        with suppress(ExportError):
+            blender.write(tmp_path / "x.packed", tmp_path / "model.blend", 30.0)
+        blender.stop()
+    assert len(opened) == 2
+    assert all(file.closed for file in opened)
+
+
+def test_a_blender_that_cannot_be_run_leaves_no_file_open(tmp_path, monkeypatch):
+    opened = opened_files(monkeypatch)
+    with pytest.raises(ExportError, match="cannot run"):
+        process.BlenderProcess([str(tmp_path / "none")]).write(tmp_path / "x", tmp_path / "y", 30.0)
+    assert [file.closed for file in opened] == [True]
 
 
 def test_the_command_writes_a_blender_file(interpreter, tmp_path):

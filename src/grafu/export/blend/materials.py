@@ -6,7 +6,8 @@ import bpy
 
 from grafu.export.blend.layout import COLOR_LAYER, UV_LAYER, fitted_name
 from grafu.export.blend.mesh_arrays import Look
-from grafu.export.names import NameBook, file_safe
+from grafu.export.names import NameBook
+from grafu.export.output_names import file_safe
 from grafu.geometry.appearance import Material, Texture
 
 _ENDING = {"image/png": ".png", "image/jpeg": ".jpg"}

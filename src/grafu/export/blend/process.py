@@ -16,7 +16,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryFile
 from threading import Event, Lock, Timer
-from typing import Any, final
+from typing import IO, Any, final
 
 import numpy as np
 
@@ -74,7 +74,7 @@ class BlenderProcess:
         self._command = command
         self._lock = Lock()
         self._running: subprocess.Popen[bytes] | None = None
-        self._errors = TemporaryFile()  # noqa: SIM115  # it lives as long as this
+        self._errors: IO[bytes] | None = None  # of the one that runs
         self._written = 0
 
     def write(self, source: Path, target: Path, seconds: float) -> None:
@@ -90,10 +90,10 @@ class BlenderProcess:
             if answer == ANSWER and target.is_file():
                 self._written += 1
                 return
-            code = self._end()
+            code, said = self._end()
         if late:
             raise ExportError(f"Blender did not end within {seconds:g} s and was stopped: no model.blend")
-        raise ExportError(f"Blender could not write model.blend (exit {code}): {self._last_words()}")
+        raise ExportError(f"Blender could not write model.blend (exit {code}): {said}")
 
     def stop(self) -> None:
         """Ends the process, if one runs."""
@@ -124,29 +124,30 @@ class BlenderProcess:
         return answer, late.is_set()
 
     def _start(self) -> "subprocess.Popen[bytes]":
-        self._errors.seek(0)
-        self._errors.truncate()
-        pipe = subprocess.PIPE
+        errors, pipe = TemporaryFile(), subprocess.PIPE  # noqa: SIM115  # it is closed when the process has ended
         try:
-            self._running = subprocess.Popen(self._command, stdin=pipe, stdout=pipe, stderr=self._errors)
+            self._running = subprocess.Popen(self._command, stdin=pipe, stdout=pipe, stderr=errors)
         except OSError as error:
+            errors.close()
             raise ExportError(f"cannot run `{self._command[0]}`: {error.strerror}; no model.blend") from error
-        self._written = 0
+        self._written, self._errors = 0, errors
         return self._running
 
-    def _end(self) -> int | None:
-        """Closes the process's input, at which it ends, or else ends it; returns its exit code."""
-        running, self._running = self._running, None
-        if running is None:
-            return None
+    def _end(self) -> tuple[int | None, str]:
+        """Closes the process's input, at which it ends, or else ends it; returns its exit code and last words."""
+        running, errors, self._running, self._errors = self._running, self._errors, None, None
+        if running is None or errors is None:
+            return None, ""
         try:
             running.communicate(timeout=2.0)
         except (subprocess.TimeoutExpired, OSError):
             running.kill()
             running.communicate()
-        return running.returncode
+        with errors:
+            return running.returncode, _last_words(errors)
 
-    def _last_words(self) -> str:
-        self._errors.seek(0)
-        lines = [line.strip() for line in self._errors.read().decode(errors="replace").splitlines() if line.strip()]
-        return lines[-1][-_SAID:] if lines else "it said nothing"
+
+def _last_words(errors: IO[bytes]) -> str:
+    errors.seek(0)
+    lines = [line.strip() for line in errors.read().decode(errors="replace").splitlines() if line.strip()]
+    return lines[-1][-_SAID:] if lines else "it said nothing"

@@ -8,7 +8,8 @@ from typing import Any, final
 
 from pxr import Gf, Sdf, Usd, UsdShade
 
-from grafu.export.names import NameBook, file_safe
+from grafu.export.names import NameBook
+from grafu.export.output_names import file_safe
 from grafu.geometry.appearance import Material, Surface, Texture
 
 
