@@ -5,7 +5,7 @@ from math import degrees
 
 from judge_additions_table import COVERED
 
-from grafu.articulation.dynamics import DynamicsConfig
+from grafu.articulation.physics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.metrics import tops

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import all_before, link_poses
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -60,3 +60,13 @@ def test_poses_stay_rigid(angle, shift):
 def test_an_unknown_joint_is_named():
     with pytest.raises(ArticulationError, match=r"lid_joint.*door_joint"):
         link_poses(CHAIN, {"lid_joint": 1.0})
+
+
+def test_what_waits_for_what_waits() -> None:
+    waits = {"drawer": ("door",), "door": ("flap", "leaf"), "leaf": ()}
+    assert all_before("drawer", waits) == {"door", "flap", "leaf"}
+    assert all_before("flap", waits) == set()
+
+
+def test_a_circle_comes_to_an_end() -> None:
+    assert all_before("a", {"a": {"b"}, "b": {"a"}}) == {"a", "b"}

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.mass import MassConfig, MassProperties, density_of, mass_of_link
-from grafu.articulation.moments import moments_of
+from grafu.articulation.mass import MassConfig, MassProperties, density_of, mass_of_link, moments_of
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis

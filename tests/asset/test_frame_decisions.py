@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 
 from grafu.asset.attached_parts import with_attached
 from grafu.asset.edit import as_static_object, yawed
-from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.frame import decide_front, front_votes, settle_frame, up_from_parts, vector, whole_box
 from grafu.asset.load import load_asset
 from grafu.asset.options import DIRECTIONS, LoadOptions
-from grafu.asset.orientation import decide_front, front_votes, up_from_parts, vector
 from grafu.asset.part import Asset
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.scale import estimate_scale, is_normalised, likely_unit

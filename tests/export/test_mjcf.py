@@ -10,8 +10,7 @@ from PIL import Image
 from small_cabinet import board, make_cabinet, painted_cube, png
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
-from grafu.articulation.kinematics import link_poses
-from grafu.articulation.link_frames import link_origins
+from grafu.articulation.kinematics import link_origins, link_poses
 from grafu.articulation.mass import mass_of_link
 from grafu.articulation.physics import physics_of
 from grafu.export.formats import export

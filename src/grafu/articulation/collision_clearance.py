@@ -11,9 +11,8 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
-from grafu.articulation.collision_shapes import CollisionShape, corners_of, extent_of
+from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
 from grafu.articulation.kinematics import link_poses
-from grafu.articulation.shape_body import ShapeBody
 from grafu.articulation.sweep import values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox

@@ -1,12 +1,44 @@
-"""Joint values in, the motion of every link out. It knows no meshes and does not ask whether a value is allowed."""
+"""Joint values in, the motion of every link out; where each link's own frame stands; which joints wait for others.
 
-from collections.abc import Mapping
+Exporters and simulators need one frame per link. What has to be open before a part may move is asked by values alone.
+It knows no meshes and does not ask whether a value is allowed.
+"""
+
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.errors import ArticulationError
-from grafu.geometry.arrays import Mat4
+from grafu.geometry.arrays import Mat4, Vec3, vec3
+
+
+def all_before(name: str, waits: Mapping[str, Iterable[str]]) -> set[str]:
+    """Returns what a part waits for, what that waits for, and so on; `waits` says what each waits for by itself."""
+    found: set[str] = set()
+    queue = [name]
+    while queue:
+        for before in waits.get(queue.pop(), ()):
+            if before not in found:
+                found.add(before)
+                queue.append(before)
+    return found
+
+
+def joint_origin(articulated: ArticulatedObject, joint: Joint) -> Vec3:
+    """Returns the point of the joint's axis nearest to the middle of its child, metres, object frame at rest."""
+    mesh = articulated.link(joint.child).mesh
+    return joint.axis.closest_point(mesh.box.center) if len(mesh.faces) else joint.axis.point
+
+
+def link_origins(articulated: ArticulatedObject) -> dict[str, Vec3]:
+    """Returns the origin of every link's frame in the object frame at rest: the root's is zero, others' their joint's.
+
+    All link frames are parallel to the object frame at rest.
+    """
+    joints = articulated.joint_of
+    root = {articulated.root: vec3(0.0, 0.0, 0.0)}
+    return root | {link: joint_origin(articulated, joint) for link, joint in joints.items()}
 
 
 def link_poses(articulated: ArticulatedObject, values: Mapping[str, float]) -> dict[str, Mat4]:

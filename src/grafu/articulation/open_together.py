@@ -9,9 +9,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.articulation.collision_shapes import CollisionShape
+from grafu.articulation.collision_shapes import CollisionShape, ShapeBody
 from grafu.articulation.kinematics import link_poses
-from grafu.articulation.shape_body import ShapeBody
 from grafu.articulation.sweep import JointValues, opening_stages
 
 Shapes = Mapping[str, tuple[CollisionShape, ...]]

@@ -1,9 +1,15 @@
-"""The folders in a model's folder that a reader may look into. It opens no file."""
+"""The folders in a model's folder that a reader may look into: none that grafu wrote. It opens no file."""
 
 import os
 from pathlib import Path
+from typing import Final
 
-from grafu.asset.own_results import is_own_result
+MARKER: Final = ".grafu.json"
+
+
+def is_own_result(folder: Path) -> bool:
+    """Whether grafu wrote this folder; readers pass it over where they look for an input around it."""
+    return (folder / MARKER).is_file()
 
 
 def folders_within(folder: Path) -> list[Path]:

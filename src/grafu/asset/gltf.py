@@ -15,7 +15,7 @@ import numpy as np
 from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
-from grafu.asset.json_shapes import JsonObject
+from grafu.asset.json_files import JsonObject
 from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading

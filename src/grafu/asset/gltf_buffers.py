@@ -1,10 +1,12 @@
-"""The glTF document: JSON, buffers, accessors, images as bytes. It knows no nodes and no materials.
+"""The glTF document: chunks of a GLB file, JSON, buffers, accessors, images as bytes. It knows no nodes or materials.
 
-Every size that the file declares is checked against the bytes that are there before memory is taken for it.
+Every size that the file declares is checked against the bytes that are there before memory is taken for it. The reader
+is our own: trimesh's decodes images and drops how textures repeat, and a result must hold both as they were.
 """
 
 import base64
 import binascii
+import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,12 +16,37 @@ from urllib.parse import unquote_to_bytes
 
 import numpy as np
 
-from grafu.asset.gltf_container import chunks_of
-from grafu.asset.json_files import parse_json
-from grafu.asset.json_shapes import JsonObject, object_of
+from grafu.asset.json_files import JsonObject, object_of, parse_json
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Texture
+
+
+def chunks_of(data: bytes, path: Path) -> tuple[memoryview, memoryview | None]:
+    """Returns the JSON text of a GLB and its binary chunk, where it has one; `path` is for messages.
+
+    Raises:
+        UnreadableAsset: if it is truncated, of another version, or has no JSON.
+    """
+    if len(data) < 20:
+        raise UnreadableAsset(f"{path} is truncated ({len(data)} bytes): expected a whole GLB; export it again")
+    _, version, total = struct.unpack_from("<4sII", data)
+    if version != 2:
+        raise UnreadableAsset(f"{path} is GLB version {version}: expected version 2; export it again")
+    if total > len(data):
+        raise UnreadableAsset(f"{path} is truncated: it has {len(data)} of {total} bytes; fetch or export it again")
+    chunks: dict[bytes, memoryview] = {}
+    at = 12
+    while at + 8 <= total:
+        length, kind = struct.unpack_from("<I4s", data, at)
+        if at + 8 + length > total:
+            raise UnreadableAsset(f"{path} is truncated: a chunk reaches beyond the file; fetch or export it again")
+        chunks.setdefault(kind, memoryview(data)[at + 8 : at + 8 + length])
+        at += 8 + length
+    if b"JSON" not in chunks:
+        raise UnreadableAsset(f"{path} has no JSON chunk: expected a whole GLB; export it again")
+    return chunks[b"JSON"], chunks.get(b"BIN\0")
+
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}

@@ -11,8 +11,7 @@ from typing import Any, TypeGuard, final
 
 import numpy as np
 
-from grafu.asset.json_files import read_json
-from grafu.asset.json_shapes import finite
+from grafu.asset.json_files import finite, read_json
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import vec3

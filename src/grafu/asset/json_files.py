@@ -1,16 +1,165 @@
-"""JSON from anybody to plain values: no names that stand twice, no nesting without end, no half characters.
+"""JSON from anybody to plain and typed values: no names that stand twice, no nesting without end, no half characters.
 
-It knows no formats; `json_shapes` reads typed values out of what it returns, and refuses NaN for a number.
+What should be an object, a list or a number is, or one line says that not; NaN is refused for a number. It knows no
+formats: what to say of a damaged file is handed in.
 """
 
 import json
+import math
 import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, final, overload
 
 from grafu.asset.options import Limits
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
+
+Damaged = Callable[[str], UnreadableAsset]
+_EXACT = 2**53  # beyond, whole numbers are not exact in JSON
+
+
+@final
+@dataclass(frozen=True)
+class JsonObject:
+    """A JSON object of a file, and how to say where it stands.
+
+    A value that is null counts as left out. `where` is the path to it (`meshes[2]`), empty for the root; `damaged`
+    makes the error from what is wrong.
+    """
+
+    data: Mapping[str, Any]
+    where: str = field(compare=False)
+    damaged: Damaged = field(compare=False)
+
+    def __contains__(self, key: str) -> bool:
+        return self.data.get(key) is not None
+
+    def get(self, key: str) -> Any:
+        """Returns a value of any kind, None where it is left out."""
+        return self.data.get(key)
+
+    def wrong(self, key: str, expected: str) -> UnreadableAsset:
+        """Returns the error for a value of another kind than expected, to be raised."""
+        return self.damaged(f"`{self._path(key)}` must be {expected}: got {spelled(self.data.get(key))}")
+
+    def member(self, key: str) -> "JsonObject":
+        """Returns the object under a key, an empty one where it is left out.
+
+        Raises:
+            UnreadableAsset: if it is something else.
+        """
+        value = self.data.get(key)
+        if value is not None and not isinstance(value, dict):
+            raise self.wrong(key, "an object")
+        return JsonObject(value or {}, self._path(key), self.damaged)
+
+    def array(self, key: str) -> list[Any]:
+        """Returns the list under a key, an empty one where it is left out.
+
+        Raises:
+            UnreadableAsset: if it is something else.
+        """
+        value = self.data.get(key)
+        if value is not None and not isinstance(value, list):
+            raise self.wrong(key, "a list")
+        return value or []
+
+    def objects(self, key: str) -> "list[JsonObject]":
+        """Returns the objects in the list under a key.
+
+        Raises:
+            UnreadableAsset: if it is something else, or one of them is.
+        """
+        return [
+            object_of(value, f"{self._path(key)}[{index}]", self.damaged) for index, value in enumerate(self.array(key))
+        ]
+
+    def text(self, key: str, default: str = "") -> str:
+        """Returns the string under a key. Raises UnreadableAsset if it is something else."""
+        value = self.data.get(key)
+        if value is not None and not isinstance(value, str):
+            raise self.wrong(key, "text")
+        return default if value is None else value
+
+    @overload
+    def whole(self, key: str, default: int, least: int = ...) -> int: ...
+    @overload
+    def whole(self, key: str, default: None = ..., least: int = ...) -> int | None: ...
+    def whole(self, key: str, default: int | None = None, least: int = 0) -> int | None:
+        """Returns the whole number under a key, `least` or above. Raises UnreadableAsset if it is something else."""
+        value = self.data.get(key)
+        if value is None:
+            return default
+        number = int(value) if isinstance(value, float) and value.is_integer() else value
+        if isinstance(number, bool) or not isinstance(number, int) or not least <= number <= _EXACT:
+            raise self.wrong(key, f"a whole number from {least}")
+        return number
+
+    def number(self, key: str, default: float) -> float:
+        """Returns the finite number under a key. Raises UnreadableAsset if it is something else."""
+        value = self.data.get(key)
+        if value is None:
+            return default
+        found = finite(value)
+        if found is None:
+            raise self.wrong(key, "a finite number")
+        return found
+
+    @overload
+    def numbers(self, key: str, count: int, default: tuple[float, ...]) -> tuple[float, ...]: ...
+    @overload
+    def numbers(self, key: str, count: int, default: None = ...) -> tuple[float, ...] | None: ...
+    def numbers(self, key: str, count: int, default: tuple[float, ...] | None = None) -> tuple[float, ...] | None:
+        """Returns so many finite numbers under a key. Raises UnreadableAsset if it is something else."""
+        value = self.data.get(key)
+        if value is None:
+            return default
+        found = [finite(v) for v in value] if isinstance(value, list) and len(value) == count else [None]
+        if None in found:
+            raise self.wrong(key, f"{count} finite numbers")
+        return tuple(v for v in found if v is not None)
+
+    def indices(self, key: str) -> list[int]:
+        """Returns the list of whole numbers from 0 under a key. Raises UnreadableAsset if it is something else."""
+        values = self.array(key)
+        if not all(isinstance(v, int) and not isinstance(v, bool) and 0 <= v <= _EXACT for v in values):
+            raise self.wrong(key, "a list of whole numbers from 0")
+        return values
+
+    def _path(self, key: str) -> str:
+        return f"{self.where}.{key}" if self.where else key
+
+
+def object_of(value: Any, where: str, damaged: Damaged) -> JsonObject:
+    """Returns a JSON value that must be an object. Raises UnreadableAsset if it is something else."""
+    if not isinstance(value, dict):
+        raise damaged(f"{f'`{where}`' if where else 'it'} must be an object: got {spelled(value)}")
+    return JsonObject(value, where, damaged)
+
+
+def finite(value: Any) -> float | None:
+    """Returns a JSON number as a float, None where it is no number, or one that no float can hold."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def spelled(value: Any) -> str:
+    """Returns a JSON value in a few words, for a message."""
+    if isinstance(value, dict | list):
+        kind = "an object" if isinstance(value, dict) else "a list"
+        return f"{kind} of {len(value)}"
+    if value is None:
+        return "nothing"
+    text = repr(value) if not isinstance(value, int) or abs(value) < 10**30 else "a number of many digits"
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
 
 _LIMITS = Limits()
 _HALVES = re.compile("[\ud800-\udfff]")

@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from grafu.asset.clean import cleaned
 from grafu.asset.folder import divide, mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.folders import files_below
 from grafu.asset.frame import settle_frame, whole_box
@@ -21,9 +20,8 @@ from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
 from grafu.asset.pieces import with_joined_pieces
-from grafu.asset.placing import Placing
 from grafu.asset.plausibility import with_plausible_labels
-from grafu.asset.reading import Reading
+from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.asset.regular_files import read_head
 from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf import read_urdf

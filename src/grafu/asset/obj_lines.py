@@ -6,7 +6,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.tally import Tally
+from grafu.asset.options import Tally
 
 OTHER, VERTEX, TEXTURE, NORMAL, FACE, STATE = range(6)
 _SPACE, _BREAK = 32, 10

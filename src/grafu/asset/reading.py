@@ -1,9 +1,74 @@
-"""What a reader hands on: parts as the input has them, before the frame is settled. It decides nothing."""
+"""What a reader hands on: parts as the input has them, before the frame is settled. It decides nothing.
 
-from dataclasses import dataclass
+A mesh file holds named pieces with surfaces. Faces without area and parts without faces are dropped, and said so; no
+shape is changed. At last parts and annotation are mapped to the object frame.
+"""
+
+from dataclasses import dataclass, replace
 from typing import Literal, final
 
-from grafu.asset.part import Annotation, AssetKind, Part
+import numpy as np
+
+from grafu.asset.attached_parts import with_attached
+from grafu.asset.part import AnnotatedJoint, Annotation, AssetKind, Frame, Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Mask
+from grafu.geometry.mesh import TriangleMesh
+from grafu.vocabulary import JointType
+
+
+@final
+@dataclass(frozen=True)
+class MeshPiece:
+    """A named piece of a mesh file; the name is empty where the file gives none."""
+
+    name: str
+    surfaces: tuple[Surface, ...]
+
+
+@final
+@dataclass(frozen=True)
+class MeshFile:
+    """The pieces of a mesh file, in order, and notes on what was left out."""
+
+    pieces: tuple[MeshPiece, ...]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """All surfaces of all pieces."""
+        return tuple(s for piece in self.pieces for s in piece.surfaces)
+
+
+class Placing:
+    """Maps what was read by one frame; a mesh that parts and annotation share is mapped once, and shared again."""
+
+    def __init__(self, frame: Frame) -> None:
+        self._frame = frame
+        self._T = np.asarray(frame.input_to_output)
+        self._made: dict[tuple[int, int], tuple[Surface, Surface]] = {}  # by ids, with what they are the ids of
+
+    def parts(self, parts: tuple[Part, ...]) -> tuple[Part, ...]:
+        """Returns parts in the object frame, handles riding on what they touch where nothing says on what."""
+        placed = (replace(part, surfaces=tuple(map(self._surface, part.surfaces))) for part in parts)
+        return with_attached(tuple(placed))
+
+    def annotation(self, annotation: Annotation) -> Annotation:
+        """Returns an annotation in the object frame, slides in metres."""
+        joints = tuple(map(self._joint, annotation.joints))
+        return replace(annotation, parts=self.parts(annotation.parts), joints=joints)
+
+    def _surface(self, surface: Surface) -> Surface:
+        key = id(surface.mesh), id(surface.material)
+        if key not in self._made:
+            self._made[key] = surface, surface.transformed(self._T)
+        return replace(self._made[key][1], name=surface.name)
+
+    def _joint(self, joint: AnnotatedJoint) -> AnnotatedJoint:
+        axis = joint.axis.transformed(self._T, rotational=joint.type is JointType.REVOLUTE)
+        metres = self._frame.scale if joint.type is JointType.PRISMATIC else 1.0
+        return replace(joint, axis=axis, lower=joint.lower * metres, upper=joint.upper * metres)
+
 
 Furniture = Literal["storage", "table"]
 
@@ -41,3 +106,61 @@ class Reading:
     furniture: Furniture | None = None
     notes: tuple[str, ...] = ()
     grouped: bool = False
+
+
+# A triangle is degenerate where its height is below this share of its longest side.
+_FLATNESS = 1e-9
+
+
+def cleaned(reading: Reading) -> Reading:
+    """Returns the reading without degenerate faces, and without parts (and their joints) that have no face left."""
+    parts, notes = _cleaned(reading.parts)
+    annotation = reading.annotation and _cleaned_annotation(reading.annotation)
+    return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, *notes))
+
+
+def _cleaned_annotation(annotation: Annotation) -> Annotation:
+    parts, _ = _cleaned(annotation.parts)
+    known = {part.id for part in parts}
+    joints = tuple(joint for joint in annotation.joints if joint.part in known)
+    return replace(annotation, parts=parts, joints=joints)
+
+
+def _cleaned(given: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:
+    """Returns the parts that keep a face, and in words what was dropped."""
+    parts: list[Part] = []
+    dropped_faces, mended, empty = 0, 0, []
+    for part in given:
+        surfaces, dropped = _without_degenerate(part.surfaces)
+        dropped_faces += dropped
+        mended += dropped > 0
+        if surfaces:
+            parts.append(replace(part, surfaces=surfaces) if dropped else part)
+        else:
+            empty.append(part)
+    notes = [f"dropped {dropped_faces:,} faces without area in {mended} parts"] if dropped_faces else []
+    notes += [f"part {part.source.name!r} has no faces and was left out" for part in empty]
+    gone = {part.id for part in empty}
+    return tuple(replace(p, rides_on=None) if p.rides_on in gone else p for p in parts), notes
+
+
+def _without_degenerate(surfaces: tuple[Surface, ...]) -> tuple[tuple[Surface, ...], int]:
+    kept, dropped = [], 0
+    for surface in surfaces:
+        good = has_area(surface.mesh)
+        if good.all():
+            kept.append(surface)
+            continue
+        dropped += int((~good).sum())
+        mesh = TriangleMesh(surface.mesh.vertices, surface.mesh.faces[good])
+        kept.append(replace(surface, mesh=mesh))
+    return tuple(s for s in kept if not s.is_empty), dropped
+
+
+def has_area(mesh: TriangleMesh) -> Mask:
+    """Returns for each face whether it is a triangle rather than a line or a point."""
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    ab, ac, bc = b - a, c - a, c - b
+    twice_area = np.linalg.norm(np.cross(ab, ac), axis=1)
+    longest = np.maximum.reduce([(e * e).sum(axis=1) for e in (ab, ac, bc)])
+    return twice_area > _FLATNESS * np.maximum(longest, 1e-300)

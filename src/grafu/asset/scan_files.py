@@ -1,20 +1,71 @@
-"""PLY and STL files to surfaces, by trimesh. It knows no materials and no groups."""
+"""Files that other people's libraries read: PLY and STL to surfaces by trimesh, NumPy's arrays; and their guard.
+
+Whatever such a reader raises, the file is damaged. The guard stands around the library's call alone: around our own
+code it would hide our own faults. Of arrays nothing is unpickled, and no memory is taken that the file does not hold.
+It knows no materials and no groups.
+"""
 
 import io
 import logging
+import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from grafu.asset.damage import library_call
-from grafu.asset.mesh_pieces import MeshFile, MeshPiece
+from grafu.asset.options import Tally
+from grafu.asset.reading import MeshFile, MeshPiece
 from grafu.asset.resources import ModelFiles
-from grafu.asset.tally import Tally
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.mesh import TriangleMesh
+
+
+@contextmanager
+def library_call(where: object, expected: str) -> Iterator[None]:
+    """Turns any exception of a library inside the block into one clear line; NumPy warns of no number in it.
+
+    Args:
+        where: the file, for the message.
+        expected: what it should have been, in words.
+
+    Raises:
+        UnreadableAsset: where the library raised anything but an interruption or want of memory.
+    """
+    try:
+        with np.errstate(all="ignore"):  # numbers that damage made huge, or none
+            yield
+    except MemoryError:
+        raise
+    except Exception:
+        raise UnreadableAsset(f"{where} is damaged or of another kind: expected {expected}") from None
+
+
+_HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+
+
+def array_from(data: bytes) -> np.ndarray:
+    """Returns the array in the bytes of a `.npy` file; it cannot be written to.
+
+    Raises:
+        ValueError: if they are no such file, hold objects, or another array than the header says; NumPy raises other
+            exceptions for headers that are no Python.
+    """
+    stream = io.BytesIO(data)
+    version = np.lib.format.read_magic(stream)
+    if version not in _HEADERS:
+        raise ValueError(f"it is of another kind of array file: {version}")
+    shape, fortran, dtype = _HEADERS[version](stream)
+    size = math.prod(shape) * dtype.itemsize
+    if dtype.hasobject or min(shape, default=0) < 0 or size != len(data) - stream.tell():
+        raise ValueError("it holds another array than it says")
+    if not size:
+        return np.zeros(shape, dtype)
+    return np.frombuffer(data, dtype, offset=stream.tell()).reshape(shape, order="F" if fortran else "C")
+
 
 _LARGEST = 1e15  # of a coordinate: squares and products of such stay finite
 _UNHEARD = logging.NullHandler()

@@ -14,13 +14,12 @@ import numpy as np
 
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
-from grafu.asset.json_shapes import spelled
+from grafu.asset.json_files import spelled
 from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
-from grafu.asset.urdf_shapes import ShapeReader
-from grafu.asset.xml_files import read_xml
+from grafu.asset.urdf_shapes import ShapeReader, read_xml
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis

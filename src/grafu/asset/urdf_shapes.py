@@ -1,19 +1,94 @@
-"""The shapes of URDF visuals: mesh files, boxes, cylinders, spheres, with their materials. It knows no joints."""
+"""The shapes of URDF visuals: mesh files, boxes, cylinders, spheres, with their materials; and where their names lead.
+
+XML is read with care: no entities, no network, no document types, no endless nesting. Names are relative paths, or lie
+in ROS packages (`package://NAME/meshes/door.obj`). A package is a folder with a `package.xml` at most four levels above
+the URDF, or the folder that the user gave. Where neither is known and the URDF lies in a folder called `urdf` or
+`robots`, its package is the folder above, and of that only the folders that packages keep meshes and images in. It
+knows no joints.
+"""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
+from lxml import etree
 
 from grafu.asset.gltf import read_surfaces
-from grafu.asset.json_shapes import spelled
+from grafu.asset.json_files import spelled
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
-from grafu.asset.packages import find_in_package, package_files
-from grafu.asset.resources import ModelFiles
+from grafu.asset.resources import MISSING, OUTSIDE, ModelFiles, Sought
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.mesh import TriangleMesh
+
+
+def read_xml(path: Path, files: ModelFiles) -> Any:
+    """Returns the root element of an XML file of a model.
+
+    Raises:
+        UnreadableAsset: if the file is missing, not XML, nested more than 255 elements deep, or declares a document
+            type: its entities are a known way to exhaust memory and to read other files.
+        AssetTooLarge: if it is larger than the limits allow.
+    """
+    data = files.read(path)
+    files.limits.require("values", data.count(b"<") + data.count(b"="), path)
+    # libxml2's own limits hold as long as `huge_tree` is not asked for: depth, length of texts, growth by entities
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True)
+    try:
+        root = etree.fromstring(data, parser)
+    except (etree.XMLSyntaxError, ValueError, LookupError) as error:  # text beside an encoding it does not have
+        reason = (str(error).splitlines() or [""])[0]
+        raise UnreadableAsset(f"{path} is not readable XML ({reason}): expected a URDF") from None
+    if root.getroottree().docinfo.internalDTD is not None:
+        raise UnreadableAsset(
+            f"{path} declares a document type or XML entities, which are refused: expected plain URDF"
+        )
+    return root
+
+
+_LEVELS = 4
+_URDF_FOLDERS = frozenset({"urdf", "robots"})
+_BESIDE = ("meshes", "mesh", "visual", "textures", "materials", "images", "media")
+
+
+def package_files(urdf: Path, files: ModelFiles) -> ModelFiles:
+    """Returns the files of a model that may also be read from the package around its URDF."""
+    package = _package(urdf)
+    if package is not None:
+        return files.with_roots(package)
+    folder = urdf.absolute().parent
+    if folder.name.lower() not in _URDF_FOLDERS:
+        return files
+    return files.with_roots(*(folder.parent / name for name in _BESIDE))
+
+
+def find_in_package(name: str, urdf: Path, files: ModelFiles) -> Sought:
+    """Returns the file that a URDF means by a name, or in words why there is none; see the module."""
+    _, scheme, rest = name.rpartition("://")
+    if not scheme:
+        return files.seek(name, urdf.parent)
+    tails = [tail for tail in dict.fromkeys((rest.lstrip("/"), rest.partition("/")[2].lstrip("/"))) if tail]
+    if name.lower().startswith("file:"):
+        tails.insert(0, f"/{rest.lstrip('/')}")
+    tried = [files.seek(tail, folder) for tail in tails for folder in _bases(urdf, files)]
+    found = next((sought for sought in tried if sought.path is not None), None)
+    # that a name leads out at one of several places says nothing while it leads nowhere at the others
+    return found or Sought(None, OUTSIDE if tried and all(s.why == OUTSIDE for s in tried) else MISSING)
+
+
+def _bases(urdf: Path, files: ModelFiles) -> list[Path]:
+    folder = urdf.absolute().parent
+    above = [p for p in folder.parents if files.holds(p)][:_LEVELS]
+    package = _package(urdf)
+    beside = [folder.parent] if folder.name.lower() in _URDF_FOLDERS else []
+    return list(dict.fromkeys([folder, *above, *([package] if package else []), *beside]))
+
+
+def _package(urdf: Path) -> Path | None:
+    folder = urdf.absolute().parent
+    return next((p for p in (folder, *folder.parents)[:_LEVELS] if (p / "package.xml").is_file()), None)
+
 
 _LARGEST = 1e9  # of a shape's size: squares and products of such stay finite
 

@@ -17,7 +17,7 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 import numpy as np
 
-from grafu.asset.array_files import array_from
+from grafu.asset.scan_files import array_from
 from grafu.data.shards_arrays import ABSENT, DEFECT_KINDS
 from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.export.whole_file import whole_file

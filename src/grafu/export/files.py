@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import final
 
-from grafu.asset.own_results import MARKER
+from grafu.asset.folders import MARKER
 from grafu.errors import ExportError
 from grafu.export.marker import Marker, read_marker
 from grafu.export.output_names import same_place

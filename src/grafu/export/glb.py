@@ -13,7 +13,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
-from grafu.articulation.link_frames import link_origins
+from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles

@@ -13,7 +13,7 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Final
 
-from grafu.asset.own_results import MARKER
+from grafu.asset.folders import MARKER
 from grafu.errors import AssetError
 from grafu.export.whole_file import is_hidden_name
 from grafu.visible import visible

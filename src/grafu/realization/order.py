@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-from grafu.articulation.waiting import all_before
+from grafu.articulation.kinematics import all_before
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.intersection import MeshCollider, SweptBody

@@ -142,7 +142,7 @@ def _material_table(materials: list[Material]) -> np.ndarray:
 def _decode(texture: Texture) -> np.ndarray:
     """Returns an image as linear RGBA in 0..1, at most `_TEXTURE_LIMIT` pixels a side; one that is broken is grey.
 
-    Readers let no broken image in (`asset/textures.py`); who makes an object by hand may.
+    Readers let no broken image in (`asset/resources.py`); who makes an object by hand may.
     """
     try:
         with Image.open(BytesIO(texture.data)) as image:

@@ -4,7 +4,6 @@ from functools import cache
 from math import radians
 
 from grafu.templates import leaves
-from grafu.templates import leaves as pins
 from grafu.templates.hinges import HingeStyle, hinge_model
 from grafu.templates.rails import CENTRE_STYLE, CORNER_STYLE, rail_model
 from grafu.templates.solids import BLACK, BRASS, BRONZE, NICKEL, STEEL
@@ -12,10 +11,10 @@ from grafu.templates.template import Gallery, HingeModel, HingeSize, RailModel, 
 from grafu.vocabulary import MechanismClass
 
 _C, _F, _P = MechanismClass.C, MechanismClass.F, MechanismClass.P
-_BUTT = HingeStyle(_C, radians(110), STEEL, leaves.plain, leaves.plain, leaves.screws_in_column, pins.FLAT_HEAD)
-_BALL = HingeStyle(_C, radians(110), BRASS, leaves.rounded, leaves.rounded, leaves.screws_in_column, pins.BALL_TIP)
+_BUTT = HingeStyle(_C, radians(110), STEEL, leaves.plain, leaves.plain, leaves.screws_in_column, leaves.FLAT_HEAD)
+_BALL = HingeStyle(_C, radians(110), BRASS, leaves.rounded, leaves.rounded, leaves.screws_in_column, leaves.BALL_TIP)
 _LIFT = HingeStyle(
-    _C, radians(105), BLACK, leaves.square, leaves.square, leaves.screws_in_column, pins.ACORN, knuckles=2
+    _C, radians(105), BLACK, leaves.square, leaves.square, leaves.screws_in_column, leaves.ACORN, knuckles=2
 )
 _PIANO = HingeStyle(
     _C,
@@ -24,23 +23,23 @@ _PIANO = HingeStyle(
     leaves.square,
     leaves.square,
     leaves.screws_every(0.1),
-    pins.PLAIN,
+    leaves.PLAIN,
     pitch=0.04,
     segments=10,
 )
-_FLUSH = HingeStyle(_F, radians(170), STEEL, leaves.rounded, leaves.rounded, leaves.screws_wide, pins.FLAT_HEAD)
+_FLUSH = HingeStyle(_F, radians(170), STEEL, leaves.rounded, leaves.rounded, leaves.screws_wide, leaves.FLAT_HEAD)
 _BUTTERFLY = HingeStyle(
-    _F, radians(165), BRASS, leaves.butterfly, leaves.butterfly, leaves.screws_wide, pins.PLAIN, 0.52, 3
+    _F, radians(165), BRASS, leaves.butterfly, leaves.butterfly, leaves.screws_wide, leaves.PLAIN, 0.52, 3
 )
 _H = HingeStyle(
-    _F, radians(165), BLACK, leaves.h_shape, leaves.h_shape, leaves.screws_on_upright, pins.FLAT_HEAD, 0.4, 3
+    _F, radians(165), BLACK, leaves.h_shape, leaves.h_shape, leaves.screws_on_upright, leaves.FLAT_HEAD, 0.4, 3
 )
 _STRAP = HingeStyle(
-    _F, radians(160), BLACK, leaves.strap, leaves.strap, leaves.screws_along, pins.FLAT_HEAD, knuckles=3
+    _F, radians(160), BLACK, leaves.strap, leaves.strap, leaves.screws_along, leaves.FLAT_HEAD, knuckles=3
 )
-_ANGLE = HingeStyle(_P, radians(100), STEEL, leaves.plain, leaves.plain, leaves.screws_wide, pins.FLAT_HEAD)
+_ANGLE = HingeStyle(_P, radians(100), STEEL, leaves.plain, leaves.plain, leaves.screws_wide, leaves.FLAT_HEAD)
 _CORNER = HingeStyle(
-    _P, radians(100), BRONZE, leaves.scalloped, leaves.scalloped, leaves.screws_in_triangle, pins.BALL_TIP
+    _P, radians(100), BRONZE, leaves.scalloped, leaves.scalloped, leaves.screws_in_triangle, leaves.BALL_TIP
 )
 _ROUND = HingeStyle(
     _P,
@@ -49,7 +48,7 @@ _ROUND = HingeStyle(
     leaves.quarter_round,
     leaves.quarter_round,
     leaves.screws_in_triangle,
-    pins.FLAT_HEAD,
+    leaves.FLAT_HEAD,
     0.9,
     3,
 )

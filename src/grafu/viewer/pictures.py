@@ -15,9 +15,9 @@ import numpy as np
 from PIL import Image
 
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
-from grafu.asset.damage import library_call
 from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset
+from grafu.asset.scan_files import library_call
 from grafu.geometry.appearance import Texture
 from grafu.render.camera import three_quarter_view
 from grafu.render.exposure import PictureStyle

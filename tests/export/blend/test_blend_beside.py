@@ -10,8 +10,7 @@ from blend_probe import probe
 from blend_reading import assert_posed
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.articulation.kinematics import link_poses
-from grafu.articulation.link_frames import link_origins
+from grafu.articulation.kinematics import link_origins, link_poses
 from grafu.export.blend.process import packed
 
 

@@ -13,13 +13,11 @@ from typing import Final
 
 import numpy as np
 
-from grafu.asset.array_files import array_from
-from grafu.asset.damage import library_call
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart, JointFrame
-from grafu.asset.obj_parser import parse_obj
+from grafu.asset.obj_parser import parse_obj, triangulate
 from grafu.asset.options import LoadOptions
 from grafu.asset.resources import ModelFiles
-from grafu.asset.triangulate import triangulate
+from grafu.asset.scan_files import array_from, library_call
 from grafu.errors import AssetError, UnreadableAsset
 from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3
 from grafu.geometry.axis import Axis

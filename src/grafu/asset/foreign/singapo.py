@@ -12,8 +12,7 @@ from typing import Any, Final
 import numpy as np
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
-from grafu.asset.json_files import read_json
-from grafu.asset.json_shapes import finite, spelled
+from grafu.asset.json_files import finite, read_json, spelled
 from grafu.asset.labels import label_of
 from grafu.asset.mesh_files import read_mesh_file
 from grafu.asset.options import LoadOptions

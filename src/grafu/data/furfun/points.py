@@ -11,12 +11,9 @@ from typing import Any, final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.asset.array_files import array_from
-from grafu.asset.damage import library_call
-from grafu.asset.options import Limits
+from grafu.asset.options import Limits, Tally
 from grafu.asset.resources import ModelFiles
-from grafu.asset.scan_files import check_declared
-from grafu.asset.tally import Tally
+from grafu.asset.scan_files import array_from, check_declared, library_call
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
-from grafu.articulation.link_frames import link_origins
+from grafu.articulation.kinematics import link_origins
 from grafu.export.blend.joints import describe_joint, drive_link, key_joint, turn_to_axis
 from grafu.export.blend.layout import (
     COLLECTION_OF_ROLE,

@@ -12,9 +12,8 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
-from grafu.articulation.dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
-from grafu.articulation.physics import physics_of
+from grafu.articulation.physics import JointDynamics, physics_of
 from grafu.export.usd.config import UsdConfig
 from grafu.export.usd.looks import Siblings, UsdLooks, identifier
 from grafu.export.usd.meshes import add_collision, add_surface, quaternion

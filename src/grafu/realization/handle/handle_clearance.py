@@ -6,7 +6,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.articulation.waiting import all_before
+from grafu.articulation.kinematics import all_before
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh

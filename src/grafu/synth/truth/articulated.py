@@ -6,7 +6,7 @@ It moves nothing and draws nothing: the joints are those that the asset states.
 from collections.abc import Mapping
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
-from grafu.articulation.waiting import all_before
+from grafu.articulation.kinematics import all_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.synth.truth.clashes import Clashes, clashes_of
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from grafu.asset.array_files import array_from
+from grafu.asset.scan_files import array_from
 
 
 def stored(array: np.ndarray, version: tuple[int, int] | None = None) -> bytes:

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link
-from grafu.articulation.dynamics import joint_dynamics
 from grafu.articulation.mass import MassProperties
+from grafu.articulation.physics import joint_dynamics
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.vocabulary import JointType
