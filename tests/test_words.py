@@ -18,6 +18,7 @@ RETIRED = {
     r"(?i)(?<![a-z])movers?(?![a-z])": "moving body",
     r"(?i)(?<![a-z])riders?(?![a-z])": "attached part",
     r"\bWay\b|\bscene\.ways\b|\bmotion_about\b|\bway_box\b": "joint motion, path",
+    r"(?i)(?<![a-z])lessons?(?![a-z])|syllabus|\bDealConfig\b|\bstream_hands\b": "sample, sampler, batch",
     r"\bMoves\.NOT\b|--move \S+=not\b": "fixed",
     r"\bLack\b|\blacks_of\b": "missing panel",
     r"(?i)unfurnished|\bFreedom\b|freedom_of": "before interiors, cut-outs",

@@ -1,4 +1,4 @@
-"""What pairs of boxes have to do with each other, against numbers worked out by hand."""
+"""What pairs of boxes have to do with each other, against numbers worked out by batch."""
 
 import pytest
 import torch

@@ -9,7 +9,7 @@ from grafu.completion.features import mirrored as mirrored_features
 from grafu.data.pair import GraphPair
 from grafu.graph.edit import as_contacts, without_nodes
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
-from grafu.training.lesson import Lesson, make_lesson
+from grafu.training.sample import Sample, make_sample
 from grafu.training.targets import ROW_STEP, SLOT_STEP, stepped
 from small_graphs import cabinet
 
@@ -22,11 +22,11 @@ def pair_without(*ids: str) -> GraphPair:
 
 
 PAIRS = [pair_without(), pair_without("knob_1"), pair_without("left")]
-LESSON: Lesson = make_lesson(PAIRS, FEATURES)
+SAMPLE: Sample = make_sample(PAIRS, FEATURES)
 
 
 def shown(across: int | None = None, shares_shifted: bool = False) -> TrainingBatch:
-    return stack_showings([Showing(LESSON, LESSON.copies, across)], shares_shifted)
+    return stack_showings([Showing(SAMPLE, SAMPLE.copies, across)], shares_shifted)
 
 
 @pytest.mark.parametrize("across", [None, 0, 1])
@@ -45,7 +45,7 @@ def test_each_graph_is_what_the_network_sees_alone(across: int | None) -> None:
 
 
 def test_copies_with_one_frame_share_rows_of_points() -> None:
-    twice = stack_showings([Showing(LESSON, [LESSON.copies[0], LESSON.copies[0]])], False)
+    twice = stack_showings([Showing(SAMPLE, [SAMPLE.copies[0], SAMPLE.copies[0]])], False)
     assert rows_of(twice) == len(TARGET.nodes)
     assert rows_of(shown(shares_shifted=True)) <= rows_of(shown())
 

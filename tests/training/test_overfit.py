@@ -31,23 +31,23 @@ def seen(features: GraphFeatures) -> GraphBatch:
     return one_graph(*(torch.from_numpy(getattr(features, name).copy()) for name in names))
 
 
-def lesson(truth: FunctionalGraph, missing: list[str]) -> tuple[GraphBatch, GraphTargets]:
+def sample(truth: FunctionalGraph, missing: list[str]) -> tuple[GraphBatch, GraphTargets]:
     given = without_nodes(as_contacts(truth), missing)
     features = graph_features(given, POINTS)
     wanted = graph_targets(truth, [n.id for n in given.nodes], features.origin, features.scale)
     return seen(features), wanted
 
 
-def two_lessons() -> tuple[GraphBatch, TargetBatch]:
+def two_samples() -> tuple[GraphBatch, TargetBatch]:
     """A cabinet that lacks a knob, and the mirror image of a part of it that lacks nothing."""
     small = without_nodes(mirrored(cabinet(), 0), ["drawer_2", "knob_4", "back"])
-    batches, targets = zip(lesson(cabinet(), ["knob_2"]), lesson(small, []), strict=True)
+    batches, targets = zip(sample(cabinet(), ["knob_2"]), sample(small, []), strict=True)
     return join_batches(batches), stack_targets(targets)
 
 
 def learnt(config: LossConfig, steps: int) -> tuple[Predictions, list[float]]:
     torch.manual_seed(0)
-    batch, targets = two_lessons()
+    batch, targets = two_samples()
     network = GraFu(TINY)
     optimiser = torch.optim.AdamW(network.parameters(), lr=3e-3, weight_decay=0.0)
     schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimiser, steps)
@@ -67,7 +67,7 @@ def test_two_graphs_are_learnt_by_heart() -> None:
     answers, losses = learnt(LossConfig(), steps=100)
     assert losses[0] > 10
     assert losses[-1] < 0.05
-    figures = total_accuracy(batch_accuracy(answers, two_lessons()[1])).by_name()
+    figures = total_accuracy(batch_accuracy(answers, two_samples()[1])).by_name()
     lengths = {name: figures.pop(name) for name in ("centre", "half", "added_centre")}
     assert {name: value for name, value in figures.items() if value != 1.0} == {}
     assert max(lengths.values()) < 0.02

@@ -1,4 +1,4 @@
-"""The losses of single slots, against values worked out by hand."""
+"""The losses of single slots, against values worked out by batch."""
 
 from dataclasses import replace
 from math import exp, log, sqrt

@@ -21,8 +21,8 @@ from grafu.data.corruption.corrupt import VARIANTS
 from grafu.data.pair import GraphPair
 from grafu.metrics.graph_accuracy import GraphAccuracy
 from grafu.training.config import TrainingConfig
-from grafu.training.lesson import CopyMix
 from grafu.training.loss_config import HOLD_OUTS, OFFICIAL, PAPER, LossConfig, held_out
+from grafu.training.sample import CopyMix
 from grafu.training.source import FurFunSource, Source
 
 AblationKind = Literal["losses", "folds"]

@@ -4,7 +4,7 @@ OUT/<experiment>/seed_<S>/               the files of the run, see `grafu.traini
 OUT/<experiment>/seed_<S>/figures.json   what its best weights reach in validation; there once it is finished
 
 Several at once, each in a process of its own, are faster than one after another. A process that dies takes no other
-with it. Being asked to stop ends all after the step at hand, with everything saved.
+with it. Being asked to stop ends all after the current step, with everything saved.
 """
 
 import json

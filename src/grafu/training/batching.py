@@ -1,4 +1,4 @@
-"""Lessons as padded batches: what is seen, and the answers. Copies of one model share rows of points.
+"""Samples as padded batches: what is seen, and the answers. Copies of one model share rows of points.
 
 The batches of a run are a function of its source, its config and the batch's number alone.
 """
@@ -14,7 +14,7 @@ import torch
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
 from grafu.training.config import TrainingConfig
-from grafu.training.lesson import Copy, Hand, Lesson, Syllabus, stream_hands
+from grafu.training.sample import Copy, Sample, SampleBatch, Sampler, stream_samples
 from grafu.training.source import Source
 from grafu.training.targets import ROW_STEP, SLOT_STEP, TargetBatch, mirrored_targets, padded, stack_targets, stepped
 
@@ -39,9 +39,9 @@ class TrainingBatch:
 @final
 @dataclass(frozen=True)
 class Showing:
-    """Some copies of one lesson, all as they are, or all as their mirror images across axis `across` (0: X, 1: Y)."""
+    """Some copies of one sample, all as they are, or all as their mirror images across axis `across` (0: X, 1: Y)."""
 
-    lesson: Lesson
+    sample: Sample
     copies: Sequence[Copy]
     across: int | None = None
 
@@ -112,25 +112,25 @@ def _in_frame(showing: Showing, rows: np.ndarray, copy: Copy) -> tuple[np.ndarra
         signs[showing.across] = -1.0
     stretch = (signs * copy.stretch).astype(np.float32)
     shift = (signs * copy.shift).astype(np.float32)
-    return showing.lesson.anchors[rows] * stretch + shift, showing.lesson.groups[rows] * stretch
+    return showing.sample.anchors[rows] * stretch + shift, showing.sample.groups[rows] * stretch
 
 
 def stream_batches(
     source: Source, config: TrainingConfig, start: int = 0, jobs: int = 1, part: tuple[int, int] = (0, 1)
 ) -> Generator[TrainingBatch, None, None]:
-    """Yields the batches from number `start` on, without end; `jobs` as in `stream_hands`, `part` as in `Syllabus`."""
-    syllabus = Syllabus(source, config.mix, config.features, config.seed, part)
-    with closing(stream_hands(syllabus, config.deal, start, jobs)) as hands:
-        for number, hand in enumerate(hands, start=start):
+    """Yields batches from number `start` on, endlessly; `jobs` as in `stream_samples`, `part` as in Sampler."""
+    sampler = Sampler(source, config.mix, config.features, config.seed, part)
+    with closing(stream_samples(sampler, config.deal, start, jobs)) as batches:
+        for number, batch in enumerate(batches, start=start):
             rng = np.random.default_rng([config.seed, number, *part])
-            yield stack_showings(_shown(hand, config, rng), config.network.points_frame == "part")
+            yield stack_showings(_shown(batch, config, rng), config.network.points_frame == "part")
 
 
-def _shown(hand: Hand, config: TrainingConfig, rng: np.random.Generator) -> list[Showing]:
+def _shown(batch: SampleBatch, config: TrainingConfig, rng: np.random.Generator) -> list[Showing]:
     """Returns what is shown of each model this time: the copies of this visit, perhaps mirrored."""
     count = config.deal.copies
     showings = []
-    for lesson, visit in hand:
+    for sample, visit in batch:
         across = int(rng.choice(config.mirror_axes)) if rng.random() < config.mirror else None
-        showings.append(Showing(lesson, lesson.copies[visit * count : (visit + 1) * count], across))
+        showings.append(Showing(sample, sample.copies[visit * count : (visit + 1) * count], across))
     return showings

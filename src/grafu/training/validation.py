@@ -19,8 +19,8 @@ from grafu.network.batch import Predictions
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
-from grafu.training.lesson import Lesson, make_lesson
 from grafu.training.loss_config import LossConfig
+from grafu.training.sample import Sample, make_sample
 from grafu.training.source import RESERVED_SEEDS, VALIDATION_SEED, FurFunSource, Source, SynthSource
 from grafu.training.targets import TargetBatch
 
@@ -118,12 +118,12 @@ def validation_batches(source: Source, config: TrainingConfig) -> list[TrainingB
     count = config.validation.models
     if isinstance(source, FurFunSource):
         count = min(count, len(source.models))
-    lessons = [_lesson(source, number, config) for number in range(count)]
-    lessons.sort(key=lambda lesson: len(lesson.anchors))
+    samples = [_sample(source, number, config) for number in range(count)]
+    samples.sort(key=lambda sample: len(sample.anchors))
     size = max(1, config.validation.batch // len(VARIANTS))
-    hands = [lessons[k : k + size] for k in range(0, count, size)]
+    batches = [samples[k : k + size] for k in range(0, count, size)]
     shares_shifted = config.network.points_frame == "part"
-    return [stack_showings([Showing(one, one.copies) for one in hand], shares_shifted) for hand in hands]
+    return [stack_showings([Showing(one, one.copies) for one in batch], shares_shifted) for batch in batches]
 
 
 @torch.inference_mode()
@@ -156,6 +156,6 @@ def _figures(totals: Sequence[float], accuracies: Mapping[str, GraphAccuracy]) -
     return {"loss": fmean(totals), "score": fmean(counted) if counted else 0.0} | named
 
 
-def _lesson(source: Source, number: int, config: TrainingConfig) -> Lesson:
+def _sample(source: Source, number: int, config: TrainingConfig) -> Sample:
     natural = source.pair(number)
-    return make_lesson(list(asked_pairs(natural, number).values()), config.features)
+    return make_sample(list(asked_pairs(natural, number).values()), config.features)

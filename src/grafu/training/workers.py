@@ -2,7 +2,7 @@
 
 Gradients are averaged here in one message, not by torch's wrapper for modules: that wrapper stumbles over a head that
 no graph of a batch needs (a batch without drawers). The same message says whether a stop was requested: Ctrl-C
-and termination end a run after the step at hand, with everything saved.
+and termination end a run after the current step, with everything saved.
 """
 
 import os

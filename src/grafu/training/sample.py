@@ -4,9 +4,9 @@ The points are those of the whole model, in its own frame. A copy names the poin
 how the frame of what it shows lies to that of the whole: a model without its top is smaller, and the network must not
 see by the scale that something is to be added.
 
-Lessons come without end, made by several processes, and are dealt out in hands of similar size, each lesson several
-times. Everything is a function of seeds and numbers: the number of processes changes nothing, and a run that was cut
-goes on with the very hands that it would have had.
+Samples come as an endless stream, made by several processes, and are grouped into batches of similar size, each sample
+several times. Everything is a function of seeds and numbers: the number of processes changes nothing, and a run that
+was cut goes on with the very batches that it would have had.
 """
 
 from collections.abc import Generator, Iterator, Sequence
@@ -68,7 +68,7 @@ class CopyMix:
 class Copy(ArrayValue):
     """What is seen of a model once (n nodes), and the answers.
 
-    `rows` are the nodes' rows in the points of the lesson. A point x there is `stretch` x + `shift` in this frame.
+    `rows` are the nodes' rows in the points of the sample. A point x there is `stretch` x + `shift` in this frame.
     """
 
     labels: Int64[np.ndarray, " n"]
@@ -86,7 +86,7 @@ class Copy(ArrayValue):
 
 @final
 @dataclass(frozen=True, eq=False, slots=True)
-class Lesson(ArrayValue):
+class Sample(ArrayValue):
     """The grouped points of a whole model (u parts), and copies of it."""
 
     model_id: str
@@ -98,16 +98,16 @@ class Lesson(ArrayValue):
         freeze_arrays(self)
 
 
-def make_lesson(pairs: Sequence[GraphPair], features: FeatureConfig) -> Lesson:
-    """Returns the lesson of pairs of one model, which all have its target.
+def make_sample(pairs: Sequence[GraphPair], features: FeatureConfig) -> Sample:
+    """Returns the sample of pairs of one model, which all have its target.
 
     Raises:
         ValueError: if there is no pair, or their targets differ.
     """
     if not pairs or any(pair.target is not pairs[0].target for pair in pairs):
-        raise ValueError("a lesson must be of pairs with one target")
+        raise ValueError("a sample must be of pairs with one target")
     whole = graph_features(pairs[0].target, features)
-    return Lesson(
+    return Sample(
         pairs[0].model_id,
         whole.anchors,
         whole.groups,
@@ -147,18 +147,18 @@ def _copy(pair: GraphPair, origin: np.ndarray, scale: float) -> Copy:
     )
 
 
-Hand = list[tuple[Lesson, int]]
+SampleBatch = list[tuple[Sample, int]]
 """The models of one batch, and which visit (0, 1, ...) each of them gets."""
 
 
 @final
 @dataclass(frozen=True)
-class DealConfig:
-    """How lessons are dealt.
+class SamplerConfig:
+    """How samples form batches.
 
-    Each hand holds `models`, and of each model `copies` that share its points. A model is visited `reuse` times, with
-    other copies: making it and grouping its points is most of the work of a lesson. Between two visits lie about
-    `spread` hands. Hands are of models of similar size, so that little is padding.
+    Each batch holds `models`, and of each model `copies` that share its points. A model is visited `reuse` times, with
+    other copies: making it and grouping its points is most of the work of a sample. Between two visits lie about
+    `spread` batches. Batches are of models of similar size, so that little is padding.
 
     Raises:
         ValueError: if a number is less than 1.
@@ -171,32 +171,34 @@ class DealConfig:
 
     def __post_init__(self) -> None:
         if min(self.models, self.copies, self.reuse, self.spread) < 1:
-            raise ValueError(f"the numbers of `DealConfig` must be at least 1: got {self}")
+            raise ValueError(f"the numbers of `SamplerConfig` must be at least 1: got {self}")
 
     @property
     def fresh(self) -> int:
         """How many new models come in one round."""
         return max(1, self.spread // self.reuse) * self.models
 
-    def hands_in(self, turn: int) -> int:
-        """How many hands round `turn` (0, 1, ...) has: the first ones have fewer models to deal from."""
+    def batches_in(self, turn: int) -> int:
+        """How many batches round `turn` (0, 1, ...) has: the first ones have fewer models to draw from."""
         return min(turn + 1, self.reuse) * self.fresh // self.models
 
-    def round_of(self, hand: int) -> tuple[int, int]:
-        """Returns the round that hand `hand` (0, 1, ...) belongs to, and which one it is there."""
+    def round_of(self, batch: int) -> tuple[int, int]:
+        """Returns the round that batch `batch` (0, 1, ...) belongs to, and which one it is there."""
         turn = 0
-        while turn < self.reuse - 1 and hand >= self.hands_in(turn):
-            hand -= self.hands_in(turn)
+        while turn < self.reuse - 1 and batch >= self.batches_in(turn):
+            batch -= self.batches_in(turn)
             turn += 1
         return (
-            (turn, hand) if turn < self.reuse - 1 else (turn + hand // self.hands_in(turn), hand % self.hands_in(turn))
+            (turn, batch)
+            if turn < self.reuse - 1
+            else (turn + batch // self.batches_in(turn), batch % self.batches_in(turn))
         )
 
 
 @final
 @dataclass(frozen=True)
-class Syllabus:
-    """The lessons of a source, by number; their copies are drawn with `seed`.
+class Sampler:
+    """The samples of a source, by number; their copies are drawn with `seed`.
 
     `part` (k, n) takes every n-th model, from the k-th on: n readers share a source without a double.
     """
@@ -207,44 +209,49 @@ class Syllabus:
     seed: int
     part: tuple[int, int] = (0, 1)
 
-    def lesson(self, copies: int, number: int) -> Lesson:
-        """Returns lesson `number` (0, 1, ...), with so many copies."""
+    def sample(self, copies: int, number: int) -> Sample:
+        """Returns sample `number` (0, 1, ...), with so many copies."""
         model = number * self.part[1] + self.part[0]
         rng = np.random.default_rng([self.seed, model])
-        return make_lesson(draw_pairs(self.source.pair(model), copies, self.mix, rng), self.features)
+        return make_sample(draw_pairs(self.source.pair(model), copies, self.mix, rng), self.features)
 
 
-def stream_hands(syllabus: Syllabus, deal: DealConfig, start: int = 0, jobs: int = 1) -> Generator[Hand, None, None]:
-    """Yields the hands from number `start` on, without end.
+def stream_samples(
+    sampler: Sampler, deal: SamplerConfig, start: int = 0, jobs: int = 1
+) -> Generator[SampleBatch, None, None]:
+    """Yields the batches from number `start` on, without end.
 
-    The lessons are made by `jobs` processes (1: by this one), as in `ordered_map`.
+    The samples are made by `jobs` processes (1: by this one), as in `ordered_map`.
     """
-    make = partial(syllabus.lesson, deal.copies * deal.reuse)
+    make = partial(sampler.sample, deal.copies * deal.reuse)
     turn, skipped = deal.round_of(start)
     first = max(0, turn - deal.reuse + 1)
-    with closing(ordered_map(make, first * deal.fresh, None, jobs)) as lessons:
-        yield from islice(_dealt(lessons, deal, (syllabus.seed, *syllabus.part), first, turn), skipped, None)
+    with closing(ordered_map(make, first * deal.fresh, None, jobs)) as samples:
+        yield from islice(_streamed(samples, deal, (sampler.seed, *sampler.part), first, turn), skipped, None)
 
 
-def _dealt(lessons: Iterator[Lesson], deal: DealConfig, seed: Sequence[int], first: int, turn: int) -> Iterator[Hand]:
-    """Yields the hands of round `turn` and all later ones; the lessons begin with those of round `first`.
+def _streamed(
+    samples: Iterator[Sample], deal: SamplerConfig, seed: Sequence[int], first: int, turn: int
+) -> Iterator[SampleBatch]:
+    """Yields the batches of round `turn` and all later ones; the samples begin with those of round `first`.
 
-    While a round is dealt the lessons of the next are taken in, some after each hand, so that nobody waits for all.
+    While a round is streamed the samples of the next are taken in, some after each batch, so that no step waits for
+    all.
     """
-    kept: list[list[Lesson]] = [list(islice(lessons, deal.fresh)) for _ in range(first, turn + 1)]
+    kept: list[list[Sample]] = [list(islice(samples, deal.fresh)) for _ in range(first, turn + 1)]
     for now in count(turn):
-        hands = _hands(kept, deal, np.random.default_rng([*seed, now]))
-        coming: list[Lesson] = []
-        for number, hand in enumerate(hands, start=1):
-            yield hand
-            coming.extend(islice(lessons, number * deal.fresh // len(hands) - len(coming)))
+        batches = _batches(kept, deal, np.random.default_rng([*seed, now]))
+        coming: list[Sample] = []
+        for number, batch in enumerate(batches, start=1):
+            yield batch
+            coming.extend(islice(samples, number * deal.fresh // len(batches) - len(coming)))
         kept = [*kept[-deal.reuse + 1 :], coming] if deal.reuse > 1 else [coming]
 
 
-def _hands(kept: Sequence[Sequence[Lesson]], deal: DealConfig, rng: np.random.Generator) -> list[Hand]:
-    """Returns all kept lessons as hands of similar sizes in a drawn order; the newest get their first visit."""
-    deck = [(lesson, visit) for visit, lessons in enumerate(reversed(kept)) for lesson in lessons]
+def _batches(kept: Sequence[Sequence[Sample]], deal: SamplerConfig, rng: np.random.Generator) -> list[SampleBatch]:
+    """Returns all kept samples as batches of similar sizes in a drawn order; the newest get their first visit."""
+    deck = [(sample, visit) for visit, samples in enumerate(reversed(kept)) for sample in samples]
     deck = [deck[int(k)] for k in rng.permutation(len(deck))]
     deck.sort(key=lambda one: len(one[0].anchors))
-    hands = [deck[k : k + deal.models] for k in range(0, len(deck), deal.models)]
-    return [hands[int(k)] for k in rng.permutation(len(hands))]
+    batches = [deck[k : k + deal.models] for k in range(0, len(deck), deal.models)]
+    return [batches[int(k)] for k in rng.permutation(len(batches))]

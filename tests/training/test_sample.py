@@ -9,7 +9,7 @@ from grafu.data.corruption.corrupt import MASKED, masked_pair
 from grafu.data.pair import GraphPair, natural_pair
 from grafu.graph.arrays import CONTACT, UNKNOWN
 from grafu.graph.edit import as_contacts, without_nodes
-from grafu.training.lesson import CopyMix, draw_pairs, make_lesson
+from grafu.training.sample import CopyMix, draw_pairs, make_sample
 from small_graphs import cabinet
 
 FEATURES = FeatureConfig(points=32, anchors=4, neighbours=4)
@@ -23,31 +23,31 @@ def lacking(*ids: str) -> GraphPair:
 
 def test_a_copy_is_what_the_network_sees_of_its_graph() -> None:
     pair = lacking("top_1", "top_2", "left", "knob_1")
-    (copy,) = make_lesson([pair], FEATURES).copies
+    (copy,) = make_sample([pair], FEATURES).copies
     seen = graph_features(pair.input, FEATURES)
-    lesson = make_lesson([pair], FEATURES)
+    sample = make_sample([pair], FEATURES)
     assert np.array_equal(copy.labels, seen.labels)
     assert np.array_equal(copy.edges, seen.edges)
     assert copy.boxes == pytest.approx(seen.boxes, abs=1e-6)
-    assert lesson.anchors[copy.rows] * copy.stretch + copy.shift == pytest.approx(seen.anchors, abs=1e-5)
-    assert lesson.groups[copy.rows] * copy.stretch == pytest.approx(seen.groups, abs=1e-5)
+    assert sample.anchors[copy.rows] * copy.stretch + copy.shift == pytest.approx(seen.anchors, abs=1e-5)
+    assert sample.groups[copy.rows] * copy.stretch == pytest.approx(seen.groups, abs=1e-5)
 
 
 def test_answers_stand_in_the_frame_of_the_copy() -> None:
-    (copy,) = make_lesson([lacking("left")], FEATURES).copies
+    (copy,) = make_sample([lacking("left")], FEATURES).copies
     assert np.array_equal(copy.targets.boxes[copy.targets.anchors], copy.boxes)
 
 
-def test_pairs_of_two_models_are_no_lesson() -> None:
+def test_pairs_of_two_models_are_no_sample() -> None:
     with pytest.raises(ValueError, match="one target"):
-        make_lesson([natural_pair(cabinet()), natural_pair(cabinet())], FEATURES)
+        make_sample([natural_pair(cabinet()), natural_pair(cabinet())], FEATURES)
     with pytest.raises(ValueError, match="one target"):
-        make_lesson([], FEATURES)
+        make_sample([], FEATURES)
 
 
 def test_masked_labels_are_unknown_and_edges_contacts() -> None:
     pair = masked_pair(natural_pair(cabinet()))
-    (copy,) = make_lesson([pair], FEATURES).copies
+    (copy,) = make_sample([pair], FEATURES).copies
     assert (copy.labels == UNKNOWN).all()
     assert set(copy.edges[copy.edges < 4].tolist()) == {CONTACT}
     assert copy.strategy == MASKED
