@@ -78,3 +78,9 @@ def test_a_block_is_no_top():
 def test_labels_that_the_user_gives_are_kept():
     stated = Part("x", PartLabel.DOOR, part("door", *CASE).surfaces, PartSource("door"), "user")
     assert labels(stated, part("shelf", *INSIDE), part("y", *LEAF))["x"] is PartLabel.DOOR
+
+
+def test_a_panel_with_buttons_on_it_stands_still():
+    panel, button = part("Panel", *LEAF), part("Button", (0.5, -0.04, 0.5), (0.53, -0.02, 0.53))
+    assert labels(part("oven", *CASE), panel, button)["Panel"] is PartLabel.MISC
+    assert labels(part("oven", *CASE), panel)["Panel"] is PartLabel.UNKNOWN

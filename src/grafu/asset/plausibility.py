@@ -11,7 +11,9 @@ from typing import Final, final
 import numpy as np
 
 from grafu.asset.labels import sense_of
+from grafu.asset.languages import word_set
 from grafu.asset.part import Part
+from grafu.asset.speech import spoken
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
@@ -26,6 +28,8 @@ _SPARE = 0.02  # how far what a body holds may stand out of it
 _STRIP = 0.025  # the second largest side of a door or drawer
 _FITTING, _GRASPED = 0.25, 0.45  # that of a hinge or a rail, and of a handle
 _PLATE, _OUTSIDE = 0.07, 0.06  # how thick a front is, and how far it may lie from the outside
+_TOUCH = 0.01  # how far a button may stand off the panel that it sits on
+_CONTROLS = word_set("button buttons switch dial display")
 # A top is a plate: the share that its thickness may have of its width.
 _THICK = 0.35
 
@@ -63,13 +67,24 @@ def with_plausible_labels(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], li
     boxes = [part.box for part in parts]
     low, high = np.array([b.low for b in boxes]), np.array([b.high for b in boxes])
     scene = _Scene(Box(low.min(axis=0), high.max(axis=0)), low, high)
+    controls = [p.box for p in parts if set(spoken(p.source.name)) & _CONTROLS]
     found = tuple(_judged(part, scene) for part in parts)
+    found = tuple(_of_controls(part, controls, scene) for part in found)
     notes = [
         f"{new.source.name} is no {old.label.value} by its shape: {_said(new.label)}"
         for old, new in zip(parts, found, strict=True)
         if new.label is not old.label and old.label is not PartLabel.UNKNOWN
     ]
     return found, notes
+
+
+def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
+    """Returns an unlabelled panel on which buttons or a display sit as one that stands still."""
+    if part.label is not PartLabel.UNKNOWN or "panel" not in spoken(part.source.name) or not controls:
+        return part
+    if _is_body(part.box, scene) or not any(part.box.overlaps(box, _TOUCH * scene.unit) for box in controls):
+        return part
+    return replace(part, label=PartLabel.MISC, labelled_by="name")
 
 
 def _said(label: PartLabel) -> str:

@@ -218,3 +218,8 @@ def test_both_maps_are_told() -> None:
     assert coverage is not None
     assert coverage.near_top.sum() < 0.5 * coverage.everything.sum()
     assert coverage.level == pytest.approx(H, abs=1e-6)
+
+
+def test_what_is_nothing_but_a_basin_is_judged_like_any_other_piece() -> None:
+    lone = replace(basin(), label=PartLabel.MISC)
+    assert missing_top([lone]).coverage is not None
