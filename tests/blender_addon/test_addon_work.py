@@ -134,7 +134,7 @@ def test_a_command_has_a_process_and_a_folder_of_its_own(work):
     command = work.Command()
     command.start("grafu.cli.finalize", [str(command.folder / "none.json")])
     command.wait()
-    with pytest.raises(work.Failed, match="FileNotFoundError"):
+    with pytest.raises(work.Failed, match="cannot be read"):
         command.require_success()
     command.close()
     assert not command.folder.exists()
