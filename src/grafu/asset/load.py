@@ -24,6 +24,7 @@ from grafu.asset.plausibility import with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.asset.regular_files import read_head
 from grafu.asset.resources import ModelFiles
+from grafu.asset.shared_handles import with_split_handles
 from grafu.asset.urdf import read_urdf
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
@@ -187,8 +188,9 @@ def _joined(reading: Reading) -> Reading:
 
 
 def _plausible(reading: Reading) -> Reading:
-    parts, notes = with_plausible_labels(reading.parts)
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+    judged, notes = with_plausible_labels(reading.parts)
+    parts, splits = with_split_handles(judged)
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes, *splits))
 
 
 def _without_labels(reading: Reading) -> Reading:
