@@ -122,7 +122,7 @@ def test_what_is_not_there_is_refused() -> None:
 def test_words_of_reading_are_checked() -> None:
     with pytest.raises(OptionError, match="`labels` must be input or none: got 'some'"):
         grafu.load(SAMPLE, labels="some")
-    with pytest.raises(OptionError, match="`parts` must be input or loose"):
+    with pytest.raises(OptionError, match="`parts` must be auto, input or loose"):
         grafu.functionalize(SAMPLE, parts="shells")
 
 

@@ -112,7 +112,7 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
     [
         ("a.obj", "", UnreadableAsset, "no part with faces"),
         ("a.obj", "hello world", UnreadableAsset, "holds no vertices"),
-        ("a.obj", TRIANGLE, UnsegmentedAsset, "one group"),
+        ("a.obj", TRIANGLE, UnsegmentedAsset, "one part, `a`: expected several; it is one connected shell"),
         ("a.obj", TRIANGLE.replace("1 0 0", "nan 0 0"), UnreadableAsset, "NaN"),
         ("a.obj", TRIANGLE.replace("1 0 0", "1 zero 0"), UnreadableAsset, "not a readable OBJ"),
         ("a.obj", TRIANGLE.replace("1 0 0", "1 0"), UnreadableAsset, "2 coordinates"),

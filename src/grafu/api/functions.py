@@ -37,7 +37,7 @@ def load(
     scale: float | None = None,
     height: float | None = None,
     labels: str = "input",
-    parts: str = "input",
+    parts: str = "auto",
 ) -> Asset:
     """Returns the asset at a path: its parts in metres, Z up, front -Y, standing on z = 0.
 
@@ -48,7 +48,8 @@ def load(
         scale: metres per unit of the input; None: as the format says, or estimated.
         height: the real height in metres; wins over `scale`.
         labels: `input` takes categories from names, `none` ignores them.
-        parts: `input` takes the objects of the input as parts, `loose` each connected shell.
+        parts: `auto` takes the objects of the input as parts but cuts those that hide doors or drawers, `input` takes
+            them as they are, `loose` takes each connected shell.
 
     Raises:
         TypeError: if an argument has a wrong type.
@@ -137,15 +138,15 @@ def _reading(
     scale: float | None = None,
     height: float | None = None,
     labels: str = "input",
-    parts: str = "input",
+    parts: str = "auto",
 ) -> LoadOptions:
     for name, value in (("up", up), ("front", front)):
         if value is not None:
             require(value, str, name, "an axis such as `+Z`")
     if labels not in ("input", "none"):
         raise OptionError(f"`labels` must be input or none: got {labels!r}")
-    if parts not in ("input", "loose"):
-        raise OptionError(f"`parts` must be input or loose: got {parts!r}")
+    if parts not in ("auto", "input", "loose"):
+        raise OptionError(f"`parts` must be auto, input or loose: got {parts!r}")
     numbers = optional_number(scale, "scale"), optional_number(height, "height")
     return LoadOptions(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
 

@@ -92,6 +92,14 @@ def divide(surfaces: Sequence[Surface]) -> str:
     return f"--parts loose makes parts of its {shells} shells, or {_DIVIDE}" if shells > 1 else _DIVIDE
 
 
+def looked_for_fronts(surfaces: Sequence[Surface]) -> str:
+    """Returns what was tried to find parts in one mesh, in vain."""
+    shells = shell_count(surfaces)
+    if shells == 1:
+        return "it is one connected shell, in which no front of a door or drawer can be told"
+    return f"none of its {shells} shells looks like the front of a door or drawer"
+
+
 def mesh_files_in(folder: Path) -> list[Path]:
     """Returns the mesh files directly in the folder, or, where there are none, in its only mesh subfolder."""
     found = sorted(p for p in folder.iterdir() if p.suffix.lower() in MESH_SUFFIXES and p.is_file())
@@ -137,7 +145,7 @@ def read_mesh(path: Path, options: LoadOptions, files: ModelFiles | None = None)
         return read_sweethome(path, found)
     filled = [piece for piece in found.pieces if piece.surfaces]
     check_parts(len(filled), path, options.limits)
-    if len(filled) == 1 and options.parts != "loose":
+    if len(filled) == 1 and options.parts == "input":
         raise UnsegmentedAsset(_one_piece(path, found))
     drafts = [PartDraft(piece.name or path.stem, piece.surfaces, file=path.name) for piece in filled]
     return Reading("mesh file", parts_of_drafts(drafts), _convention([path]), notes=found.notes)

@@ -9,7 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from grafu.asset.folder import divide, mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.cutting import cut_where_fronts_appear
+from grafu.asset.folder import divide, looked_for_fronts, mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.folders import files_below
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
@@ -84,10 +85,15 @@ def settled(reading: Reading, name: str, path: Path, options: LoadOptions = Load
         AssetError: if an option contradicts it.
     """
     reading = cleaned(reading)
-    reading = _taken_apart(reading) if options.parts == "loose" else reading
+    if options.parts == "loose":
+        reading = _taken_apart(reading)
+    elif not reading.grouped and reading.parts:
+        reading = _joined(reading)
+    if reading.parts:
+        reading = _plausible(reading)
+    if options.parts == "auto" and reading.parts:
+        reading = cut_where_fronts_appear(reading, settle_frame(reading, options))
     _check_parts(reading, path, options)
-    reading = reading if reading.grouped or options.parts == "loose" else _joined(reading)
-    reading = _plausible(reading)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
     place = Placing(frame)
@@ -164,9 +170,10 @@ def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
     if count == 0:
         raise UnreadableAsset(f"{path} holds no part with faces{lost}: expected {_EXPECTED}")
     if count == 1:
-        only = f"`{reading.parts[0].source.name}`"
+        only = reading.parts[0]
+        tried = f"; {looked_for_fronts(only.surfaces)}" if options.parts == "auto" else ""
         raise UnsegmentedAsset(
-            f"{path} is one part, {only}{lost}: expected several; {divide(reading.parts[0].surfaces)}"
+            f"{path} is one part, `{only.source.name}`{lost}: expected several{tried}; {divide(only.surfaces)}"
         )
 
 

@@ -59,8 +59,7 @@ def _shells(part: Part, whole: Box) -> list[tuple[Surface, ...]]:
     if count == 1:
         return [part.surfaces]
     numbers = _with_hosts(part.mesh, numbers, float(whole.size.max()))
-    bounds = np.cumsum([0, *(len(surface.mesh.faces) for surface in part.surfaces)])
-    return [_chosen(part.surfaces, bounds, faces) for faces in _by_number(numbers) if len(faces)]
+    return [faces_of_part(part, faces) for faces in _by_number(numbers) if len(faces)]
 
 
 def _by_number(numbers: Indices) -> list[np.ndarray]:
@@ -69,10 +68,11 @@ def _by_number(numbers: Indices) -> list[np.ndarray]:
     return np.split(order, np.cumsum(np.bincount(numbers))[:-1])
 
 
-def _chosen(surfaces: Sequence[Surface], bounds: np.ndarray, faces: Indices) -> tuple[Surface, ...]:
-    """Returns some faces, numbered through all surfaces, as surfaces; those without any are left out."""
+def faces_of_part(part: Part, faces: Indices) -> tuple[Surface, ...]:
+    """Returns some faces, in order and numbered through all surfaces, as surfaces; those without any are left out."""
+    bounds = np.cumsum([0, *(len(surface.mesh.faces) for surface in part.surfaces)])
     cuts = np.searchsorted(faces, bounds)
-    spans = zip(surfaces, bounds[:-1], cuts[:-1], cuts[1:], strict=True)
+    spans = zip(part.surfaces, bounds[:-1], cuts[:-1], cuts[1:], strict=True)
     return tuple(selected(surface, faces[a:b] - start) for surface, start, a, b in spans if b > a)
 
 

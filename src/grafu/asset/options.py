@@ -12,7 +12,7 @@ from grafu.errors import AssetError, AssetTooLarge
 DIRECTIONS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 
 Labelling = Literal["input", "none"]
-Division = Literal["input", "loose"]
+Division = Literal["auto", "input", "loose"]
 
 
 def _limit(default: int, counts: str) -> Any:
@@ -92,7 +92,8 @@ class LoadOptions:
 
     `up` and `front` are directions in the input's own coordinates, like `+Y`; `scale` is metres per input unit;
     `height` is the metric height of the whole object and wins over `scale`. `labels="none"` masks every label.
-    `parts="loose"` makes each connected shell of a mesh a part (see `loose_parts`), not each object of the input.
+    `parts="input"` takes the input's objects as parts; `"auto"` cuts those that hide doors or drawers (see
+    `cut_where_fronts_appear`); `"loose"` makes each connected shell of a mesh a part (see `loose_parts`).
 
     Raises:
         AssetError: if a direction is not an axis, up and front lie on one axis, or a size is not positive.
@@ -103,7 +104,7 @@ class LoadOptions:
     scale: float | None = None
     height: float | None = None
     labels: Labelling = "input"
-    parts: Division = "input"
+    parts: Division = "auto"
     limits: Limits = Limits()
 
     def __post_init__(self) -> None:

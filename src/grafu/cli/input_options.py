@@ -7,7 +7,7 @@ from dataclasses import replace
 from grafu.asset.options import LoadOptions
 
 LABELS = ("input", "none")
-DIVISIONS = ("input", "loose")
+DIVISIONS = ("auto", "input", "loose")
 
 
 def add_input_options(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +21,8 @@ def add_input_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--parts",
         choices=DIVISIONS,
-        help="take the input's objects as parts, or each connected shell of a mesh: for welded models (default: input)",
+        help="take the input's objects as parts but cut those that hide doors or drawers, take them as they are, "
+        "or take each connected shell of a mesh (default: auto)",
     )
     group.add_argument("--up", metavar="AXIS", help="the input's axis that points up, say +Z")
     group.add_argument("--front", metavar="AXIS", help="the input's axis that points out of the front, say -Y")

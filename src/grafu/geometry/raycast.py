@@ -14,7 +14,7 @@ from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Points, Scalars, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays
 from grafu.geometry.budget import require_time
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
@@ -100,6 +100,19 @@ class RayCaster:
     def along(self, origins: Points, direction: Vec3) -> Scalars:
         """Returns the distances of many origins along one unit direction."""
         return self.distances(origins, np.broadcast_to(direction, origins.shape))
+
+    def first_faces(self, origins: Points, direction: Vec3) -> tuple[Indices, Scalars]:
+        """Returns for each origin the number of the face first hit along a unit direction (-1: none), and how far."""
+        distances = self.along(origins, direction)
+        faces = np.full(len(origins), -1, np.int64)
+        if self._scene is not None and len(origins):
+            found = self._scene.run(
+                np.ascontiguousarray(origins, dtype=np.float32),
+                np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
+                query="INTERSECT",
+            )
+            faces = np.where(np.isfinite(distances), np.asarray(found, dtype=np.int64), -1)
+        return faces, distances
 
 
 def robust_median(distances: Scalars, reach: float, share: float = 0.3) -> float:

@@ -1,0 +1,92 @@
+"""Objects that hide doors or drawers are cut into parts. What a front is, `segmentation` says.
+
+Inputs whose makers divided them by what moves are left alone: parts segmented by hand, and robots of several links.
+What the input says of its motions is not asked: the parts are the same with joints and without.
+"""
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from grafu.asset.loose import faces_of_part
+from grafu.asset.names import unique_ids
+from grafu.asset.part import Frame, Part
+from grafu.asset.reading import Reading
+from grafu.geometry.arrays import Mat4
+from grafu.segmentation.division import Piece, divided
+from grafu.vocabulary import PartLabel
+
+# What may hide fronts: what no name tells, and what is called by what it holds.
+_OPEN: Final = frozenset({PartLabel.UNKNOWN, PartLabel.MISC, PartLabel.FACE_FRAME, PartLabel.DOOR, PartLabel.DRAWER})
+
+
+def cut_where_fronts_appear(reading: Reading, frame: Frame) -> Reading:
+    """Returns the reading with objects cut where that makes doors or drawers appear, and a note on each."""
+    if not reading.parts or _is_divided(reading):
+        return reading
+    T = _turn(frame)
+    meshes = [part.mesh.transformed(T) for part in reading.parts]
+    open_to = [part.label in _OPEN and part.rides_on is None for part in reading.parts]
+    cuts = divided(meshes, open_to, [part.label.is_movable for part in reading.parts])
+    if not cuts:
+        return reading
+    pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
+    cut = {reading.parts[k].id for k in cuts}
+    parts = tuple(
+        _freed(_part(part, piece, name), cut) for (part, piece), name in zip(pieces, _ids(pieces), strict=True)
+    )
+    notes = (_note(reading.parts[k], found) for k, found in cuts.items())
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+
+
+def _is_divided(reading: Reading) -> bool:
+    by_hand = reading.grouped or reading.kind in ("partnet-mobility", "hssd")
+    return by_hand or (reading.kind == "urdf" and len({part.source.link for part in reading.parts}) > 1)
+
+
+def _turn(frame: Frame) -> Mat4:
+    """Returns the rotation and reflection of a frame alone."""
+    T = np.eye(4)
+    T[:3, :3] = np.asarray(frame.input_to_output)[:3, :3] / frame.scale
+    return T
+
+
+def _ids(pieces: list[tuple[Part, Piece | None]]) -> list[str]:
+    """Returns an id for each piece; parts that are not cut, and what is left of those that are, keep theirs."""
+    order = sorted(range(len(pieces)), key=lambda k: _is_new(pieces[k][1]))
+    found = unique_ids((_stem(*pieces[k]), _is_handle(*pieces[k])) for k in order)
+    named = dict(zip(order, found, strict=True))
+    return [named[k] for k in range(len(pieces))]
+
+
+def _is_new(piece: Piece | None) -> bool:
+    return piece is not None and piece.role != "rest"
+
+
+def _freed(part: Part, cut: set[str]) -> Part:
+    """Returns the part riding on nothing where what it rode on was cut: contact says on what, once labels are known."""
+    return replace(part, rides_on=None) if part.rides_on in cut else part
+
+
+def _stem(part: Part, piece: Piece | None) -> str:
+    return part.id if piece is None or piece.role == "rest" else f"{part.id}_{piece.role}"
+
+
+def _is_handle(part: Part, piece: Piece | None) -> bool:
+    return piece is None and part.label is PartLabel.HANDLE
+
+
+def _part(part: Part, piece: Piece | None, name: str) -> Part:
+    if piece is None:
+        return replace(part, id=name)
+    keeps = part.label.is_movable == (piece.role == "front") and piece.role != "handle"
+    label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
+    return replace(part, id=name, surfaces=faces_of_part(part, piece.faces), label=label, labelled_by=by)
+
+
+def _note(part: Part, pieces: list[Piece]) -> str:
+    counts = {role: sum(piece.role == role for piece in pieces) for role in ("front", "handle", "rest")}
+    found = [f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle") if counts[role]]
+    rest = " and the rest" if counts["rest"] else ""
+    return f"{part.source.name} was cut into {', '.join(found)}{rest} (--parts auto)"

@@ -1,0 +1,186 @@
+"""Which objects of an input are cut, and into what: only where fronts appear that an object hides. Geometry alone."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+
+from grafu.geometry.arrays import Indices, Mat3
+from grafu.geometry.components import shell_numbers
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.segmentation.candidates import Scale, candidates, overlaps
+from grafu.segmentation.framed import framed, merged
+from grafu.segmentation.fronts import Front, fronts_among
+from grafu.segmentation.view import MaskOfShells, OfShells, View, view_of
+
+_PLATE = 0.35  # of its shorter side: as thick as this an object is a plate
+_FILLED = 0.6  # of a plate's outline: what fronts in it cover
+_ALIKE = 0.4  # of the largest front's outline: what the others have, where several fronts are one plate
+_PANEL = 0.1  # of a plate's outline: what a fixed panel beside one front covers at least
+_FLUSH = 0.2  # of an object's depth: how far inside its front a front of it lies
+_LID = 0.4  # of its footprint: how much of a case is closed from above
+_SMALL = 0.02  # of the whole's largest side: a front's shorter side
+
+_Z: Final = np.array([0.0, 0.0, 1.0])
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Faces of one object that become a part; `role` says as what."""
+
+    role: str  # "front", "handle" or "rest"
+    faces: Indices
+
+
+@final
+@dataclass(frozen=True)
+class Shells:
+    """All faces of several meshes, the shell of each face, and for each shell the mesh that holds it."""
+
+    mesh: TriangleMesh
+    shell: Indices
+    owner: OfShells
+
+    @classmethod
+    def of(cls, meshes: Sequence[TriangleMesh]) -> "Shells":
+        """Returns the shells of some meshes."""
+        numbers, owner, count = [], [], 0
+        for k, mesh in enumerate(meshes):
+            found = shell_numbers(mesh)
+            numbers.append(found + count)
+            here = int(found.max()) + 1 if len(found) else 0
+            owner += [k] * here
+            count += here
+        return cls(merge_meshes(meshes), np.concatenate(numbers), np.array(owner, dtype=np.int64))
+
+
+def divided(meshes: Sequence[TriangleMesh], open_to: Sequence[bool], whole: Sequence[bool]) -> dict[int, list[Piece]]:
+    """Returns for each mesh that is cut what it is cut into.
+
+    Args:
+        meshes: the objects of an input, Z up, their front most likely at -Y; any unit.
+        open_to: which of them may be cut.
+        whole: which of them are said to be one door or drawer: they are cut where they hold several fronts.
+    """
+    counts = [len(mesh.faces) for mesh in meshes]
+    shells = Shells.of(meshes)
+    several = np.bincount(shells.owner, minlength=len(meshes)) > 1
+    may = (several & np.asarray(open_to, dtype=bool))[shells.owner]
+    if not may.any():
+        return {}
+    found = _from_the_best_side(shells, may, whole)
+    starts = np.cumsum([0, *counts])
+    return {owner: _pieces(shells, owner, int(starts[owner]), fronts) for owner, fronts in sorted(found.items())}
+
+
+def _from_the_best_side(shells: Shells, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[Front, ...]]:
+    """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
+
+    Fronts are clear where an object has several, or a handle on one: a side or the back is a plate without either.
+    """
+    ahead: dict[int, tuple[Front, ...]] = {}
+    clear: dict[int, tuple[Front, ...]] = {}
+    most = 0.0
+    for turn in range(4):
+        view = view_of(shells.mesh, shells.shell, shells.owner, _axes(turn))
+        found = _by_owner(view, may, whole)
+        surer = {o: fronts for o, fronts in found.items() if len(fronts) > 1 or any(f.handles for f in fronts)}
+        if turn == 0 and surer:
+            return found
+        area = sum(_outline(view, front) for fronts in surer.values() for front in fronts)
+        ahead = found if turn == 0 else ahead
+        clear, most = (surer, area) if area > most else (clear, most)
+    return clear or ahead
+
+
+def _axes(turn: int) -> Mat3:
+    """Returns a viewer's axes: from -Y, +X, +Y or -X."""
+    toward = np.round([np.sin(turn * np.pi / 2), -np.cos(turn * np.pi / 2), 0.0])
+    return np.stack([np.cross(_Z, toward), _Z, toward])
+
+
+def _outline(view: View, front: Front) -> float:
+    """Returns the area of a front's bounding box as it is seen."""
+    shells = [*front.shells]
+    size = view.high[shells].max(axis=0) - view.low[shells].min(axis=0)
+    return float(size[0] * size[1])
+
+
+def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[Front, ...]]:
+    """Returns the fronts of each object that hides some."""
+    view, members = merged(view, framed(view))
+    may = may[[shells[0] for shells in members]]
+    found: dict[int, list[Front]] = {}
+    for front in fronts_among(view, candidates(view, may)):
+        found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
+    flush = {owner: tuple(f for f in fronts if _is_flush(view, f)) for owner, fronts in found.items()}
+    hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o])}
+    return {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()}
+
+
+def _is_flush(view: View, front: Front) -> bool:
+    """Whether a front lies near the front of its object and is no trifle."""
+    plate = front.shells[0]
+    own = np.flatnonzero(view.owner == view.owner[plate])
+    depth = float(view.high[own, 2].max() - view.low[own, 2].min())
+    unit = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
+    inside = float(view.high[own, 2].max() - view.high[plate, 2])
+    shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
+    return inside <= _FLUSH * depth + thick and shorter >= _SMALL * unit
+
+
+def _hides(view: View, owner: int, fronts: tuple[Front, ...], is_whole: bool) -> bool:
+    """Whether an object is more than the fronts in it are: a case, or several fronts in one."""
+    own = view.owner == owner
+    low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
+    size = high - low
+    major = _major(view, fronts)
+    filled = sum(_outline(view, front) for front in major) / float(size[0] * size[1])
+    if is_whole or size[2] <= _PLATE * size[:2].min():
+        several = len(major) > 1 and filled >= _FILLED
+        return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major))
+    rest = own.copy()
+    rest[[shell for front in fronts for shell in front.all_shells]] = False
+    return len(major) > 1 or (bool(rest.any()) and _is_case(view, np.flatnonzero(rest), fronts))
+
+
+def _major(view: View, fronts: tuple[Front, ...]) -> tuple[Front, ...]:
+    """Returns the fronts of some size: rails and stiles of one door are far smaller than its panel."""
+    areas = [_outline(view, front) for front in fronts]
+    return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= _ALIKE * max(areas))
+
+
+def _is_beside_panel(view: View, own: Indices, major: tuple[Front, ...]) -> bool:
+    """Whether a plate is one front beside a plate that is none: a control panel."""
+    area = np.prod(view.size[:, :2], axis=1)
+    size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
+    outline, plate = float(size[0] * size[1]), major[0].shells[0]
+    beside = [k for k in own.tolist() if k != plate and overlaps(view, k)[plate] < 0.1]
+    has_panel = len(major) == 1 and any(area[k] >= _PANEL * outline for k in beside)
+    return has_panel and bool(area[[plate, *beside]].sum() >= _FILLED * outline)
+
+
+def _is_case(view: View, rest: Indices, fronts: tuple[Front, ...]) -> bool:
+    """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above."""
+    plates = [front.shells[0] for front in fronts]
+    near = 3 * float(Scale.of(view).near[plates[0]])
+    low, high = view.low[rest].min(axis=0), view.high[rest].max(axis=0)
+    left, right = view.low[plates].min(axis=0) - near, view.high[plates].max(axis=0) + near
+    if (low[:2] < left[:2]).any() or (high[:2] > right[:2]).any():
+        return bool(view.low[plates, 2].max() - low[2] > near / 3)
+    above = view.high[rest, 1] >= high[1] - near
+    lid = float(view.faced[rest[above], 1].sum())
+    return lid >= _LID * float((high - low)[0] * (high - low)[2])
+
+
+def _pieces(shells: Shells, owner: int, start: int, fronts: tuple[Front, ...]) -> list[Piece]:
+    faces = np.flatnonzero(shells.owner[shells.shell] == owner)
+    of = shells.shell[faces]
+    groups = [("front", front.shells) for front in fronts]
+    groups += [("handle", handle) for front in fronts for handle in front.handles]
+    pieces = [Piece(role, faces[np.isin(of, group)] - start) for role, group in groups]
+    taken = [shell for _, group in groups for shell in group]
+    rest = faces[~np.isin(of, taken)] - start
+    return [*([Piece("rest", rest)] if len(rest) else []), *pieces]

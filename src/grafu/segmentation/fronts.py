@@ -1,0 +1,172 @@
+"""Fronts with what belongs to them: panes, mouldings and liners, the boards of a drawer, handles. It asks no names."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from grafu.geometry.arrays import Indices
+from grafu.segmentation.candidates import Scale, overlaps, within
+from grafu.segmentation.view import MaskOfShells, View
+
+_NESTED = 0.5  # of a smaller plate's outline: what a larger one shares with it where they are one front
+_PANE = 0.6  # of a frame's thickness: what a pane in it has at most
+_RING = 0.5  # of its outline: what covers less is a frame
+_WHOLE = 0.8  # of an object's outline: a plate that covers so much may be its fixed front
+_HALF = 0.5  # of a fixed front: what the fronts on it cover
+_HANDLE_SIDE = 0.1  # of its object's largest side: the shorter side of a handle
+_HANDLE_AREA = 0.25  # of its front's outline: that of a handle
+_HANDLE_OUT = 0.25  # of its object's largest side: how far a handle stands out
+_LINER = 1.5  # of a front's thickness: how far behind it its liners lie, and how thick they are
+_ON_FRONT = 0.6  # of a handle's outline: what lies on its front
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Front:
+    """The shells of one door or drawer, the plate first, and those of each handle on it."""
+
+    shells: tuple[int, ...]
+    handles: tuple[tuple[int, ...], ...] = ()
+
+    @property
+    def all_shells(self) -> frozenset[int]:
+        """Every shell that moves with it."""
+        return frozenset((*self.shells, *(shell for handle in self.handles for shell in handle)))
+
+    def made_of(self, members: Sequence[tuple[int, ...]]) -> "Front":
+        """Returns the front with each shell replaced by those that it is made of."""
+        parts = tuple(m for shell in self.shells for m in members[shell])
+        return Front(parts, tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles))
+
+
+def fronts_among(view: View, plates: Indices) -> tuple[Front, ...]:
+    """Returns the fronts that candidates form, each shell in one at most.
+
+    Args:
+        view: what is seen.
+        plates: the candidates, the largest first.
+    """
+    look: Final = _Look(view, Scale.of(view))
+    chosen: list[int] = []
+    for plate in _ranked(view, plates):
+        over = [k for k in chosen if overlaps(view, plate)[k] >= _NESTED]
+        if not over and not look.is_fixed(plate, plates):
+            chosen.append(plate)
+    taken: set[int] = set(chosen)
+    found = []
+    for plate in chosen:
+        front = look.with_members(plate, taken)
+        taken |= front.all_shells
+        found.append(front)
+    return tuple(found)
+
+
+def _ranked(view: View, plates: Indices) -> list[int]:
+    """Returns the candidates by outline, of equals the thicker first."""
+    area = np.round(np.prod(view.size[:, :2], axis=1), 6)
+    return sorted(plates.tolist(), key=lambda k: (-float(area[k]), -float(view.size[k, 2]), k))
+
+
+@final
+class _Look:
+    """What is asked of a view for every front; not a value."""
+
+    def __init__(self, view: View, scale: Scale) -> None:
+        self._view, self._scale = view, scale
+        self._area = np.prod(view.size[:, :2], axis=1)
+        self._cover = view.faced[:, 2] / np.maximum(self._area, 1e-300)
+
+    def is_fixed(self, plate: int, plates: Indices) -> bool:
+        """Whether a plate is the fixed front that others close or lie on, or a frame that nothing fills."""
+        view, near = self._view, float(self._scale.near[plate])
+        inner = within(view, plate, near) & (self._area < 0.9 * self._area[plate])
+        is_frame = self._cover[plate] < _RING
+        if is_frame:
+            panes = inner & (self._cover >= _RING) & (self._area >= 0.2 * self._area[plate])
+            flush = panes & (view.high[:, 2] <= view.high[plate, 2] + near)
+            thin = view.size[:, 2] <= max(_PANE * view.size[plate, 2], 0.1 * near)
+            return not (flush & thin & (view.low[:, 2] >= view.low[plate, 2] - near)).any()
+        on = np.zeros(len(self._area), dtype=bool)
+        on[plates] = True
+        on &= inner & (view.low[:, 2] >= view.high[plate, 2] - near) & (view.owner == view.owner[plate])
+        covers = float(self._area[_outermost(view, np.flatnonzero(on))].sum())
+        many = int(on.sum()) > 1 and covers >= _HALF * self._area[plate]
+        return many and bool(self._area[plate] >= _WHOLE * self._scale.outline[plate])
+
+    def with_members(self, plate: int, taken: Iterable[int]) -> Front:
+        """Returns the front of a plate: shells of its object that nobody has yet, as they belong to it."""
+        view = self._view
+        free = view.owner == view.owner[plate]
+        free[[*taken]] = False
+        handles = free & self._stands_on(plate)
+        inside = free & ~handles & within(view, plate, float(self._scale.near[plate]))
+        members = inside & self._lies_in(plate)
+        members |= self._drawer_boards(plate, inside & ~members)
+        return Front((plate, *np.flatnonzero(members).tolist()), self._grouped(np.flatnonzero(handles)))
+
+    def _stands_on(self, plate: int) -> MaskOfShells:
+        """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""
+        view, unit, near = self._view, float(self._scale.unit[plate]), float(self._scale.near[plate])
+        small = (view.size[:, :2].min(axis=1) <= _HANDLE_SIDE * unit) & (self._area <= _HANDLE_AREA * self._area[plate])
+        shared = np.maximum(
+            np.minimum(view.high[:, :2], view.high[plate, :2]) - np.maximum(view.low[:, :2], view.low[plate, :2]),
+            0.0,
+        ).prod(axis=1)
+        on = shared >= _ON_FRONT * self._area
+        front = view.high[plate, 2]
+        out = (view.high[:, 2] > front + 0.2 * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
+        starts = (view.low[:, 2] <= front + 8 * near) & (view.high[:, 2] <= front + _HANDLE_OUT * unit)
+        return np.asarray(small & on & out & starts)
+
+    def _lies_in(self, plate: int) -> MaskOfShells:
+        """Whether each shell within the outline is a pane, a moulding, a lock or a liner of the plate."""
+        view, near = self._view, float(self._scale.near[plate])
+        thick = float(view.size[plate, 2])
+        mounted = view.low[:, 2] >= view.low[plate, 2] - near
+        liner = (view.size[:, 2] <= _LINER * thick + near) & (view.low[:, 2] >= view.low[plate, 2] - _LINER * thick)
+        is_frame = (self._cover < _RING) & (self._area >= _WHOLE * self._area[plate])
+        plate_like = view.size[:, 2] <= 0.5 * view.size[:, :2].min(axis=1)
+        return np.asarray(mounted | (liner & plate_like & ~is_frame))
+
+    def _drawer_boards(self, plate: int, inside: MaskOfShells) -> MaskOfShells:
+        """Whether each shell is a board of a box behind the plate: two sides, what lies between them, and no lid."""
+        view, near = self._view, float(self._scale.near[plate])
+        nothing = np.zeros(len(inside), dtype=bool)
+        size, whole = view.size, view.size[plate]
+        behind = inside & (view.high[:, 2] <= view.high[plate, 2] + near) & (size[:, 2] > near)
+        upright = behind & (size[:, 0] <= 0.2 * whole[0]) & (size[:, 1] >= 0.3 * whole[1])
+        upright &= (size[:, 2] >= 2 * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
+        middle = (view.low[plate, 0] + view.high[plate, 0]) / 2
+        left, right = upright & (view.high[:, 0] < middle), upright & (view.low[:, 0] > middle)
+        if not (left.any() and right.any()):
+            return nothing
+        ends = view.low[left, 0].min() - near, view.high[right, 0].max() + near
+        box = behind & (view.low[:, 0] >= ends[0]) & (view.high[:, 0] <= ends[1])
+        lies = box & (size[:, 1] <= 0.5 * size[:, [0, 2]].min(axis=1))
+        top = float(view.high[left | right, 1].max())
+        lid = lies & (view.high[:, 1] >= top - near) & (size[:, 0] >= 0.5 * whole[0])
+        return nothing if lid.any() else box
+
+    def _grouped(self, shells: Indices) -> tuple[tuple[int, ...], ...]:
+        """Returns shells as groups of those that touch: bar and posts of one handle."""
+        if not len(shells):
+            return ()
+        low, high = self._view.low[shells], self._view.high[shells]
+        near = 0.5 * self._scale.near[shells].max()
+        gaps = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
+        touching = coo_matrix(gaps <= near)
+        count, label = connected_components(touching, directed=False)
+        return tuple(tuple(shells[label == k].tolist()) for k in range(count))
+
+
+def _outermost(view: View, shells: Sequence[int] | Indices) -> list[int]:
+    """Returns the shells whose outlines lie in no other's."""
+    kept: list[int] = []
+    for shell in _ranked(view, np.asarray(shells, dtype=np.int64)):
+        if not any(overlaps(view, shell)[other] >= _NESTED for other in kept):
+            kept.append(shell)
+    return kept

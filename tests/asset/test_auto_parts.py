@@ -1,0 +1,132 @@
+"""`parts="auto"`: an input is cut where it hides doors or drawers; what is divided already is read as it is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.cutting import cut_where_fronts_appear
+from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
+from grafu.asset.part import IDENTITY_FRAME, Part, PartSource
+from grafu.asset.reading import Convention, Reading
+from grafu.errors import UnsegmentedAsset
+from grafu.geometry.appearance import Material, Surface
+from grafu.geometry.mesh import merge_meshes
+from grafu.vocabulary import PartLabel
+from small_assets import CABINET, DOOR, DRAWER, mesh_of, write_grouped_obj, write_obj_folder, write_pnm
+
+AUTO = LoadOptions(up="+Z", front="-Y", scale=1.0)
+FRONTS = (DOOR[0], "drawer_front-9")
+CASE = [name for name in CABINET if name not in (*DOOR, *DRAWER)]
+
+
+def welded(names=tuple(CABINET), label=PartLabel.UNKNOWN, name="body"):
+    """A part with a surface for each board, with a material and texture coordinates of its own."""
+    meshes = [mesh_of(n) for n in names]
+    uvs = [mesh.vertices[:, [0, 2]].copy() for mesh in meshes]
+    surfaces = tuple(Surface(m, Material(n), uv) for n, m, uv in zip(names, meshes, uvs, strict=True))
+    return Part(name, label, surfaces, PartSource(name), "name" if label is not PartLabel.UNKNOWN else "none")
+
+
+def cut(*parts, kind="mesh file"):
+    return cut_where_fronts_appear(Reading(kind, parts, Convention("test")), IDENTITY_FRAME)
+
+
+@pytest.mark.parametrize("suffix", ["stl", "obj", "ply", "glb"])
+def test_one_mesh_of_any_format_gives_its_fronts_and_handles(tmp_path, suffix):
+    path = tmp_path / f"welded.{suffix}"
+    merge_meshes([mesh_of(name) for name in CABINET]).to_trimesh().export(path)
+    found = load_asset(path, AUTO)
+
+    sizes = [np.round(p.box.size, 4).tolist() for p in found.parts]
+    assert len(found.parts) == 5
+    assert all(np.round(mesh_of(name).box.size, 4).tolist() in sizes for name in (*FRONTS, "handle-8", "handle-11"))
+    assert {p.label for p in found.parts} == {PartLabel.UNKNOWN}
+    assert any("was cut into 2 fronts, 2 handles and the rest (--parts auto)" in note for note in found.notes)
+    with pytest.raises(UnsegmentedAsset):
+        load_asset(path, replace(AUTO, parts="input"))
+
+
+def test_ids_say_what_was_cut_from_what_and_other_parts_keep_theirs():
+    other = replace(welded((CASE[0],)), id="body_front", source=PartSource("body_front"))
+    found = cut(welded(), other)
+
+    assert [p.id for p in found.parts] == [
+        "body",
+        "body_front_2",
+        "body_front_3",
+        "body_handle",
+        "body_handle_2",
+        "body_front",
+    ]
+    assert {p.source.name for p in found.parts[:5]} == {"body"}
+
+
+def test_materials_and_texture_coordinates_go_with_their_faces():
+    found = {p.id: p for p in cut(welded()).parts}
+
+    assert sorted(s.material.name for s in found["body"].surfaces) == sorted([*CASE, "drawer_bottom-10"])
+    fronts = [s.material.name for name in ("body_front", "body_front_2") for s in found[name].surfaces]
+    assert sorted(fronts) == sorted(FRONTS)
+    for part in found.values():
+        for surface in part.surfaces:
+            assert np.array_equal(surface.uv, surface.mesh.vertices[:, [0, 2]])
+
+
+@pytest.mark.parametrize("write", [write_grouped_obj, write_obj_folder, write_pnm])
+def test_what_is_divided_already_is_read_as_it_is(tmp_path, write):
+    path = write(tmp_path / "c.obj")
+    plain, auto = load_asset(path, replace(AUTO, parts="input")), load_asset(path, AUTO)
+
+    assert auto.parts == plain.parts
+    assert auto.notes == plain.notes
+
+
+def test_segmented_inputs_and_named_panels_are_left_alone():
+    assert cut(welded(), kind="partnet-mobility").parts == (welded(),)
+    assert cut(welded(label=PartLabel.SIDE_PANEL)).parts == (welded(label=PartLabel.SIDE_PANEL),)
+
+
+def test_a_robot_of_several_links_is_left_alone_and_one_of_one_link_is_not():
+    body, other = welded(), welded((CASE[0],), name="other")
+    links = [replace(p, source=PartSource(p.id, link=link)) for p, link in ((body, "base"), (other, "arm"))]
+    single = replace(body, source=PartSource("body", link="base"))
+
+    assert cut(*links, kind="urdf").parts == tuple(links)
+    assert len(cut(single, kind="urdf").parts) == 5
+
+
+def test_what_rode_on_a_cut_object_rides_on_nothing_until_contact_says_on_what():
+    handle = replace(welded(("handle-8",), PartLabel.HANDLE, "handle"), rides_on="doors")
+    found = {
+        p.id: p for p in cut(welded([n for n in CABINET if n != "handle-8"], PartLabel.DOOR, "doors"), handle).parts
+    }
+
+    assert found["handle"].rides_on is None
+    assert found["handle"].surfaces == handle.surfaces
+
+
+def test_fronts_of_what_is_called_doors_are_doors_and_the_rest_is_not():
+    found = {p.id: p.label for p in cut(welded(label=PartLabel.DOOR, name="doors")).parts}
+
+    assert found["doors"] is PartLabel.UNKNOWN
+    assert found["doors_front"] is found["doors_front_2"] is PartLabel.DOOR
+    assert found["doors_handle"] is PartLabel.UNKNOWN
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (
+            CASE,
+            r"none of its 6 shells looks like the front of a door or drawer; --parts loose makes parts of its 6 shells",
+        ),
+        (CASE[:1], "it is one connected shell, in which no front of a door or drawer can be told; divide it first"),
+    ],
+)
+def test_one_mesh_without_a_front_is_refused_naming_what_was_tried(tmp_path, names, said):
+    path = tmp_path / "case.stl"
+    merge_meshes([mesh_of(name) for name in names]).to_trimesh().export(path)
+    with pytest.raises(UnsegmentedAsset, match=said):
+        load_asset(path, AUTO)

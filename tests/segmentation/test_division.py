@@ -1,0 +1,118 @@
+"""Welded furniture is cut where that makes doors and drawers appear, and nowhere else."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.segmentation.division import divided
+from grafu.synth.samples import desk, dresser, kitchen_base
+from small_assets import CABINET, DOOR, DRAWER, mesh_of
+
+QUARTER = np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+CASE = [mesh_of(name) for name in CABINET if name not in (*DOOR, *DRAWER)]
+
+
+def board(low, high):
+    return TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+
+
+def cut(*meshes, open_to=None, movers=None):
+    """What the meshes are cut into: by number, the boxes of each role."""
+    found = divided(meshes, open_to or [True] * len(meshes), movers or [False] * len(meshes))
+    return {k: [(p.role, meshes[k].with_faces(p.faces).box) for p in pieces] for k, pieces in found.items()}
+
+
+def boxes(found, role):
+    return sorted(
+        (*np.round(b.low, 4), *np.round(b.high, 4)) for pieces in found.values() for r, b in pieces if r == role
+    )
+
+
+def rounded(meshes):
+    return sorted((*np.round(m.box.low, 4), *np.round(m.box.high, 4)) for m in meshes)
+
+
+@pytest.mark.parametrize("turns", [0, 1, 2, 3])
+def test_a_welded_cabinet_gives_its_door_drawer_and_handles_back_from_whichever_side(turns):
+    T = np.linalg.matrix_power(QUARTER, turns)
+    whole = merge_meshes([mesh_of(name) for name in CABINET]).transformed(T)
+    found = cut(whole)
+
+    front = rounded([mesh_of(DOOR[0]).transformed(T), mesh_of("drawer_front-9").transformed(T)])
+    assert boxes(found, "front") == front
+    assert boxes(found, "handle") == rounded([mesh_of(n).transformed(T) for n in ("handle-8", "handle-11")])
+    assert [role for role, _ in found[0]].count("rest") == 1
+
+
+@pytest.mark.parametrize("sample", [kitchen_base, dresser], ids=["framed doors", "drawers in a face frame"])
+def test_welded_samples_give_each_front_back_whole(sample):
+    asset = sample()
+    whole = merge_meshes([part.mesh for part in asset.parts])
+    movers = [part.mesh for part in asset.parts if part.label.is_movable]
+
+    assert boxes(cut(whole), "front") == rounded(movers)
+
+
+def test_every_face_goes_to_one_piece():
+    whole = merge_meshes([part.mesh for part in desk().parts])
+    [pieces] = divided([whole], [True], [False]).values()
+
+    faces = np.concatenate([piece.faces for piece in pieces])
+    assert sorted(faces.tolist()) == list(range(len(whole.faces)))
+    assert Counter(piece.role for piece in pieces)["front"] > 1
+
+
+@pytest.mark.parametrize("sample", [kitchen_base, dresser, desk])
+def test_what_is_divided_already_stays_as_it_is(sample):
+    asset = sample()
+    meshes = [part.mesh for part in asset.parts]
+
+    assert any(shell_numbers(mesh).max() for mesh in meshes)
+    assert cut(*meshes, movers=[part.label.is_movable for part in asset.parts]) == {}
+    assert cut(*meshes) == {}, "nor where no name says what the parts are"
+
+
+def test_what_may_not_be_cut_stays_whole():
+    whole = merge_meshes([mesh_of(name) for name in CABINET])
+
+    assert cut(whole, open_to=[False]) == {}
+    assert cut(merge_meshes(CASE)) == {}, "a case without fronts"
+
+
+def test_two_doors_in_one_object_become_two_and_a_panel_beside_one_stays():
+    left, right = board((-0.4, -0.22, 0), (-0.001, -0.2, 1)), board((0.001, -0.22, 0), (0.4, -0.2, 1))
+    narrow = board((0.201, -0.22, 0), (0.4, -0.2, 1))
+    wide = board((-0.4, -0.22, 0), (0.199, -0.2, 1))
+    case = merge_meshes(CASE)
+
+    assert boxes(cut(case, merge_meshes([left, right]), movers=[False, True]), "front") == rounded([left, right])
+    assert boxes(cut(case, merge_meshes([wide, narrow])), "front")[0] == rounded([wide])[0]
+    assert cut(case, merge_meshes([wide, narrow.translated(np.array([0, 0.3, 0]))]), movers=[False, True]) == {}
+
+
+def test_bar_and_posts_of_one_handle_are_one_piece_and_panes_go_with_their_frame():
+    bar = board((-0.1, -0.25, 0.5), (0.1, -0.24, 0.51))
+    posts = [board((x, -0.24, 0.5), (x + 0.01, -0.2, 0.51)) for x in (-0.09, 0.08)]
+    stiles = [board((x, -0.2, 0.0), (x + 0.08, -0.18, 0.98)) for x in (-0.38, 0.3)]
+    rails = [board((-0.3, -0.2, z), (0.3, -0.18, z + 0.08)) for z in (0.0, 0.9)]
+    pane = board((-0.31, -0.192, 0.07), (0.31, -0.188, 0.91))
+    whole = merge_meshes([*CASE, *stiles, *rails, pane, *posts, bar])
+    found = cut(whole)
+
+    assert boxes(found, "front") == rounded([merge_meshes([*stiles, *rails, pane])])
+    handles = [m.translated(np.array([0.34, 0, 0])) for m in (*posts, bar)]
+    found = cut(merge_meshes([*CASE, *stiles, *rails, pane, *handles]))
+    assert boxes(found, "handle") == rounded([merge_meshes(handles)])
+
+
+def test_inset_fronts_leave_their_face_frame_behind():
+    stiles = [board((x, -0.2, 0.0), (x + 0.04, -0.18, 0.98)) for x in (-0.4, -0.02, 0.36)]
+    rails = [board((x, -0.2, z), (x + 0.34, -0.18, z + 0.04)) for x in (-0.36, 0.02) for z in (0.0, 0.94)]
+    doors = [board((x, -0.2, 0.042), (x + 0.336, -0.182, 0.938)) for x in (-0.358, 0.022)]
+    found = cut(merge_meshes([*CASE, *stiles, *rails, *doors]))
+
+    assert boxes(found, "front") == rounded(doors)
