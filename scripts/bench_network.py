@@ -34,9 +34,8 @@ class Completing:
 
 def time_completing(parts: int, repeats: int) -> Completing:
     """Returns how long graphs of about so many parts take, after one that only warms up."""
-    from grafu.completion.features import GraphFeatures
+    from grafu.completion.features import GraphFeatures, Scores
     from grafu.completion.network import complete_by_network, forward
-    from grafu.completion.scores import Scores
     from grafu.completion.session import open_network
     from grafu.data.corruption.corrupt import masked_pair
     from grafu.data.pair import specimen_pair

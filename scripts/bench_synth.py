@@ -102,8 +102,8 @@ class _Stages:
 
 def time_reading(count: int) -> float:
     """Returns the models a second that are read from a shard of this many."""
+    from grafu.data.pair import record_of
     from grafu.data.shards import ShardReader, write_shard
-    from grafu.data.shards_record import record_of
     from grafu.synth.generate import make_specimen
 
     with tempfile.TemporaryDirectory() as folder:

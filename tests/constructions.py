@@ -8,7 +8,7 @@ from grafu.synth.cabinets.rack import Rack
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Sides, Top
 from grafu.synth.case.legs import Leg
-from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.hold import Inside
 from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Pair, Row, Stack, Tilt
 from grafu.synth.tables.desk import Desk
 from grafu.synth.tables.table import Table

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from grafu.completion.features import GraphFeatures, graph_features
-from grafu.completion.scores import Scores
+from grafu.completion.features import GraphFeatures, Scores, graph_features
 from grafu.geometry.box import Box
 from grafu.graph.arrays import KINDS, LABELS, NULL
 from grafu.graph.functional_graph import FunctionalGraph

@@ -16,8 +16,7 @@ from grafu.data.corruption.config import PAPER as CORRUPTION
 from grafu.data.furfun import folder
 from grafu.data.shards_arrays import STEPS
 from grafu.evaluation import bootstrap, distribution, measures, methods, moving_parts, plausible, twins
-from grafu.metrics.collision import TOLERANT
-from grafu.metrics.connectivity import ConnectivityConfig
+from grafu.metrics.collision import TOLERANT, ConnectivityConfig
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
 from grafu.pipeline import verdict

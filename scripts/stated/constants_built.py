@@ -9,7 +9,7 @@ from grafu.articulation.physics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.metrics import tops
-from grafu.metrics.connectivity import ConnectivityConfig
+from grafu.metrics.collision import ConnectivityConfig
 from grafu.realization.carcass.config import CarcassConfig
 from grafu.realization.config import RealizationConfig
 from grafu.realization.drawer_box.config import DrawerBoxConfig

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from grafu.asset.load import load_asset
 from grafu.errors import FunctionalizationError
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from hssd_models import hssd_model
 
 MODEL = hssd_model(KINDS["drop-down flap"](), meshes=2)

@@ -10,7 +10,7 @@ from grafu.asset.options import Limits, LoadOptions
 from grafu.cli.main import main
 from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.geometry.transform import transform_points
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import WORDS, hssd_model
 from small_assets import Y_UP, glb_bytes, gltf_document, load_annotated, mesh_of

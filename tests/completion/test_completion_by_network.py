@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 from grafu.completion.decode_config import ADDABLE, DecodeConfig
 from grafu.completion.doors import hang_door
 from grafu.completion.drawers import run_drawer
-from grafu.completion.features import FeatureConfig, GraphFeatures
+from grafu.completion.features import FeatureConfig, GraphFeatures, Scores
 from grafu.completion.network import complete_by_network
 from grafu.completion.rule_scene import RuleScene
-from grafu.completion.scores import Scores
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import KINDS, LABELS

@@ -3,8 +3,16 @@
 import numpy as np
 import pytest
 
-from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
-from grafu.completion.points_grouping import box_points, farthest_points, group_points, resampled
+from grafu.completion.features import (
+    FeatureConfig,
+    GraphFeatures,
+    box_points,
+    farthest_points,
+    graph_features,
+    group_points,
+    mirrored,
+    resampled,
+)
 from grafu.geometry.box import Box
 from grafu.graph.arrays import ATTACHED, CONTACT, HINGE, LABELS, NULL, RAIL
 from grafu.graph.edit import mirrored as mirrored_graph

@@ -7,10 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features
+from grafu.completion.features import SCORE_NAMES, FeatureConfig, GraphFeatures, Scores, graph_features
 from grafu.completion.network import complete_by_network, forward, with_image
 from grafu.completion.probabilities import averaged, mirrored_back, probabilities_of, softmax
-from grafu.completion.scores import SCORE_NAMES, Scores
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.graph.edit import mirrored as mirrored_graph
 from grafu.graph.functional_graph import FunctionalGraph

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from grafu.completion.decode_config import ADDABLE
-from grafu.completion.features import FeatureConfig, GraphFeatures
+from grafu.completion.features import FeatureConfig, GraphFeatures, Scores
 from grafu.completion.network import complete_by_network
-from grafu.completion.scores import Scores
 from grafu.completion.session import GraphNetwork
 from grafu.graph.arrays import graph_arrays
 from grafu.graph.edit import relabelled

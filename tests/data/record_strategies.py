@@ -3,8 +3,8 @@
 import numpy as np
 from hypothesis import strategies as st
 
+from grafu.data.pair import Record
 from grafu.data.shards_arrays import DEFECT_KINDS
-from grafu.data.shards_record import Record
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail

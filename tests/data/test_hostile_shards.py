@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from grafu.data.pair import record_of
 from grafu.data.shards import ShardReader, write_shard
 from grafu.data.shards_file import read_array_file, write_array_file
-from grafu.data.shards_record import record_of
 from grafu.errors import AssetError, AssetTooLarge, UnreadableAsset
 from grafu.synth.generate import make_specimen
 

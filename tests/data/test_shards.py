@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from record_strategies import records
 
+from grafu.data.pair import Record, record_of, record_pair
 from grafu.data.shards import SCHEMA, ShardReader, write_shard
 from grafu.data.shards_arrays import LARGEST_ERROR, arrays_to_record, codes_to_points, points_to_codes, record_to_arrays
-from grafu.data.shards_record import Record, record_of, record_pair
 from grafu.errors import ExportError, GraphError, UnreadableAsset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from grafu.data.pair import Record, record_of
 from grafu.data.shards import write_shard
-from grafu.data.shards_record import Record, record_of
 from grafu.data.stream import ordered_map, stream_shards, stream_specimens, stream_synth
 from grafu.errors import UnreadableAsset
 from remembered import specimen

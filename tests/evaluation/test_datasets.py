@@ -17,7 +17,7 @@ from grafu.evaluation.dataset import TEST_SEED, ModelRef, category_of, find_mode
 from grafu.evaluation.dataset_release import DOOR_RANGE, DRAWER_RANGE
 from grafu.graph.motion import direction_to_code
 from grafu.synth.generate import make_specimen
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.training.source import RESERVED_SEEDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import hssd_model

@@ -21,7 +21,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, transform_points
 from grafu.synth.generate import make_specimen
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType
 
 

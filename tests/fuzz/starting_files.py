@@ -30,7 +30,7 @@ def _beside_cabinet(write: Callable[[Path], None]) -> Maker:
 def _singapo(folder: Path) -> None:
     from grafu.export.files import write_files
     from grafu.export.singapo import export_singapo
-    from grafu.synth.truth.articulated import articulated_of
+    from grafu.synth.truth.clashes import articulated_of
 
     write_files(export_singapo(articulated_of(_asset())), folder, overwrite=True)
 
@@ -38,7 +38,7 @@ def _singapo(folder: Path) -> None:
 def _particulate(folder: Path) -> None:
     from grafu.export.files import write_files
     from grafu.export.particulate import export_particulate
-    from grafu.synth.truth.articulated import articulated_of
+    from grafu.synth.truth.clashes import articulated_of
 
     write_files(export_particulate(articulated_of(_asset())), folder, overwrite=True)
 
@@ -111,8 +111,8 @@ def release(folder: Path) -> str:
 
 
 def shards(folder: Path) -> str:
+    from grafu.data.pair import record_of
     from grafu.data.shards import write_shard
-    from grafu.data.shards_record import record_of
     from grafu.synth.generate import make_specimen
 
     write_shard([record_of(make_specimen(11, index, points=8)) for index in range(2)], folder / "shard_000000.npz")

@@ -176,7 +176,7 @@ def partnet_mobility_urdf(folder: Path) -> str:
 
 
 def hssd(folder: Path) -> str:
-    from grafu.synth.kinds import KINDS
+    from grafu.synth.samples import KINDS
     from hssd_models import hssd_model
 
     hssd_model(KINDS["drop-down flap"](), meshes=2, spare=1).save(folder)

@@ -13,7 +13,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.heading import heading_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, rotation_matrix
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 
 BOARD = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(0.8, 0.02, 0.7)))
 

@@ -5,7 +5,7 @@ import pytest
 
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface, sample_surfaces
-from grafu.synth.kinds import TIDY
+from grafu.synth.samples import TIDY
 
 MESHES = [part.mesh for part in TIDY["corner door at 30 degrees"]().parts]
 POINT = TriangleMesh(np.array([[1.0, 2.0, 3.0]]), np.array([[0, 0, 0]]))

@@ -10,7 +10,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.graph.touching import touching_pairs
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 
 TOLERANCE = 0.05
 grid = st.tuples(*[st.integers(0, 8)] * 3).map(lambda p: np.array(p) / 10.0)

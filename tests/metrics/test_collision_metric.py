@@ -8,8 +8,17 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.metrics.collision import STRICT, TOLERANT, CollisionConfig, collision_shares, mean_collision
-from grafu.metrics.connectivity import ConnectivityConfig, connected_joints, connectivity, largest_gaps
+from grafu.metrics.collision import (
+    STRICT,
+    TOLERANT,
+    CollisionConfig,
+    ConnectivityConfig,
+    collision_shares,
+    connected_joints,
+    connectivity,
+    largest_gaps,
+    mean_collision,
+)
 from grafu.vocabulary import JointType
 
 

@@ -16,7 +16,7 @@ from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.realization.interior.request import parse_interior
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 
 Point = tuple[float, float, float]

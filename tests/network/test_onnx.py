@@ -9,7 +9,7 @@ import pytest
 import torch
 from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, arrays, tiny_network
 
-from grafu.completion.runtime import onnx_runtime
+from grafu.completion.session import onnx_runtime
 from grafu.network.batch import one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.export import OUTPUTS, PAIR_OUTPUTS

@@ -19,8 +19,8 @@ from grafu.export.urdf import export_urdf
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
-from grafu.synth.kinds import KINDS
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.samples import KINDS
+from grafu.synth.truth.clashes import articulated_of
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 from hssd_models import hssd_model

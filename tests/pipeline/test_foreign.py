@@ -19,7 +19,7 @@ from grafu.pipeline.foreign import prediction_for, read_foreign
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.pipeline.report import report_of
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.templates.gallery import builtin_gallery
 from predictions import cabinet, require_same_joints
 from small_assets import load_annotated, urdf_text, write_pnm, write_urdf

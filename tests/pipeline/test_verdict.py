@@ -26,7 +26,7 @@ from grafu.realization.report import SkipReason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType
 

@@ -16,7 +16,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.config import RealizationConfig
 from grafu.realization.make_plan import plan_from_annotation
 from grafu.realization.realize import Realized, realize
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 from sweeping import collisions
 

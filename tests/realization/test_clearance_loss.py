@@ -14,7 +14,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
-from grafu.realization.clearance.loss import measured_loss
+from grafu.realization.clearance.carve import measured_loss
 
 SHARES = st.floats(0.02, 0.98)
 

@@ -11,7 +11,7 @@ from grafu.asset.edit import yawed
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import MeshCollider
-from grafu.metrics.connectivity import largest_gaps
+from grafu.metrics.collision import largest_gaps
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, FaceFrame, Top

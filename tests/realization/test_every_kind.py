@@ -6,9 +6,8 @@ from judging import deepest_cut, hardware, installed, made_kind, realized_kind, 
 
 from grafu.articulation.articulated_object import VisualRole
 from grafu.asset.edit import as_static_object
-from grafu.metrics.collision import CollisionConfig, collision_shares
-from grafu.metrics.connectivity import ConnectivityConfig, largest_gaps
-from grafu.synth.kinds import KINDS, TIDY
+from grafu.metrics.collision import CollisionConfig, ConnectivityConfig, collision_shares, largest_gaps
+from grafu.synth.samples import KINDS, TIDY
 from grafu.vocabulary import JointType
 
 every_kind = pytest.mark.parametrize("kind", KINDS)

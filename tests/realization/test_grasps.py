@@ -15,7 +15,7 @@ from grafu.geometry.arrays import vec3
 from grafu.realization.handle.config import size_factor
 from grafu.realization.handle.grasp import find_grasp, find_grasps
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import PartLabel
 

@@ -16,7 +16,7 @@ from grafu.realization.handle.config import HandleConfig
 from grafu.realization.handle.grasp import find_grasps
 from grafu.realization.handle.place import Handles, NoHandle, add_handles, bodies_without
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import PartLabel
 from sweeping import collisions

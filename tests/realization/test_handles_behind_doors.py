@@ -16,7 +16,7 @@ from grafu.realization.handle.place import add_handles
 from grafu.realization.limits import pose_function
 from grafu.realization.scene import JointMotion, Scene
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 
 BEHIND = ("drawers behind a pair", "drawers behind an inset door")

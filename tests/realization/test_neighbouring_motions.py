@@ -7,8 +7,7 @@ from judging import hardware, installed, realized, realized_kind
 from small_scenes import box, hinged, scene
 
 from grafu.asset.part import Asset
-from grafu.metrics.collision import CollisionConfig, collision_shares
-from grafu.metrics.connectivity import largest_gaps
+from grafu.metrics.collision import CollisionConfig, collision_shares, largest_gaps
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Layout, Pair, Stack

@@ -12,7 +12,7 @@ from grafu.geometry.axis import Axis
 from grafu.metrics.collision import CollisionConfig, collision_shares
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Drawer, Pair
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 
 BEHIND = ("drawers behind a pair", "drawers behind an inset door")
 

@@ -10,8 +10,7 @@ from judging import installed, realized
 
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.metrics.collision import CollisionConfig, collision_shares
-from grafu.metrics.connectivity import ConnectivityConfig, largest_gaps
+from grafu.metrics.collision import CollisionConfig, ConnectivityConfig, collision_shares, largest_gaps
 from grafu.realization.realize import Realized
 
 MODELS = Path(os.environ.get("GRAFU_MODELS") or Path(__file__).parents[3] / "shared" / "models")

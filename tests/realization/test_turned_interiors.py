@@ -16,7 +16,7 @@ from grafu.realization.interior.furnish import Furnished
 from grafu.realization.interior.request import PREDICTED, PanelHint, parse_interior
 from grafu.realization.interior.turned import furnish_scene
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Row, Stack
-from grafu.synth.kinds import KINDS
+from grafu.synth.samples import KINDS
 from grafu.vocabulary import PartLabel
 
 LAYOUTS = {

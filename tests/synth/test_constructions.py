@@ -15,7 +15,7 @@ from grafu.synth.case.bases import base_pieces
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Top
 from grafu.synth.case.legs import Leg
-from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.hold import Inside
 from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Pair, Stack, Tilt
 from grafu.synth.pieces.finish import PLAIN
 from grafu.synth.tables.desk import Desk

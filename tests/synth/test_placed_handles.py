@@ -10,7 +10,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.handles import handle_pieces, held_side
 from grafu.synth.fronts.hold import HandleStyle, Hold, Place
 from grafu.synth.fronts.layout import Door, Drawer, LeafStyle, Pair, Rect
-from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import face_at
 from grafu.synth.pieces.finish import STEEL
 from grafu.templates.handles import HANDLES

@@ -4,8 +4,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import final
 
-from grafu.data.pair import GraphPair
-from grafu.data.shards_record import record_of, record_pair
+from grafu.data.pair import GraphPair, record_of, record_pair
 from grafu.network.config import GraFuConfig
 from grafu.synth.generate import make_specimen
 from grafu.training.config import TINY, TrainingConfig, ValidationConfig

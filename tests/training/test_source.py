@@ -5,9 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from grafu.data.pair import natural_pair
+from grafu.data.pair import Record, natural_pair
 from grafu.data.shards import write_shard
-from grafu.data.shards_record import Record
 from grafu.data.write import write_dataset
 from grafu.data.write_plan import MANIFEST, DatasetPlan
 from grafu.errors import UnreadableAsset

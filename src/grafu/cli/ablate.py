@@ -5,8 +5,7 @@ from pathlib import Path
 
 from grafu.cli.input_options import positive_count
 from grafu.cli.synth import whole_number
-from grafu.cli.train import CONFIGS
-from grafu.cli.training_options import add_training_options, training_packages
+from grafu.cli.train import CONFIGS, add_training_options, training_packages
 
 KINDS = ("losses", "folds")
 

@@ -7,12 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.cli.addition_options import add_addition_options
-from grafu.cli.input_options import add_input_options, positive_count
+from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.messages import complain
-from grafu.cli.motion_option import motion_choice
-from grafu.cli.move_option import part_move, with_moves
-from grafu.cli.reading_limits import add_limit_option
+from grafu.cli.move_option import motion_choice, part_move, with_moves
 from grafu.export.formats import known_formats
 from grafu.templates.available import open_gallery
 

@@ -5,9 +5,8 @@ import json
 import sys
 from pathlib import Path
 
-from grafu.cli.input_options import add_input_options, load_options
+from grafu.cli.input_options import add_input_options, add_limit_option, load_options, with_limits
 from grafu.cli.limit_options import add_limit_options
-from grafu.cli.reading_limits import add_limit_option, with_limits
 
 _DESCRIPTION = """\
 Shows what is read from an input: its parts and their categories, the frame and scale that were detected, which parts

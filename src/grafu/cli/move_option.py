@@ -1,7 +1,22 @@
-"""The option `--move`: how single parts move, instead of what the motion source states. It moves nothing itself."""
+"""The option `--move`: how single parts move, instead of what the motion source states. It moves nothing itself.
+
+The option --motion: a source of motions, or another system's file.
+"""
 
 import argparse
 from typing import TYPE_CHECKING
+
+from grafu.errors import OptionError
+from grafu.pipeline.motion_source import SourceOption, parse_motion
+
+
+def motion_choice(text: str) -> SourceOption:
+    """Returns the choice that `SOURCE` or `SOURCE:FILE` states; raises argparse's error where there is none."""
+    try:
+        return parse_motion(text)
+    except OptionError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,8 +10,7 @@ from pathlib import Path
 from grafu.asset.options import Limits
 from grafu.asset.resources import read_bytes
 from grafu.cli.addition_options import addition_config
-from grafu.cli.input_options import load_options
-from grafu.cli.reading_limits import with_limits
+from grafu.cli.input_options import load_options, with_limits
 from grafu.errors import AssetError, OptionError
 from grafu.pipeline.settings import Settings, settings_from_bytes
 from grafu.templates.available import open_handles

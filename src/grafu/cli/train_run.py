@@ -1,20 +1,37 @@
-"""Runs `train`: hands the options to the loop, counts its steps on a bar, and prints a line for each validation."""
+"""Runs `train`: hands the options to the loop, counts its steps on a bar, and prints a line for each validation.
+
+The best weights of a run as the file that the package ships.
+"""
 
 import argparse
+import logging
 import os
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from grafu.cli.messages import complain, say
 from grafu.cli.progress import with_progress
 from grafu.export.whole_file import whole_file
-from grafu.training.checkpoint import load_best
+from grafu.network.export import onnx_bytes
+from grafu.processes.privacy import keep_private
+from grafu.training.checkpoint import BestWeights, load_best
 from grafu.training.config import CONFIGS, TrainingConfig
-from grafu.training.exporting import exported
 from grafu.training.loop import RunOptions, StepReport, train
 from grafu.training.source import Source, source_to_train_on
 from grafu.training.workers import Workers, has_device, joined_workers, use_threads
+
+
+def exported(best: BestWeights) -> bytes:
+    """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
+    keep_private()  # the exporter may look whether ONNX Runtime is there
+    before = logging.root.manager.disable
+    logging.disable(logging.WARNING)  # torch's exporter tells of packages that it does not need
+    try:
+        return onnx_bytes(best.network(), **asdict(best.config.features), half_weights=True)
+    finally:
+        logging.disable(before)
+
 
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 _MOST_JOBS = 8  # that many make models faster than a GPU learns from them

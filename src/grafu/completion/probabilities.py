@@ -9,7 +9,7 @@ from typing import Any, final
 import numpy as np
 from jaxtyping import Float, Int64
 
-from grafu.completion.scores import Scores
+from grafu.completion.features import Scores
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.graph.motion import mirror_face, mirror_hinge

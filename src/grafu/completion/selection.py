@@ -3,6 +3,11 @@
 A motion is a property of the part, while the network answers for each pair: answers are averaged over the parts that
 may carry it, each by how likely it does. A score is the network's own, or its decision says that it is a rule's. What
 moves ends with its edges or with the reason why not.
+
+The direction in which a door or drawer opens: a rule of geometry weighs the network's choice.
+
+A door rather opens towards the face that looks away from the body, a drawer to where nothing stands. The rule's view
+weighs what is chosen, never the reported probabilities: these are the network's own.
 """
 
 from dataclasses import replace
@@ -11,11 +16,10 @@ from typing import Any
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_mount
-from grafu.completion.drawers import run_drawer
+from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_front, vote_mount
+from grafu.completion.drawers import run_drawer, vote_direction
 from grafu.completion.probabilities import softmax
 from grafu.completion.rule_scene import RuleScene
-from grafu.completion.senses import leaned_motion, leaned_way
 from grafu.completion.view import View
 from grafu.completion.votes import Ranking, chosen_of, ranking_of
 from grafu.geometry.arrays import Indices, Scalars
@@ -23,6 +27,30 @@ from grafu.graph.arrays import ATTACHED, HINGE, RAIL
 from grafu.graph.completion import BY_BOTH, BY_RULE, Decision, RefusedMotion
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
+from grafu.graph.motion import opening_face
+
+_LEAST = 1e-3  # what the rule did not vote for stays possible
+
+
+def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleScene) -> np.ndarray:
+    """Returns what the network says of a door's border and sign (4, 2), weighed by the face that leads then."""
+    front, thin = _opinion(vote_front(door, scene), power), door.box.thin_axis
+    return motion * np.array([[front[opening_face(thin, border, sign)] for sign in SIGNS] for border in BORDERS])
+
+
+def leaned_way(drawer: PartNode, shares: Scalars, power: float, scene: RuleScene) -> Scalars:
+    """Returns what the network says of the signed axes along which a drawer opens (6), weighed by the way out."""
+    return shares * _opinion(vote_direction(drawer, scene), power)
+
+
+def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
+    """Returns what the rule's vote weighs for each signed axis."""
+    shares = np.full(len(SIGNED_AXES), _LEAST)
+    for code, score in ((ranking.choice, ranking.score), (ranking.runner_up, ranking.runner_up_score)):
+        if code is not None:
+            shares[code] = max(score, _LEAST)
+    return shares**power
+
 
 _NO_SUPPORT = "there is no static part that could carry it: label the parts that stand still"
 SOME_CHANCE = 0.05  # of being the parent, where no edge says so

@@ -1,21 +1,36 @@
-"""The trained network as a function of features, run by ONNX Runtime on the CPU. It decides nothing.
+"""The trained network as a function of features, run by ONNX Runtime on the CPU.
 
 ONNX Runtime is imported when a file of weights is opened, so that whoever needs no network does not wait for it.
+
+The one place that imports ONNX Runtime: late, for that takes 0.2 s, and with its telemetry off.
 """
 
 import json
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any, final
 
 import numpy as np
 
-from grafu.completion.features import FeatureConfig, GraphFeatures
-from grafu.completion.runtime import onnx_runtime
-from grafu.completion.scores import SCORE_NAMES, Scores
+from grafu.completion.features import SCORE_NAMES, FeatureConfig, GraphFeatures, Scores
 from grafu.errors import WeightsError
 from grafu.graph.arrays import LABELS
+from grafu.processes.privacy import keep_private
+
+
+def onnx_runtime() -> ModuleType:
+    """Returns the module `onnxruntime`, which sends nothing and writes nothing of its own.
+
+    If it was imported before, its events are off from now on.
+    """
+    keep_private()
+    import onnxruntime
+
+    onnxruntime.disable_telemetry_events()
+    return onnxruntime
+
 
 GraphNetwork = Callable[[GraphFeatures], Scores]
 

@@ -26,7 +26,7 @@ from grafu.render.graph_picture import (
 )
 from grafu.render.picture import Picture, box_of, contact_sheet, encode_jpeg, encode_png, posed_visuals, render
 from grafu.synth.specimen import Specimen
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 
 PAGE_NAME = "gallery.html"
 SHEET_NAME = "gallery.png"

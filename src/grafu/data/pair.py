@@ -1,6 +1,9 @@
-"""One learning example: a graph that lacks something and the whole functional graph. It draws nothing at random."""
+"""One learning example: a graph that lacks something and the whole functional graph.
 
-from dataclasses import dataclass
+What one model of a data set is, as a network is taught with it: two graphs and a few words.
+"""
+
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
 
@@ -8,7 +11,7 @@ from grafu.errors import GraphError
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import as_contacts
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.synth.specimen import Specimen
+from grafu.synth.specimen import Defect, Specimen
 
 NATURAL = "natural"  # the strategy of a pair that nothing was taken from on purpose
 
@@ -68,3 +71,77 @@ def _require_same_box(given: PartNode, wanted: PartNode, model_id: str) -> None:
         raise GraphError(
             f"a node must have one box in input and target: `{given.id}` of `{model_id}` has {given.box}, {wanted.box}"
         )
+
+
+@final
+@dataclass(frozen=True)
+class Record:
+    """One model of a data set: `given` is what a network sees, `truth` what it is to say.
+
+    The nodes of `given` are nodes of `truth` in the same order, with the same boxes and points; their labels may
+    differ. `removable` and `defects` are as in `Specimen`.
+
+    Raises:
+        GraphError: if the graphs carry another name than the model, or `given` holds what `truth` does not.
+    """
+
+    model_id: str
+    family: str
+    given: FunctionalGraph
+    truth: FunctionalGraph
+    removable: frozenset[str] = frozenset()
+    defects: tuple[Defect, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.given.model_id == self.truth.model_id == self.model_id:
+            names = f"`{self.given.model_id}` and `{self.truth.model_id}`"
+            raise GraphError(f"both graphs of a record must be named `{self.model_id}` as it is: got {names}")
+        _require_same_nodes(self)
+        if not all(part in self.truth for part in self.removable):
+            raise GraphError(f"`removable` of `{self.model_id}` must name nodes: got {sorted(self.removable)}")
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """The ids of the nodes that `given` lacks, in the order of `truth`."""
+        return tuple(node.id for node in self.truth.nodes if node.id not in self.given)
+
+
+def record_of(specimen: Specimen) -> Record:
+    """Returns the specimen without its meshes; both graphs take its id."""
+    return Record(
+        specimen.id,
+        specimen.family,
+        _named(specimen.given, specimen.id),
+        _named(specimen.truth, specimen.id),
+        specimen.removable,
+        specimen.defects,
+    )
+
+
+def record_pair(record: Record) -> GraphPair:
+    """Returns the natural pair of a record, from which `fold` makes corrupted ones."""
+    return GraphPair(record.given, record.truth, NATURAL, record.model_id)
+
+
+def _named(graph: FunctionalGraph, name: str) -> FunctionalGraph:
+    return graph if graph.model_id == name else replace(graph, model_id=name)
+
+
+def _require_same_nodes(record: Record) -> None:
+    known = {node.id: (place, node) for place, node in enumerate(record.truth.nodes)}
+    last = -1
+    for node in record.given.nodes:
+        place, true_node = known.get(node.id, (-1, None))
+        if true_node is None or place <= last or not _is_same(node, true_node):
+            raise GraphError(
+                f"`given` of `{record.model_id}` must hold nodes of `truth` in its order, with their boxes, points and "
+                f"source names: got `{node.id}`"
+            )
+        last = place
+
+
+def _is_same(a: PartNode, b: PartNode) -> bool:
+    """Whether two nodes differ in nothing but their label; shared arrays, the usual case, are not compared."""
+    same_box = a.box is b.box or a.box == b.box
+    same_points = a.points is b.points or a.points == b.points
+    return same_box and same_points and a.source_name == b.source_name

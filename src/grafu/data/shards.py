@@ -11,9 +11,9 @@ from typing import Any, final
 
 import numpy as np
 
+from grafu.data.pair import Record
 from grafu.data.shards_arrays import DEFECT_KINDS, ModelArrays, arrays_to_record, record_to_arrays
 from grafu.data.shards_file import read_array_file, require_columns, write_array_file
-from grafu.data.shards_record import Record
 from grafu.errors import UnreadableAsset
 from grafu.graph.arrays import KINDS, LABELS
 from grafu.synth.specimen import Defect

@@ -17,7 +17,7 @@ from typing import final, get_args
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int32, UInt8, UInt16, UInt32
 
-from grafu.data.shards_record import Record
+from grafu.data.pair import Record
 from grafu.errors import GraphError
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box

@@ -14,8 +14,8 @@ from typing import TypeVar
 
 import numpy as np
 
+from grafu.data.pair import Record, record_of
 from grafu.data.shards import ShardReader
-from grafu.data.shards_record import Record, record_of
 from grafu.errors import UnreadableAsset
 from grafu.processes.lifetime import end_with_parent, started_by_main_thread
 from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent

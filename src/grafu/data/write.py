@@ -25,9 +25,9 @@ from uuid import uuid4
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
 from grafu.data.furfun.split import SPLIT_NAMES
 from grafu.data.furfun.write import furfun_files, split_files
+from grafu.data.pair import record_of
 from grafu.data.shards import ShardReader, write_model_arrays
 from grafu.data.shards_arrays import ModelArrays, record_to_arrays
-from grafu.data.shards_record import record_of
 from grafu.data.stream import ordered_map, shard_paths
 from grafu.data.write_plan import DatasetPlan, ModelSummary, begin_dataset, faults_said, summary_of
 from grafu.errors import ExportError

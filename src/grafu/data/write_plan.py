@@ -17,9 +17,9 @@ import numpy as np
 from grafu.asset.own_files import read_own_json
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
 from grafu.data.furfun.split import SPLIT_NAMES
+from grafu.data.pair import record_of
 from grafu.data.shards import MODELS_PER_SHARD
 from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
-from grafu.data.shards_record import record_of
 from grafu.data.stream import shard_paths
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import write_whole

@@ -5,7 +5,7 @@ from statistics import fmean, stdev
 
 from grafu.evaluation.bootstrap import Figure, difference_of, mean_of
 from grafu.evaluation.figures import by_object
-from grafu.evaluation.published import MASKING, MODELS, SOURCE
+from grafu.evaluation.motion_table import MASKING, MODELS, SOURCE
 from grafu.evaluation.results import PartOutcome, Results
 from grafu.evaluation.table import Cell, Column, Table
 

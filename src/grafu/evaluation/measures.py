@@ -7,8 +7,14 @@ from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.evaluation.moving_parts import MovingPart
-from grafu.metrics.collision import STRICT, TOLERANT, CollisionConfig, collision_shares
-from grafu.metrics.connectivity import ConnectivityConfig, largest_gaps
+from grafu.metrics.collision import (
+    STRICT,
+    TOLERANT,
+    CollisionConfig,
+    ConnectivityConfig,
+    collision_shares,
+    largest_gaps,
+)
 from grafu.metrics.motion import Motion, compare_motions
 
 OPENS = 0.7  # of the reference: what opens less is reported as restricted, and does not work

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from grafu.evaluation.bootstrap import Figure, mean_of, ratio_of
-from grafu.evaluation.published import HANDLES, INTERIORS, MODELS, SOURCE, TOPS
+from grafu.evaluation.motion_table import HANDLES, INTERIORS, MODELS, SOURCE, TOPS
 from grafu.evaluation.records import CompletenessRecord
 from grafu.evaluation.results import Results
 from grafu.evaluation.table import Cell, Column, Table

@@ -26,8 +26,7 @@ from grafu.pipeline.idle import without_idle
 from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
-from grafu.pipeline.simpler import bare_body, bare_fittings, by_contacts, without_joints, without_network
-from grafu.pipeline.stages import Stages
+from grafu.pipeline.stages import Stages, bare_body, bare_fittings, by_contacts, without_joints, without_network
 from grafu.realization.addition import Addition
 from grafu.realization.cache import NO_CACHE, Cache
 from grafu.realization.config import RealizationConfig

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.geometry.axis import Axis
+from grafu.realization.clearance.carve import Path
 from grafu.realization.clearance.make import make_clearance
-from grafu.realization.clearance.path import Path
 from grafu.realization.clearance.trim import trim
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes

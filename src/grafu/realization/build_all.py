@@ -1,9 +1,14 @@
 """All joints of a plan, one after the other, each within its share of the time: doors first, then drawers.
 
 One part that cannot be built, or takes more than its share, does not cost the others theirs.
+
+How moving bodies may be expected to move before their joints are built, so that hardware keeps out of their way.
+
+A door is expected to turn about the first pin of a hinge class that leaves it free, else about the axis that was asked
+for; a drawer slides. What is built later may differ.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -11,12 +16,34 @@ from grafu.geometry.budget import present_budget, within
 from grafu.realization.build import Built, build_joint
 from grafu.realization.cache import Cache
 from grafu.realization.config import RealizationConfig
-from grafu.realization.expectation import expected_motions
+from grafu.realization.hinge.search import door_search
 from grafu.realization.plan import JointRequest
+from grafu.realization.rail.search import drawer_search
 from grafu.realization.report import Skipped, SkipReason
 from grafu.realization.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
+
+
+def expected_motions(
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+) -> dict[str, JointMotion]:
+    """Returns the expected motion of each requested joint, by moving body; none for drawers that no rails can carry."""
+    return dict(_motions(requests, scene, config))
+
+
+def _motions(
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+) -> Iterator[tuple[str, JointMotion]]:
+    for request in requests:
+        if request.type is JointType.REVOLUTE:
+            door = door_search(request, scene, config)
+            yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
+            continue
+        drawer = drawer_search(request, scene, config)
+        if drawer is not None:
+            yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
+
 
 _EXPECTING = 0.15  # of the time: what joints that are not built yet may be expected to do
 _TRY = 0.8  # of the time: all joints, and all of them once more where that is needed

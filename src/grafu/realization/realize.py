@@ -20,8 +20,8 @@ from grafu.geometry.intersection import forget_large_shapes
 from grafu.realization.build import Built
 from grafu.realization.build_all import build_fairly, in_order
 from grafu.realization.cache import NO_CACHE, Cache
+from grafu.realization.clearance.carve import Path, obstruction
 from grafu.realization.clearance.make import adopt
-from grafu.realization.clearance.path import Path, obstruction
 from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import part_axes
 from grafu.realization.joint_choice import short_of_chosen

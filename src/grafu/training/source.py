@@ -13,9 +13,8 @@ import numpy as np
 
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.data.furfun.split import SplitName
-from grafu.data.pair import GraphPair
+from grafu.data.pair import GraphPair, record_of, record_pair
 from grafu.data.shards import ShardReader
-from grafu.data.shards_record import record_of, record_pair
 from grafu.data.stream import shard_paths
 from grafu.data.write_plan import made_with
 from grafu.errors import AssetError, UnreadableAsset

@@ -22,7 +22,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.pipeline.foreign import read_foreign
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType, PartLabel
 from predictions import cabinet, require_same_joints, way
 from sketches import Sketched, board, drawer, sketch

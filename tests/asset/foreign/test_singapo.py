@@ -17,7 +17,7 @@ from grafu.errors import ExportError, UnreadableAsset
 from grafu.export.files import write_files
 from grafu.export.singapo import SingapoConfig, export_singapo
 from grafu.pipeline.foreign import read_foreign
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType, PartLabel
 from predictions import cabinet, require_same_joint, unlabelled
 

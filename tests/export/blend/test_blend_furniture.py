@@ -13,7 +13,7 @@ from grafu.asset.load import load_asset
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.synth.generate import make_specimen
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.templates.gallery import builtin_gallery
 
 _ROOT = Path(__file__).parents[3]

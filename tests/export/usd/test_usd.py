@@ -17,7 +17,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points, translation
 from grafu.synth.generate import make_specimen
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType
 
 pytest.importorskip("pxr", reason="usd-core is not installed: pip install 'grafu[usd]'")

@@ -18,7 +18,7 @@ from grafu.realization.plan import JointRequest
 from grafu.realization.scene import Obstacle
 from grafu.realization.top.complete import missing_top
 from grafu.realization.top.config import TopConfig, TopShape
-from grafu.realization.top.slab import slab_mesh, with_corners, without_block
+from grafu.realization.top.section import slab_mesh, with_corners, without_block
 from grafu.vocabulary import PartLabel
 
 SHAPES: tuple[TopShape, ...] = ("rectangle", "rounded", "chamfered")

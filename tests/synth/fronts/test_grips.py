@@ -6,7 +6,7 @@ import pytest
 from grafu.synth.fronts.handles import gripped_side
 from grafu.synth.fronts.hold import Hold
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Rect
-from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import gripped_slab, leaf_surfaces
 from grafu.synth.pieces.finish import PLAIN
 

@@ -8,7 +8,7 @@ import pytest
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.synth.fronts.layout import LeafStyle, Rect
-from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import face_at, filled_rect, leaf_surfaces
 from grafu.synth.pieces.finish import PLAIN
 

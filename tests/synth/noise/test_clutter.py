@@ -10,8 +10,8 @@ from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
 from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
 from grafu.synth.noise.clutter import CLUTTER, with_clutter
-from grafu.synth.truth.articulated import articulated_of
 from grafu.synth.truth.check import faults_of
+from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import PartLabel
 
 TIDY = make_cabinet(

@@ -8,7 +8,6 @@ import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
-from grafu.synth.kinds import TIDY as KINDS
 from grafu.synth.noise.habits import (
     AJAR,
     BOTH_SIDES,
@@ -24,6 +23,7 @@ from grafu.synth.noise.habits import (
     is_storage,
 )
 from grafu.synth.noise.untidiness import Untidiness
+from grafu.synth.samples import TIDY as KINDS
 from grafu.vocabulary import PartLabel
 
 TIDY = make_cabinet(Cabinet(layout=Row((Door(shelves=2), Stack((Drawer(), Drawer()))))))

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.hold import Inside
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Rect
 from grafu.synth.sampling.fittings import HINGE_EDGE, fit_bay, fit_door, fit_drawer, fit_pair
 from grafu.synth.sampling.style import draw_style

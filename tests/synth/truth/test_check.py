@@ -20,12 +20,11 @@ from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Stack
 from grafu.synth.generate import make_specimen
-from grafu.synth.kinds import TIDY
 from grafu.synth.noise import untidy
+from grafu.synth.samples import TIDY
 from grafu.synth.specimen import Defect, Specimen
-from grafu.synth.truth.articulated import articulated_of
 from grafu.synth.truth.check import Fault, faults_in, faults_of
-from grafu.synth.truth.clashes import clashes_of
+from grafu.synth.truth.clashes import articulated_of, clashes_of
 from grafu.vocabulary import PartLabel
 from strategies import furniture_specs, made
 from sweeping import collisions

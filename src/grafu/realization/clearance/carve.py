@@ -1,27 +1,122 @@
-"""Cuts the moving part's way out of static parts, where little of them goes."""
+"""Cuts the moving part's way out of static parts, where little of them goes.
+
+How much of a part goes when solids are cut out of it: of what is seen of it, and of its volume.
+
+The way that must become free, and what stands in it.
+"""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import final
 
+import manifold3d
 import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
-from grafu.geometry.components import part_numbers
+from grafu.geometry.components import connected_parts, part_numbers
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import outer_faces
 from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.geometry.transform import transform_points
-from grafu.realization.clearance.loss import Loss, lost_volume, measured_loss
-from grafu.realization.clearance.path import Path
 from grafu.realization.config import RealizationConfig
-from grafu.realization.limits import opening_values
+from grafu.realization.limits import PoseFunction, SweepVerdict, in_the_way, opening_values, sweep, swept_box
 from grafu.realization.report import Clearance
 from grafu.realization.scene import Scene
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A motion from 0 to `reach` (radians if `is_turn`, else metres); the columns of `axes` are those of its box."""
+
+    moving: str
+    motion: PoseFunction
+    reach: float
+    axes: Mat3
+    is_turn: bool
+
+
+def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
+    """Returns how far the static parts block the path of the moving body, and which of them do."""
+    mesh = scene.moving_mesh(path.moving)
+    body = scene.swept_body(path.moving, config.depth * scene.unit, path.axes)
+    near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
+    return sweep(body, path.motion, path.reach, near, config.fine_poses)
+
+
+def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:
+    """Returns the box around a mesh in the coordinates of `axes`."""
+    return Box.around(mesh.vertices @ axes)
+
+
+def piece_boxes(axes: Mat3, mesh: TriangleMesh) -> list[Box]:
+    """Returns the boxes of the connected pieces in the coordinates of `axes`."""
+    return [box_in(axes, piece) for piece in connected_parts(mesh)]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """What goes of a part: shares of its outer surface, and of the volume of its pieces' convex hulls."""
+
+    surface: float
+    volume: float
+
+    @property
+    def share(self) -> float:
+        """The larger of the two: a hollow part loses much of its surface with little of the volume around it."""
+        return max(self.surface, self.volume)
+
+
+def measured_loss(part: Part, solids: Sequence[ConvexSolid]) -> Loss:
+    """Returns what of a part lies in the solids."""
+    return Loss(lost_surface(part, solids), lost_volume(part, solids))
+
+
+def lost_surface(part: Part, solids: Sequence[ConvexSolid]) -> float:
+    """Returns the share of the part's outer surface that lies in the solids, 0..1.
+
+    Outer is what can be seen from outside the part, so cut faces and hidden walls do not count.
+    """
+    seen = outer_faces(part.mesh)
+    whole = float(part.mesh.face_areas[seen].sum())
+    if whole == 0 or not solids:
+        return 0.0
+    ends = np.cumsum([len(surface.mesh.faces) for surface in part.surfaces])
+    shown = [s.mesh.with_faces(keep) for s, keep in zip(part.surfaces, np.split(seen, ends[:-1]), strict=True)]
+    left = sum(clip(Surface(mesh), solids).mesh.area for mesh in shown if len(mesh.faces))
+    return min(max(1.0 - left / whole, 0.0), 1.0)
+
+
+def lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
+    """Returns the share of the volume of the part's pieces' convex hulls that lies in the solids, 0..1.
+
+    Volumes are those of hulls because real parts are rarely closed; 1 where all pieces are flat.
+    """
+    if not solids:
+        return 0.0
+    whole = lost = 0.0
+    cutter = manifold3d.Manifold.batch_boolean([_manifold(solid) for solid in solids], manifold3d.OpType.Add)
+    for piece in connected_parts(part.mesh):
+        hull = ConvexSolid.around(piece.vertices)
+        if hull is None:
+            continue
+        body = _manifold(hull)
+        whole += body.volume()
+        lost += (body ^ cutter).volume()
+    return min(lost / whole, 1.0) if whole > 0 else 1.0
+
+
+def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
+    return manifold3d.Manifold(manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32)))
+
 
 _TURN_STEP = np.radians(5.0)
 _MOST_PLANES = 26  # of a box with its edges and corners bevelled

@@ -14,8 +14,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation
-from grafu.realization.clearance.carve import carve
-from grafu.realization.clearance.path import Path, obstruction
+from grafu.realization.clearance.carve import Path, carve, obstruction
 from grafu.realization.clearance.trim import trim
 from grafu.realization.config import RealizationConfig
 from grafu.realization.limits import SweepVerdict

@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
 from grafu.geometry.mesh import TriangleMesh
-from grafu.realization.clearance.path import Path, box_in, piece_boxes
+from grafu.realization.clearance.carve import Path, box_in, piece_boxes
 from grafu.realization.config import RealizationConfig
 from grafu.realization.report import Clearance
 from grafu.realization.scene import Scene

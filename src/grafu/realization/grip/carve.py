@@ -17,11 +17,10 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.realization.grip.config import GripConfig, GripKind
-from grafu.realization.grip.front import front_of
 from grafu.realization.grip.ground import Site, front_part, site_of
 from grafu.realization.grip.outcome import Carved, GripRefusal, Refused
 from grafu.realization.grip.place import levelled, spots
-from grafu.realization.grip.shape import Cut, cutters, lining, tilted, union
+from grafu.realization.grip.shape import Cut, cutters, front_of, lining, tilted, union
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel

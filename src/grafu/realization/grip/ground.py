@@ -14,7 +14,7 @@ from grafu.geometry.bodywork import Bodywork
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.raycast import Crossings, line_crossings
-from grafu.realization.grip.front import Front
+from grafu.realization.grip.shape import Front
 from grafu.realization.scene import Scene
 from grafu.vocabulary import PartLabel
 

@@ -11,10 +11,9 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import triangle_bounds
 from grafu.geometry.raycast import line_crossings
 from grafu.realization.grip.config import GripConfig, GripKind, GripSize
-from grafu.realization.grip.front import Front
 from grafu.realization.grip.ground import Grid, Ground, Site, Triangles, aside
 from grafu.realization.grip.outcome import GripRefusal
-from grafu.realization.grip.shape import Cut
+from grafu.realization.grip.shape import Cut, Front
 
 _SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
 _INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn

@@ -1,16 +1,18 @@
 """Grips that are geometry of a door or drawer itself: what stands out, holes, channels, notches, free edges.
 
 It weighs what `finger_room` finds and states the confidence of each; it knows no handle parts.
+
+Cells that lie together on a relief, and their extents.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, final
 
 import numpy as np
+from jaxtyping import Int
 
-from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
-from grafu.realization.handle.clusters import Cluster, clusters_of
+from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays
 from grafu.realization.handle.config import GraspConfig
 from grafu.realization.handle.finger_room import (
     STEPS,
@@ -24,6 +26,52 @@ from grafu.realization.handle.finger_room import (
 )
 from grafu.realization.handle.front import Side
 from grafu.realization.handle.relief import Relief
+
+CellRows = Int[np.ndarray, "k 2"]
+
+_REACH = 2  # cells across which two count as together
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Cluster:
+    """Cells that lie together: their indices, and the row numbers that they had among those asked for."""
+
+    cells: CellRows
+    rows: Indices
+
+    def extent(self, relief: Relief, axis: int) -> float:
+        """Returns the metres that the cells span along u (0) or v (1)."""
+        return relief.cell * (float(np.ptp(self.cells[:, axis])) + 1.0)
+
+    def longest_run(self, relief: Relief, axis: int) -> float:
+        """Returns the metres of the longest gapless run of cells along u (0) or v (1), steps aside allowed."""
+        at = np.unique(self.cells[:, axis])
+        runs = np.split(at, np.flatnonzero(np.diff(at) > _REACH) + 1)
+        return relief.cell * max((float(run[-1] - run[0]) + 1.0 for run in runs), default=0.0)
+
+
+def clusters_of(cells: CellRows) -> list[Cluster]:
+    """Returns the groups of cells that lie within two cells of one another, largest first; cells may repeat."""
+    numbers: dict[tuple[int, int], list[int]] = {}
+    for row, (i, j) in enumerate(cells.tolist()):
+        numbers.setdefault((i, j), []).append(row)
+    left = set(numbers)
+    groups: list[list[tuple[int, int]]] = []
+    while left:
+        found = [left.pop()]
+        for i, j in found:
+            near = [(a, b) for a in range(i - _REACH, i + _REACH + 1) for b in range(j - _REACH, j + _REACH + 1)]
+            found.extend(cell for cell in near if cell in left)
+            left.difference_update(near)
+        groups.append(found)
+    return [_cluster(cells, numbers, group) for group in sorted(groups, key=len, reverse=True)]
+
+
+def _cluster(cells: CellRows, numbers: dict[tuple[int, int], list[int]], group: Sequence[tuple[int, int]]) -> Cluster:
+    rows = np.array(sorted(row for cell in group for row in numbers[cell]), dtype=np.int64)
+    return Cluster(cells[rows], rows)
+
 
 STANDS_OUT = 0.008  # metres before the front's plane from which on something is a grip of its own
 _SHORT = 0.6  # of a front's side: an edge as long as this is long enough, however small the front

@@ -13,9 +13,8 @@ from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.realization.addition import Addition, added_part, free_ids
 from grafu.realization.handle.config import HandleConfig
-from grafu.realization.handle.fit import Shape, fitted, ground_of
+from grafu.realization.handle.fit import Shape, Surroundings, fitted, ground_of, surroundings_of
 from grafu.realization.handle.grasp import Grasp
-from grafu.realization.handle.handle_clearance import Surroundings, surroundings_of
 from grafu.realization.handle.relief import Relief, Reliefs
 from grafu.realization.handle.spots import Extent, Spot, spots_on
 from grafu.realization.handle.style import Sibling, Style, choose_style, named_template, siblings_of

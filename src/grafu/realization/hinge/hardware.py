@@ -16,8 +16,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.realization.hinge.border import BorderFrame
-from grafu.realization.hinge.candidates import PinCandidate
-from grafu.realization.hinge.fit import FittedHinge
+from grafu.realization.hinge.candidates import FittedHinge, PinCandidate
 from grafu.realization.hinge.neighbours import Neighbour
 from grafu.realization.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.realization.scene import Obstacle, Scene

@@ -12,8 +12,7 @@ from typing import final
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.mesh import merge_meshes
-from grafu.realization.hinge.candidates import PinCandidate
-from grafu.realization.hinge.fit import fit_hinge, hinge_heights, hinge_size
+from grafu.realization.hinge.candidates import PinCandidate, fit_hinge, hinge_heights, hinge_size
 from grafu.realization.hinge.hardware import InstalledHinge, Site, install, judged_hinge
 from grafu.realization.hinge.pivot import pivot_ends
 from grafu.realization.hinge.search import DoorSearch, JudgedPin

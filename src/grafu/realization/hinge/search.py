@@ -15,14 +15,16 @@ from grafu.realization.config import RealizationConfig
 from grafu.realization.hinge.border import BorderFrame, border_frame, part_axes
 from grafu.realization.hinge.candidates import (
     MAKESHIFT,
+    SMALLEST,
     PinCandidate,
     Tolerances,
+    barrel_radius,
+    hinge_count,
     makeshift_pins,
     pivot_pins,
     ruled_pins,
     turns_about_itself,
 )
-from grafu.realization.hinge.fit import SMALLEST, barrel_radius, hinge_count
 from grafu.realization.hinge.neighbours import Neighbour, neighbours_of
 from grafu.realization.hinge.survey import survey
 from grafu.realization.limits import (

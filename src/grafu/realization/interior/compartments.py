@@ -11,9 +11,8 @@ import numpy as np
 
 from grafu.geometry.box import Box
 from grafu.realization.interior.config import InteriorConfig, Sizes
-from grafu.realization.interior.enclosure import FRONTS, LID
 from grafu.realization.interior.occupied import taken_cells
-from grafu.realization.interior.rooms import find_rooms
+from grafu.realization.interior.rooms import FRONTS, LID, find_rooms
 from grafu.realization.interior.surroundings import Surroundings
 from grafu.realization.scene import Scene
 

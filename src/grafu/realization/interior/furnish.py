@@ -17,17 +17,16 @@ from grafu.realization.interior.arrangement import (
     Arrangement,
     by_size,
     most_that_fit,
+    placed_hints,
     rowed,
     shared_out,
     spaced,
     stacked,
 )
-from grafu.realization.interior.clearing import Clearing, clearing_of
 from grafu.realization.interior.compartments import Compartment
 from grafu.realization.interior.config import InteriorConfig, Sizes
-from grafu.realization.interior.hints import placed_hints
 from grafu.realization.interior.occupied import is_drawer
-from grafu.realization.interior.panels import BEYOND, Place, Walls, cut_panel, moved_to
+from grafu.realization.interior.panels import BEYOND, Clearing, Place, Walls, clearing_of, cut_panel, moved_to
 from grafu.realization.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest, PanelHint
 from grafu.realization.likeness import surface_like
 from grafu.realization.scene import Scene

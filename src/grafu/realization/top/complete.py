@@ -31,11 +31,18 @@ from grafu.realization.top.outline import (
     what_pierces,
     with_fronts,
 )
-from grafu.realization.top.outside import outer_body
 from grafu.realization.top.roles import Roles, roles_of
-from grafu.realization.top.section import EMPTY, closed_up, offset, section, without_slivers
-from grafu.realization.top.slab import slab_mesh, with_corners, without_block
-from grafu.realization.top.views import Views, views_of
+from grafu.realization.top.section import (
+    EMPTY,
+    closed_up,
+    offset,
+    section,
+    slab_mesh,
+    with_corners,
+    without_block,
+    without_slivers,
+)
+from grafu.realization.top.views import Views, outer_body, views_of
 from grafu.vocabulary import PartLabel
 
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out

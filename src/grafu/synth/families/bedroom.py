@@ -10,7 +10,7 @@ from grafu.synth.cabinets.chest import Chest
 from grafu.synth.case.case import Case
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
-from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.hold import Inside
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
 from grafu.synth.sampling.carpentry import Site, fitted
 from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base

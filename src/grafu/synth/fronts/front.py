@@ -30,8 +30,7 @@ from grafu.synth.fronts.layout import (
     Tilt,
     divide,
 )
-from grafu.synth.fronts.leaf_relief import bend_at_hinge
-from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaf_relief import LeafShape, bend_at_hinge
 from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.fronts.setting import Setting, front_rect, inner_span
 from grafu.synth.pieces.assembly import Piece, PieceMotion, plank

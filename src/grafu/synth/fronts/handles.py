@@ -11,7 +11,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation
 from grafu.synth.fronts.hold import HandleStyle, Hold
 from grafu.synth.fronts.layout import Side
-from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import face_at, filled_rect
 from grafu.synth.pieces.assembly import Piece
 from grafu.synth.pieces.finish import surface_of

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.hold import Inside
 from grafu.synth.fronts.layout import Cell, Edge
 from grafu.synth.fronts.setting import Setting, inner_span
 from grafu.synth.pieces.assembly import Piece, Span, plank, solid

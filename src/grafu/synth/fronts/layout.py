@@ -10,8 +10,7 @@ from enum import Enum
 from math import radians
 from typing import Literal, final
 
-from grafu.synth.fronts.hold import USUAL, Grip, HandleStyle, Hold
-from grafu.synth.fronts.inside import EMPTY, Inside
+from grafu.synth.fronts.hold import EMPTY, USUAL, Grip, HandleStyle, Hold, Inside
 
 Side = Literal["left", "right", "top", "bottom"]
 LeafStyle = Literal[

@@ -19,8 +19,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.fronts.layout import Rect
-from grafu.synth.fronts.leaf_relief import relief_of
-from grafu.synth.fronts.leaf_shape import LeafShape
+from grafu.synth.fronts.leaf_relief import LeafShape, relief_of
 from grafu.synth.pieces.finish import Finish, surface_of
 from grafu.synth.pieces.shapes import arched_rail, board, chamfered_board, framed_opening, rounded_board
 from grafu.templates.solids import extrude, placed

@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.synth.fronts.hold import Grip, HandleStyle, Hold
-from grafu.synth.fronts.inside import Inside
+from grafu.synth.fronts.hold import Grip, HandleStyle, Hold, Inside
 from grafu.synth.fronts.layout import CURVED, Bay, Blank, Door, Drawer, LeafStyle, Pair, Rect, Side, Tilt
 from grafu.synth.sampling.chance import between, chance, pick
 from grafu.synth.sampling.style import Style

@@ -20,8 +20,7 @@ from grafu.graph.edges import Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.synth.specimen import DefectKind, Specimen
-from grafu.synth.truth.articulated import articulated_of
-from grafu.synth.truth.clashes import clashes_of
+from grafu.synth.truth.clashes import articulated_of, clashes_of
 from grafu.vocabulary import JointType, PartLabel
 
 FaultKind = Literal[

@@ -3,7 +3,7 @@ import pytest
 from grafu.cli.main import main
 from grafu.export.files import write_files
 from grafu.export.particulate import export_particulate
-from grafu.synth.truth.articulated import articulated_of
+from grafu.synth.truth.clashes import articulated_of
 from predictions import cabinet
 from small_assets import write_glb
 
