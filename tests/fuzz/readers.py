@@ -52,10 +52,10 @@ def read_prediction(entry: Path, rng: Random) -> Any:
 
 def read_settings(entry: Path, rng: Random) -> Any:
     from grafu.cli.main import build_parser
-    from grafu.cli.settings_option import read_settings
+    from grafu.cli.settings_option import stated_settings
 
     arguments = ["functionalize", "x.glb", "--out", "x", "--settings", str(entry)]
-    return read_settings(build_parser().parse_args(arguments))
+    return stated_settings(build_parser().parse_args(arguments))
 
 
 def read_templates(entry: Path, rng: Random) -> Any:
