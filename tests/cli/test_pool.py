@@ -1,12 +1,20 @@
 """Jobs in processes: a result each, and a crash that takes no other job with it."""
 
 import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
+from time import sleep
 
+import pytest
+from obj_inputs import write_cabinet
+
+from descendants import SOON, survivors
 from grafu.cli.job import Failed, Job, JobOptions
 from grafu.cli.limit_options import why_stopped
 from grafu.cli.pool import run_jobs
-from grafu.processes.limits import Ending, Limits
+from grafu.processes.limits import Ending, Limits, descendants
 
 
 def fake_run(job: Job) -> Failed:
@@ -32,3 +40,178 @@ def test_a_crash_fails_one_job_alone() -> None:
     assert (found["a"].why, found["b"].why) == ("ran a", "ran b")
     assert found["crash"].why == why_stopped(Ending.DIED, Limits())
     assert not found["crash"].users_fault
+
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the tests ask /proc")
+
+# Python imports it as it starts, in every process of a run: what happens at the moment when results take their place.
+_AT_THE_END = """
+import os, time
+from grafu.export import files
+swap = files._swap
+def instead(fresh, folder, old):
+    if "bad" in folder.name:
+        {what}
+    swap(fresh, folder, old)
+files._swap = instead
+"""
+HANG = "time.sleep(1000)"
+CRASH = "os.abort()"
+EAT = "kept = []\n        while True: kept.append(os.urandom(10**6) * 10)"
+GULP = "bytes(10**13)"
+QUICK = ("--motion", "rule", "--formats", "urdf", "--no-page")
+
+
+@pytest.fixture
+def out(tmp_path: Path) -> Path:
+    return tmp_path / "out"
+
+
+def begin(tmp_path: Path, *arguments: object, what: str = "pass") -> "subprocess.Popen[str]":
+    """Starts the command, whose results named `bad` meet their fate where they would take their place."""
+    (tmp_path / "sitecustomize.py").write_text(_AT_THE_END.format(what=what))
+    paths = os.pathsep.join([str(tmp_path), *(path for path in sys.path if path)])
+    return subprocess.Popen(
+        [sys.executable, "-m", "grafu.cli.main", *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def hidden(out: Path) -> list[str]:
+    return [path.name for path in out.iterdir() if path.name.startswith(".")] if out.is_dir() else []
+
+
+def wait_for_hidden(out: Path, count: int) -> None:
+    for _ in range(int(SOON / 0.02)):
+        if len(hidden(out)) == count:
+            return
+        sleep(0.02)
+    raise AssertionError(f"nobody wrote into {out}")
+
+
+def models(tmp_path: Path, *names: str) -> list[Path]:
+    return [write_cabinet(tmp_path, name) for name in names]
+
+
+@pytest.mark.parametrize("names", [["bad"], ["bad", "bad_too"]])
+@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
+def test_a_run_that_is_ended_leaves_nothing_running(
+    tmp_path: Path, out: Path, names: list[str], sent: signal.Signals
+) -> None:
+    command = ("functionalize", *models(tmp_path, *names), "--out", out, "--jobs", 2, *QUICK)
+    run = begin(tmp_path, *command, what=HANG)
+    wait_for_hidden(out, len(names))
+    started = descendants(run.pid)
+    run.send_signal(sent)
+    _, said = run.communicate(timeout=SOON)  # ends when the last that holds the pipes has ended
+
+    assert len(started) >= len(names)
+    assert survivors(started, 5.0) == []
+    if sent is signal.SIGTERM:
+        assert run.returncode == 143
+        assert hidden(out) == []
+        assert "no half-written output is left" in said
+        assert ("--resume" in said) == (len(names) > 1)
+        assert said.count("\n") == len(names)
+        again = begin(tmp_path, *command, "--resume")
+        again.communicate(timeout=SOON)
+        assert (again.returncode, sorted(path.name for path in out.iterdir())) == (0, names)
+
+
+def test_ctrl_c_reaches_all_and_is_said_once(tmp_path: Path, out: Path) -> None:
+    run = begin(tmp_path, "functionalize", *models(tmp_path, "bad"), "--out", out, *QUICK, what=HANG)
+    wait_for_hidden(out, 1)
+    os.killpg(run.pid, signal.SIGINT)  # as a terminal does it
+    _, said = run.communicate(timeout=SOON)
+    assert run.returncode == 130
+    assert said == "grafu: interrupted; no half-written output is left\n"
+    assert hidden(out) == []
+
+
+@pytest.mark.parametrize(
+    ("what", "limit", "code", "words"),
+    [
+        (HANG, ("--timeout", "2"), 2, "not done after 3 s, 1.5 times its --timeout"),
+        (EAT, ("--memory", "700M"), 2, "needed more than 700 MB of memory and was stopped: give --memory more"),
+        (GULP, ("--memory", "700M"), 2, "needed more than 700 MB of memory and was stopped: give --memory more"),
+        (CRASH, (), 1, "the process died while working on it"),
+    ],
+)
+def test_a_model_that_is_stopped_is_one_line(
+    tmp_path: Path, out: Path, what: str, limit: tuple[str, ...], code: int, words: str
+) -> None:
+    run = begin(tmp_path, "functionalize", *models(tmp_path, "bad"), "--out", out, *limit, *QUICK, what=what)
+    shown, said = run.communicate(timeout=SOON)
+    assert run.returncode == code
+    assert words in said
+    assert said.count("\n") == 1
+    assert shown == ""
+    assert hidden(out) == []
+
+
+def test_of_several_the_others_are_done(tmp_path: Path, out: Path) -> None:
+    inputs = models(tmp_path, "good", "bad", "better")
+    run = begin(tmp_path, "functionalize", *inputs, "--out", out, "--jobs", 1, *QUICK, what=CRASH)
+    _, said = run.communicate(timeout=SOON)
+    assert run.returncode == 1
+    assert said.count("\n") == 1
+    assert f"{inputs[1]}: the process died" in said
+    assert sorted(path.name for path in out.iterdir()) == ["better", "good"]
+
+
+def test_what_is_wrong_with_one_input_is_said_as_ever(tmp_path: Path, out: Path) -> None:
+    run = begin(tmp_path, "functionalize", tmp_path / "none.glb", "--out", out)
+    shown, said = run.communicate(timeout=SOON)
+    assert (run.returncode, shown, said.count("\n")) == (2, "", 1)
+    assert "none.glb" in said
+
+
+def test_inspection_has_limits_too(tmp_path: Path) -> None:
+    run = begin(tmp_path, "inspect", *models(tmp_path, "good"), "--memory", "100M")
+    _, said = run.communicate(timeout=SOON)
+    assert run.returncode == 2
+    assert "--memory" in said
+    done = begin(tmp_path, "inspect", tmp_path / "good.obj")
+    shown, said = done.communicate(timeout=SOON)
+    assert (done.returncode, said) == (0, "")
+    assert "door" in shown
+
+
+@pytest.mark.parametrize(
+    "limit", [("--timeout", "0"), ("--timeout", "soon"), ("--memory", "4 apples"), ("--memory", "4")]
+)
+def test_limits_that_mean_nothing_are_refused(tmp_path: Path, limit: tuple[str, str]) -> None:
+    from grafu.cli.main import main
+
+    with pytest.raises(SystemExit) as end:
+        main(["functionalize", "a.glb", "--out", str(tmp_path), *limit])
+    assert end.value.code == 2
+
+
+def test_limits_are_read_as_people_write_them() -> None:
+    from grafu.cli.limit_options import limits_of
+    from grafu.cli.main import build_parser
+    from grafu.processes.limits import Limits
+
+    def stated(*limits: str) -> Limits:
+        return limits_of(build_parser().parse_args(["functionalize", "a.glb", "--out", "out", *limits]))
+
+    assert stated() == Limits(120.0, 4 * 10**9)
+    assert stated("--timeout", "7.5", "--memory", "1.5g") == Limits(7.5, 1_500_000_000)
+    assert stated("--timeout", "none", "--memory", "800MB") == Limits(None, 800_000_000)
+    assert stated("--timeout", "1", "--memory", "none") == Limits(1.0, None)
+
+
+def test_a_model_is_delivered_with_what_its_time_holds(tmp_path: Path) -> None:
+    from grafu.cli.job import Job, JobOptions, Succeeded, run_job
+    from grafu.processes.limits import Limits
+
+    options = JobOptions(tmp_path / "out", formats=("urdf",), page=False, limits=Limits(seconds=1e-6))
+    result = run_job(Job(write_cabinet(tmp_path), "cabinet", options))
+    assert isinstance(result, Succeeded)
+    assert {skipped.reason.value for skipped in result.report.skipped} == {"too complex"}
+    assert (tmp_path / "out" / "cabinet" / "model.urdf").is_file()

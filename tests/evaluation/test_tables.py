@@ -17,8 +17,7 @@ from grafu.evaluation.masking_table import masking_table
 from grafu.evaluation.methods import Method
 from grafu.evaluation.models_table import models_table
 from grafu.evaluation.motion_table import motion_table
-from grafu.evaluation.ood_table import ood_table
-from grafu.evaluation.output import build_tables, output_files
+from grafu.evaluation.output import build_tables, ood_table, output_files
 from grafu.evaluation.records import (
     CompletenessRecord,
     GraspRecord,

@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Final, final
 
 from grafu.asset.languages import word_set
-from grafu.asset.speech import OF, singular, spoken
+from grafu.asset.names import OF, singular, spoken
 from grafu.vocabulary import PartLabel
 
 # Each row: a label and the phrases that give it. A phrase is words that adjoin (`drawer rail` also matches plurals);

@@ -11,8 +11,8 @@ from typing import final
 import numpy as np
 
 from grafu.asset.labels import is_piece
+from grafu.asset.names import spoken
 from grafu.asset.part import Part
-from grafu.asset.speech import spoken
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from grafu.asset.labels import sense_of
 from grafu.asset.languages import word_set
+from grafu.asset.names import spoken
 from grafu.asset.part import Part
-from grafu.asset.speech import spoken
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel

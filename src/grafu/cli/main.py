@@ -11,7 +11,7 @@ from typing import NoReturn, final
 
 from grafu.cli import ablate, evaluate, functionalize, inspect, synth, templates, train
 from grafu.cli.input_options import join_directions
-from grafu.cli.supervision import run_supervised
+from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb
 from grafu.processes.privacy import keep_private
 from grafu.processes.signals import end_requests_heard

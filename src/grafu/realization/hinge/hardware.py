@@ -1,10 +1,13 @@
-"""Is a fitted hinge in anything's way, and does it hold on to both of its parts. It chooses nothing.
+"""Is a fitted hinge in anything's way, and does it hold on to both of its parts.
 
 What cuts into parts is no hinge at all; one that another door or drawer would run into is returned with their names.
+
+The other moving bodies around a joint: what they are at rest, and whether they run into hardware along their path.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import final
 
 import numpy as np
@@ -15,13 +18,59 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
-from grafu.realization.hinge.border import BorderFrame
+from grafu.realization.hinge.border import BorderFrame, part_axes
 from grafu.realization.hinge.candidates import FittedHinge, PinCandidate
-from grafu.realization.hinge.neighbours import Neighbour
-from grafu.realization.limits import PoseFunction, in_the_way, is_free, swept_box
-from grafu.realization.scene import Obstacle, Scene
+from grafu.realization.limits import PoseFunction, in_the_way, is_free, pose_function, swept_box
+from grafu.realization.scene import JointMotion, Obstacle, Scene
 from grafu.realization.support_block import METAL, Footing, block, shortest_bridge
 from grafu.templates.template import SnapPlane
+
+_POSES_OF_OTHERS = 19
+
+
+@final
+class Neighbour:
+    """Another moving body with what rides on it and its hardware, prepared for queries; not a value.
+
+    `joint_motion` is None where its motion is unknown; `depth` is the tolerated penetration in metres.
+    """
+
+    def __init__(self, moving_id: str, scene: Scene, depth: float) -> None:
+        self.id = moving_id
+        self.joint_motion: JointMotion | None = scene.joint_motions.get(moving_id)
+        self.mesh: TriangleMesh = scene.equipped_mesh(moving_id)
+        self.at_rest = MeshCollider(self.mesh)
+        self._part, self._depth, self._scene = scene.parts[moving_id].mesh, depth, scene
+
+    def runs_into(self, *standing: TriangleMesh) -> bool:
+        """Whether it cuts into standing meshes, taken together, anywhere along its path."""
+        if self.joint_motion is None:
+            return False
+        near = [Obstacle(self.id, MeshCollider(mesh)) for mesh in standing if self._swept.overlaps(mesh.box)]
+        return bool(near) and not is_free(self._body, self._motion, self.joint_motion.upper, near, _POSES_OF_OTHERS)
+
+    @cached_property
+    def _motion(self) -> PoseFunction:
+        assert self.joint_motion is not None
+        return pose_function(self.joint_motion.axis, self.joint_motion.type)
+
+    @cached_property
+    def _swept(self) -> Box:
+        assert self.joint_motion is not None
+        motion, upper = self._motion, self.joint_motion.upper
+        return self._scene.path_box(
+            self.id, self.mesh, self.joint_motion, lambda: swept_box(self.mesh.box, motion, upper)
+        )
+
+    @cached_property
+    def _body(self) -> SweptBody:
+        return SweptBody(self.mesh, self._depth, np.asarray(part_axes(self._part)))
+
+
+def neighbours_of(moving_id: str, scene: Scene, depth: float) -> tuple[Neighbour, ...]:
+    """Returns all other moving bodies; `depth` is the tolerated penetration in metres."""
+    return tuple(Neighbour(other, scene, depth) for other in scene.moving_bodies if other != moving_id)
+
 
 _POSES = 11
 _TONGUE = 0.02  # how deep a tongue is let into what stands behind the door, metres

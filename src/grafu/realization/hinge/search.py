@@ -25,7 +25,7 @@ from grafu.realization.hinge.candidates import (
     ruled_pins,
     turns_about_itself,
 )
-from grafu.realization.hinge.neighbours import Neighbour, neighbours_of
+from grafu.realization.hinge.hardware import Neighbour, neighbours_of
 from grafu.realization.hinge.survey import survey
 from grafu.realization.limits import (
     all_blockers,

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from typing import Final
 
 from grafu.asset.languages import word_set
-from grafu.asset.speech import singular, spoken
+from grafu.asset.names import singular, spoken
 
 TOPLESS: Final = word_set(
     "bed mattress cradle crib cot sofa couch armchair crate basket sink basin washbasin washstand bathtub stove cooker "
