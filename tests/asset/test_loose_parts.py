@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 import trimesh
 
+from grafu.asset import loose
 from grafu.asset.load import load_asset
 from grafu.asset.loose import loose_parts
-from grafu.asset.options import LoadOptions
+from grafu.asset.options import Limits, LoadOptions
 from grafu.asset.part import Part, PartSource
-from grafu.errors import UnsegmentedAsset
+from grafu.errors import AssetTooLarge, UnsegmentedAsset
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -121,3 +122,18 @@ def test_attributes_go_with_their_faces():
     for shell in found:
         [surface] = shell.surfaces
         assert np.array_equal(surface.uv, surface.mesh.vertices[:, :2])
+
+
+def test_too_many_shells_are_refused_before_parts_are_made_of_them(tmp_path, monkeypatch):
+    monkeypatch.setattr(loose, "faces_of_part", None)
+    path = welded(tmp_path / "welded.glb")
+    with pytest.raises(AssetTooLarge, match=r"has 11 parts: at most 10 are read; .* --limit parts=11"):
+        load_asset(path, replace(LOOSE, limits=Limits(max_parts=10)))
+
+
+def test_tiny_shells_count_unless_they_lie_on_something():
+    counted = []
+    screws = [board((x, 0.5, 0.2), (x + 0.001, 0.501, 0.201)) for x in (0.1, 0.2, 0.9)]
+    wall = board((0.0, 0.0, 0.0), (0.3, 0.5, 1.0))
+    loose_parts([part("all", wall, *screws)], allow=counted.append)
+    assert counted == [1, 2]  # the wall for certain; with it, what the screw in the air makes

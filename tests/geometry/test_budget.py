@@ -6,7 +6,17 @@ import pytest
 
 from clocks import Clock
 from grafu.errors import TooComplex
-from grafu.geometry.budget import UNLIMITED, Budget, fits, present_budget, require_room, require_time, within
+from grafu.geometry.budget import (
+    UNLIMITED,
+    Budget,
+    WhileTimeLasts,
+    fits,
+    has_time,
+    present_budget,
+    require_room,
+    require_time,
+    within,
+)
 
 
 def test_without_a_budget_time_never_ends() -> None:
@@ -86,3 +96,27 @@ def test_nothing_is_begun_when_time_is_up() -> None:
             "it takes more time than its share: simplify the meshes, or allow more time"
         )
     assert begun == []
+
+
+def test_while_time_lasts_one_thing_after_another_is_done_well_and_the_rest_in_haste() -> None:
+    clock = Clock()
+
+    def slowly(name: str) -> str:
+        clock.now += 2.0
+        require_time()
+        return f"{name} done well"
+
+    with Budget.lasting(10.0, clock=clock).in_force():
+        done = WhileTimeLasts(0.5, slowly, lambda name: f"{name} done")
+        assert [done(name) for name in ("a", "b", "c", "d")] == ["a done well", "b done well", "c done", "d done"]
+        assert done.spared == 2
+        assert has_time()
+        clock.now = 10.0
+        assert not has_time()
+
+
+def test_without_a_deadline_all_is_done_well() -> None:
+    done = WhileTimeLasts(0.1, str.upper, str.lower)
+    assert done("a") == "A"
+    assert done.spared == 0
+    assert has_time()

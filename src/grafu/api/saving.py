@@ -2,19 +2,22 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 from typing import Final, final
 
 from grafu.export.files import ExportFiles
 from grafu.export.formats import export
+from grafu.geometry.budget import UNLIMITED, Budget, within
 from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.functionalize import Functionalized
-from grafu.pipeline.report import report_of
+from grafu.pipeline.report import report_of, with_notes
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
 from grafu.visible import writable
 
 MODEL_PAGE: Final = "report.html"
+_PAGE: Final = 0.8  # of the time that is left after the formats
 
 
 @final
@@ -34,8 +37,9 @@ def files_of(
     settings: Settings | None,
     page: bool = True,
     timings: Mapping[str, float] | None = None,
+    budget: Budget = UNLIMITED,
 ) -> Saved:
-    """Returns everything that is written for one result.
+    """Returns everything that is written for one result; what `budget` does not hold is left out, and noted.
 
     Args:
         made: what the pipeline made.
@@ -44,30 +48,42 @@ def files_of(
         settings: what was chosen, for `settings.json`; None: no such file, as for another system's motions.
         page: whether `report.html` is drawn.
         timings: seconds of stages before the pipeline, such as reading.
+        budget: what is left for files: the first format, the graph and the report are made however long they take.
 
     Raises:
         ExportError: if a format is unknown, or cannot say what the object holds.
     """
     started = perf_counter()
-    files = export(made.object, formats)
+    with budget.in_force():
+        files = export(made.object, formats)
     seconds = {**(timings or {}), "export": perf_counter() - started}
-    report, picture = report_of(made, name, seconds), b""
+    report, picture = with_notes(report_of(made, name, seconds), *files.notes), b""
     if page:
         started = perf_counter()
-        drawn, picture = _page(made, report)
+        with budget.in_force():
+            report, drawn, picture = within(_PAGE, partial(_page, made, report), partial(_page_of_words, made, report))
         files = files.joined(drawn)
         report = report.model_copy(update={"timings": {**report.timings, "page": round(perf_counter() - started, 4)}})
     return Saved(files.joined(_json_files(made, report, settings)), report, picture)
 
 
-def _page(made: Functionalized, report: Report) -> tuple[ExportFiles, bytes]:
-    """Returns the page of a model as a file, and a small picture of it."""
+def _page(made: Functionalized, report: Report) -> tuple[Report, ExportFiles, bytes]:
+    """Returns the report, its page as a file, and a small picture of the model."""
     from grafu.viewer.model_page import model_page
     from grafu.viewer.pictures import take_stills, thumbnail
 
     stills = take_stills(made.asset, made.object)
     page = model_page(made.asset, made.object, made.completion, report, stills)
-    return ExportFiles({MODEL_PAGE: writable(page).encode()}), thumbnail(stills)
+    return report, ExportFiles({MODEL_PAGE: writable(page).encode()}), thumbnail(stills)
+
+
+def _page_of_words(made: Functionalized, report: Report, why: str) -> tuple[Report, ExportFiles, bytes]:
+    """Returns the report, which says what its page lacks, the page without anything drawn of the model, no picture."""
+    from grafu.viewer.model_page import model_page
+
+    noted = with_notes(report, f"{MODEL_PAGE} has no 3D view and no pictures: {why}")
+    page = model_page(made.asset, made.object, made.completion, noted, None)
+    return noted, ExportFiles({MODEL_PAGE: writable(page).encode()}), b""
 
 
 def _json_files(made: Functionalized, report: Report, settings: Settings | None) -> ExportFiles:

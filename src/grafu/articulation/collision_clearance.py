@@ -16,6 +16,7 @@ from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
+from grafu.geometry.budget import require_time
 from grafu.geometry.solids import ConvexSolid
 from grafu.geometry.transform import invert, transform_points
 
@@ -118,7 +119,9 @@ def _conflicts(
     moving = [body for body in bodies if body.link in motion.Ts_object_carried]
     still = [body for body in bodies if body.link not in motion.Ts_object_carried]
     met: dict[tuple[ShapeBody, ShapeBody], list[Mat4]] = {}
+    require_time()
     for pose, a, b in _near(motion, moving, still):
+        require_time()
         body, other = moving[a], still[b]
         if body in settled and other in settled:
             continue

@@ -4,7 +4,7 @@ Hinges and rails carry no shape: their knuckles and channels interlock, and only
 they can be posed and asked whether they meet. It knows no file format.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
@@ -50,9 +50,37 @@ class CollisionConfig:
 DEFAULT_COLLISION_CONFIG = CollisionConfig()
 
 
-def collision_shapes(link: Link, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> tuple[CollisionShape, ...]:
-    """Returns the collision shapes of a link in the object frame at rest, the largest first."""
-    shapes = [shape for visual in link.visuals for shape in _shapes_of(visual, config)]
+def shapes_of(visual: Visual, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> list[CollisionShape]:
+    """Returns the collision shapes of one part in the object frame at rest; none of hardware that carries none."""
+    mesh = visual.mesh
+    if not len(mesh.faces) or not _collides(visual):
+        return []
+    if len(mesh.faces) > _DENSE:
+        mesh = clustered(mesh, config.resolution)
+    R = _yaw_rotation(mesh.vertices)
+    pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), _fineness(visual.label, config))
+    made = (_shape_around(piece.vertices @ R.T, R, config) for piece in pieces)
+    return [shape for shape in made if shape is not None]
+
+
+def box_of(visual: Visual, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> list[CollisionShape]:
+    """Returns one box around a part, turned about Z as it is: its shape where there is no time to look at it."""
+    if not len(visual.mesh.faces) or not _collides(visual):
+        return []
+    box = OrientedBox.around(visual.mesh.vertices, _yaw_rotation(visual.mesh.vertices))
+    return [OrientedBox(box.center, _smaller(box.half, config), box.rotation)]
+
+
+def collision_shapes(
+    link: Link,
+    config: CollisionConfig = DEFAULT_COLLISION_CONFIG,
+    of_part: Callable[[Visual, CollisionConfig], list[CollisionShape]] = shapes_of,
+) -> tuple[CollisionShape, ...]:
+    """Returns the collision shapes of a link in the object frame at rest, the largest first.
+
+    `of_part` finds those of one part.
+    """
+    shapes = [shape for visual in link.visuals for shape in of_part(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
     kept: list[CollisionShape] = []
     boxes: list[OrientedBox] = []
@@ -76,18 +104,6 @@ def extent_of(shape: CollisionShape) -> float:
 
 def _collides(visual: Visual) -> bool:
     return visual.role is not VisualRole.HARDWARE or visual.name.startswith("support_")
-
-
-def _shapes_of(visual: Visual, config: CollisionConfig) -> list[CollisionShape]:
-    mesh = visual.mesh
-    if not len(mesh.faces) or not _collides(visual):
-        return []
-    if len(mesh.faces) > _DENSE:
-        mesh = clustered(mesh, config.resolution)
-    R = _yaw_rotation(mesh.vertices)
-    pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), _fineness(visual.label, config))
-    made = (_shape_around(piece.vertices @ R.T, R, config) for piece in pieces)
-    return [shape for shape in made if shape is not None]
 
 
 def _fineness(label: PartLabel, config: CollisionConfig) -> PieceConfig:

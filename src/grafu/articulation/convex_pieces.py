@@ -18,6 +18,7 @@ from trimesh.intersections import slice_faces_plane
 
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
 from grafu.geometry.components import tidy_parts, welded
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
@@ -137,6 +138,7 @@ def _solid(mesh: TriangleMesh) -> Any:
 def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
     waiting, done = [whole], list[_Piece]()
     while waiting:
+        require_time()
         piece = waiting.pop(int(np.argmax([w.mesh.box.diagonal for w in waiting])))  # large ones first: room is scarce
         parts = _apart_once(piece, config) if len(done) + len(waiting) + 1 < config.most else []
         if len(parts) > 1:
@@ -192,6 +194,7 @@ def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
     """Returns both sides of a wall of the pit: at best one where what lies beyond it has no pit."""
     fallback: list[_Piece] = []
     for axis, sign, position in islice(_walls(piece, pit), _TRIES):
+        require_time()
         board, rest = piece.halves(axis, sign, position - sign * _PAST_THE_WALL)
         if not len(board.mesh.faces) or not len(rest.mesh.faces):
             continue

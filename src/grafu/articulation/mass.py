@@ -5,7 +5,7 @@ thickness, count as shells: their area, doubled faces once, times a board's thic
 box around it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import final
@@ -74,6 +74,19 @@ def moments_of(mesh: TriangleMesh, thickness: float = BOARD_THICKNESS) -> Moment
     whole = _box_volumes(Box.around((triangles @ R).reshape(-1, 3)).size[None], thickness)[0]
     total *= min(1.0, whole / max(total[0], 1e-300))
     return Moments(float(total[0]), total[1:4], total[4:].reshape(3, 3))
+
+
+def moments_of_box(mesh: TriangleMesh, thickness: float = BOARD_THICKNESS) -> Moments:
+    """Returns the moments of as much as the faces of a mesh are boards of `thickness`, all over the box around it.
+
+    It is what a mesh counts for where there is no time to look at its shape; at most the box's volume.
+    """
+    if not len(mesh.faces):
+        return NO_MOMENTS
+    size, center = mesh.box.size, mesh.box.center
+    volume = min(mesh.area / 2.0 * thickness, float(_box_volumes(size[None], thickness)[0]))
+    second = np.diag(size**2 / 12.0) + np.outer(center, center)
+    return Moments(volume, volume * center, volume * second)
 
 
 def _sides(triangles: np.ndarray, patches: Patches) -> np.ndarray:
@@ -176,14 +189,19 @@ class MassProperties(ArrayValue):
             raise ValueError(f"`MassProperties` must be those of a body with extent: got {found}")
 
 
-def mass_of_link(link: Link, config: MassConfig = DEFAULT_MASS_CONFIG) -> MassProperties:
+def mass_of_link(
+    link: Link,
+    config: MassConfig = DEFAULT_MASS_CONFIG,
+    measured: Callable[[TriangleMesh, float], Moments] = moments_of,
+) -> MassProperties:
     """Returns the mass properties of a link in the object frame at rest.
 
+    `measured` finds the moments of a mesh, given the thickness of boards.
     A link without any volume is a ten-centimetre cube of the least mass in its middle (without faces: at the origin).
     """
     total = NO_MOMENTS
     for visual in link.visuals:
-        total = total.plus(moments_of(visual.mesh, config.board_thickness).scaled(density_of(visual, config)))
+        total = total.plus(measured(visual.mesh, config.board_thickness).scaled(density_of(visual, config)))
     if total.volume <= 0:
         center = link.mesh.box.center if len(link.mesh.faces) else np.zeros(3)
         return MassProperties(config.least_mass, center, np.eye(3) * config.least_mass * 0.1**2 / 6.0)

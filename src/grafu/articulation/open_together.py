@@ -4,7 +4,7 @@ Each joint may open to its limit when it opens alone; a door and the drawer besi
 It knows no file format.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import JointValues, opening_stages
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.budget import require_time
 
 Shapes = Mapping[str, tuple[CollisionShape, ...]]
 Pairs = tuple[tuple[str, str], ...]
@@ -21,6 +23,12 @@ _STEPS = 20  # a twentieth of a door's way is some 5 degrees, of a drawer's 2 cm
 def met_at_rest(articulated: ArticulatedObject, shapes: Shapes) -> Pairs:
     """Returns the pairs of links whose shapes share a point at rest, in the order of `shapes`."""
     return _met(articulated, _bodies(shapes), {}, frozenset())
+
+
+def near_at_rest(articulated: ArticulatedObject, shapes: Shapes) -> Pairs:
+    """Returns the pairs of links of which the boxes around two shapes overlap at rest: all that could meet."""
+    pairs = ((a.link, b.link) for a, b in _near(_bodies(shapes), link_poses(articulated, {})))
+    return tuple(dict.fromkeys(pair for pair in pairs if pair[0] != pair[1]))
 
 
 def open_together(articulated: ArticulatedObject, shapes: Shapes) -> JointValues:
@@ -57,16 +65,25 @@ def _met(
     """Returns the pairs of links that meet with joints at these values, but for those that may."""
     if not bodies:
         return ()
+    require_time()
     poses = link_poses(articulated, values)
-    low, high = np.stack([body.bounds_at(poses[body.link][None])[0] for body in bodies], axis=1)
-    near = np.argwhere(np.all((low[:, None] <= high) & (low <= high[:, None]), axis=-1))
     met: dict[tuple[str, str], None] = {}
-    for a, b in ((bodies[i], bodies[k]) for i, k in near if i < k):
+    for a, b in _near(bodies, poses):
         pair = (a.link, b.link)
         if a.link == b.link or pair in met or frozenset(pair) in allowed:
             continue
+        require_time()
         a.place(poses[a.link])
         b.place(poses[b.link])
         if a.meets(b):
             met[pair] = None
     return tuple(met)
+
+
+def _near(bodies: list[ShapeBody], poses: Mapping[str, Mat4]) -> Iterator[tuple[ShapeBody, ShapeBody]]:
+    """Yields the pairs of bodies whose bounds overlap, in order."""
+    if not bodies:
+        return
+    low, high = np.stack([body.bounds_at(poses[body.link][None])[0] for body in bodies], axis=1)
+    near = np.argwhere(np.all((low[:, None] <= high) & (low <= high[:, None]), axis=-1))
+    yield from ((bodies[i], bodies[k]) for i, k in near if i < k)

@@ -7,20 +7,24 @@ a few newtons at the handle, and stays closed against gravity. It knows no file 
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import final
+from functools import partial
+from math import inf
+from typing import TypeVar, final
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_clearance import ClearanceConfig, cleared
-from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape, collision_shapes
+from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape, box_of, collision_shapes, shapes_of
 from grafu.articulation.kinematics import link_origins
-from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link
-from grafu.articulation.open_together import met_at_rest
+from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, moments_of, moments_of_box
+from grafu.articulation.open_together import met_at_rest, near_at_rest
 from grafu.geometry.arrays import Vec3
+from grafu.geometry.budget import WhileTimeLasts, present_budget, within
 from grafu.vocabulary import JointType
 
+T = TypeVar("T")
 GRAVITY = 9.81
 
 
@@ -107,6 +111,8 @@ class PhysicsConfig:
 
 
 DEFAULT_PHYSICS_CONFIG = PhysicsConfig()
+_MASSES, _PIECES, _CLEARANCE, _CONTACTS = 0.2, 0.25, 0.4, 0.2  # of the time that is left as each begins
+_NO_TIME = "there was no time for more"
 
 
 @final
@@ -115,7 +121,7 @@ class PhysicsModel:
     """The physics of an object at rest, in the object frame; tables by the ids of links and of moving joints.
 
     `origins` is where the frame of each link stands, parallel to the object frame. `touching` names the pairs of links
-    whose shapes meet at rest all the same.
+    whose shapes meet at rest all the same. `notes` say what was found in a simpler way, because there was no time.
     """
 
     origins: Mapping[str, Vec3]
@@ -123,6 +129,7 @@ class PhysicsModel:
     shapes: Mapping[str, tuple[CollisionShape, ...]]
     dynamics: Mapping[str, JointDynamics]
     touching: tuple[tuple[str, str], ...]
+    notes: tuple[str, ...] = ()
 
 
 _LATEST: WeakKeyDictionary[ArticulatedObject, tuple[PhysicsConfig, PhysicsModel]] = WeakKeyDictionary()
@@ -130,19 +137,47 @@ _LATEST: WeakKeyDictionary[ArticulatedObject, tuple[PhysicsConfig, PhysicsModel]
 
 
 def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_PHYSICS_CONFIG) -> PhysicsModel:
-    """Returns the physics of an object. Asked again for the same object, it answers at once."""
+    """Returns the physics of an object. Asked again for the same object, it answers at once.
+
+    What the budget in force does not hold is found in a simpler way: masses and shapes from boxes around parts.
+    """
     known = _LATEST.get(articulated)
-    if known is None or known[0] != config:
+    if known is None or known[0] != config or (known[1].notes and present_budget().deadline == inf):
         known = (config, _found(articulated, config))
         _LATEST[articulated] = known
     return known[1]
 
 
 def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsModel:
-    masses = {link.id: mass_of_link(link, config.mass) for link in articulated.links}
-    drawn = {link.id: collision_shapes(link, config.collision) for link in articulated.links}
-    shapes = cleared(articulated, drawn, config.clearance)
+    notes: list[str] = []
+    measured = WhileTimeLasts(_MASSES, moments_of, moments_of_box)
+    masses = {link.id: mass_of_link(link, config.mass, measured) for link in articulated.links}
+    of_part = WhileTimeLasts(_PIECES, shapes_of, box_of)
+    drawn = {link.id: collision_shapes(link, config.collision, of_part) for link in articulated.links}
+    if measured.spared:
+        notes.append(f"{_parts(measured.spared)} got the mass of boards all over the box around: {_NO_TIME}")
+    if of_part.spared:
+        notes.append(f"{_parts(of_part.spared)} collide as one box each: {_NO_TIME}")
+    shapes = within(
+        _CLEARANCE,
+        partial(cleared, articulated, drawn, config.clearance),
+        partial(_noted, notes, "collision shapes were not cut back where joints make them meet", drawn),
+    )
+    touching = within(
+        _CONTACTS,
+        partial(met_at_rest, articulated, shapes),
+        lambda why: _noted(notes, "what is near at rest does not collide", near_at_rest(articulated, shapes), why),
+    )
     dynamics = {
         joint.id: joint_dynamics(articulated, joint, masses, config.dynamics) for joint in articulated.moving_joints
     }
-    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, met_at_rest(articulated, shapes))
+    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, tuple(notes))
+
+
+def _noted(notes: list[str], what: str, found: T, why: str) -> T:
+    notes.append(f"{what}: {why}")
+    return found
+
+
+def _parts(count: int) -> str:
+    return f"{count:,} part{'s' if count > 1 else ''}"

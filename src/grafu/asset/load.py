@@ -86,7 +86,7 @@ def settled(reading: Reading, name: str, path: Path, options: LoadOptions = Load
     """
     reading = cleaned(reading)
     if options.parts == "loose":
-        reading = _taken_apart(reading)
+        reading = _taken_apart(reading, path, options)
     elif not reading.grouped and reading.parts:
         reading = _joined(reading)
     if reading.parts:
@@ -177,15 +177,19 @@ def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
         )
 
 
-def _taken_apart(reading: Reading) -> Reading:
+def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
     """Returns the reading with shells as parts; what an annotation lets move, ride or carry stays whole in that."""
-    parts = loose_parts(reading.parts)
+
+    def allow(count: int) -> None:
+        check_parts(count, path, options.limits)
+
+    parts = loose_parts(reading.parts, allow=allow)
     note = f"each connected shell is a part (--parts loose): {len(reading.parts)} became {len(parts)}"
     annotation = reading.annotation
     if annotation is not None:
         held = {joint.part for joint in annotation.joints}
         held |= {part for p in annotation.parts if p.rides_on for part in (p.id, p.rides_on)}
-        annotation = replace(annotation, parts=loose_parts(annotation.parts, held))
+        annotation = replace(annotation, parts=loose_parts(annotation.parts, held, allow))
     return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, note))
 
 

@@ -1,6 +1,6 @@
 """A welded model taken apart: each connected shell of a mesh becomes a part. It reads no files and settles no frame."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.point_distance import point_triangle_distances
 from grafu.vocabulary import PartLabel
 
@@ -27,16 +27,27 @@ def shell_count(surfaces: Sequence[Surface]) -> int:
     return int(numbers.max()) + 1 if len(numbers) else 0
 
 
-def loose_parts(parts: Sequence[Part], held: Collection[str] = ()) -> tuple[Part, ...]:
+def _allow(_: int) -> None:
+    """Allows any number of parts."""
+
+
+def loose_parts(
+    parts: Sequence[Part], held: Collection[str] = (), allow: Callable[[int], None] = _allow
+) -> tuple[Part, ...]:
     """Returns the parts taken apart into their connected shells, those that are `held` (ids) as they are.
 
+    `allow` is told how many parts there will be at least, before they are made, and raises where that is too many.
     Tiny shells, under 1 % of the largest side of all, stay with the shell of their part on which or in which they lie.
     Shells keep the name of their part, and its label unless it filled most of the whole: that names the piece.
     """
     if not parts:
         return ()
     whole = Box.enclosing([part.box for part in parts])
-    found = [(part, [part.surfaces] if part.id in held else _shells(part, whole)) for part in parts]
+    found: list[tuple[Part, list[tuple[Surface, ...]]]] = []
+    made = 0
+    for part in parts:
+        found.append((part, [part.surfaces] if part.id in held else _shells(part, whole, _more(allow, made))))
+        made += len(found[-1][1])
     ids = iter(unique_ids((part.id, part.label is PartLabel.HANDLE) for part, shells in found for _ in shells))
     return tuple(
         _renamed(part, next(ids), shells_of, whole) if len(shells) > 1 else replace(part, id=next(ids))
@@ -52,13 +63,18 @@ def _renamed(part: Part, name: str, surfaces: tuple[Surface, ...], whole: Box) -
     return replace(part, id=name, surfaces=surfaces, label=label, labelled_by=by)
 
 
-def _shells(part: Part, whole: Box) -> list[tuple[Surface, ...]]:
+def _more(allow: Callable[[int], None], made: int) -> Callable[[int], None]:
+    return lambda count: allow(made + count)
+
+
+def _shells(part: Part, whole: Box, allow: Callable[[int], None]) -> list[tuple[Surface, ...]]:
     """Returns the surfaces of each shell of a part, tiny ones with those that they touch."""
     numbers = shell_numbers(part.mesh)
     count = int(numbers.max()) + 1
     if count == 1:
         return [part.surfaces]
-    numbers = _with_hosts(part.mesh, numbers, float(whole.size.max()))
+    numbers = _with_hosts(part.mesh, numbers, float(whole.size.max()), allow)
+    allow(len(np.unique(numbers)))
     return [faces_of_part(part, faces) for faces in _by_number(numbers) if len(faces)]
 
 
@@ -76,20 +92,32 @@ def faces_of_part(part: Part, faces: Indices) -> tuple[Surface, ...]:
     return tuple(selected(surface, faces[a:b] - start) for surface, start, a, b in spans if b > a)
 
 
-def _with_hosts(mesh: TriangleMesh, numbers: Indices, size: float) -> Indices:
+def _with_hosts(mesh: TriangleMesh, numbers: Indices, size: float, allow: Callable[[int], None]) -> Indices:
     """Returns for each face the number of its shell, or of the shell that its own, a tiny one, touches."""
-    triangles = [mesh.triangles[faces] for faces in _by_number(numbers)]
-    boxes = [Box.around(corners.reshape(-1, 3)) for corners in triangles]
-    large = [k for k, box in enumerate(boxes) if box.size.max() >= _TINY * size]
-    host = np.arange(len(boxes))
-    for k in set(range(len(boxes))) - set(large):
-        near = [other for other in large if boxes[other].overlaps(boxes[k], _TOUCH * size)]
-        corners = triangles[k].reshape(-1, 3)
+    corners_of, faces_of = mesh.triangles, _by_number(numbers)
+    low, high = _bounds(corners_of, faces_of)
+    is_large = (high - low).max(axis=1) >= _TINY * size
+    large = np.flatnonzero(is_large)
+    allow(len(large))
+    host = np.arange(len(faces_of))
+    for k in np.flatnonzero(~is_large):
+        apart = np.maximum(low[large] - high[k], low[k] - high[large])
+        near = large[(apart <= _TOUCH * size).all(axis=1)]
+        corners = corners_of[faces_of[k]].reshape(-1, 3)
         seen = corners[:: -(-len(corners) // _SEEN)]
-        gaps = {n: 0.0 if boxes[n].contains(seen).all() else _gap(seen, triangles[n]) for n in near}
+        triangles = {n: corners_of[faces_of[n]] for n in near}
+        inside = {n: bool(np.all((seen >= low[n]) & (seen <= high[n]))) for n in near}
+        gaps = {n: 0.0 if inside[n] else _gap(seen, triangles[n]) for n in near}
         touched = [n for n in near if gaps[n] <= _TOUCH * size]
         host[k] = min(touched, key=lambda n: (_gap(seen, triangles[n]), n), default=k)
     return host[numbers].astype(np.int64)
+
+
+def _bounds(triangles: np.ndarray, faces_of: Sequence[Indices]) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the lowest and the highest corner of each group of faces."""
+    low, high = triangle_bounds(triangles)
+    order, starts = np.concatenate(faces_of), np.cumsum([0, *(len(faces) for faces in faces_of[:-1])])
+    return np.minimum.reduceat(low[order], starts), np.maximum.reduceat(high[order], starts)
 
 
 def _gap(points: np.ndarray, triangles: np.ndarray) -> float:

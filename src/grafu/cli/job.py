@@ -192,7 +192,7 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     made = functionalize(asset, source, open_gallery(options.templates), config, listener.on_stage, budget=budget)
     listener.on_stage("export")
     listener.on_object(made.object)
-    saved = files_of(made, job.name, options.formats, options.saved_settings, options.page, timings)
+    saved = files_of(made, job.name, options.formats, options.saved_settings, options.page, timings, budget)
     listener.on_stage("write")
     write_files(saved.files, job.folder, options.overwrite)
     return saved.report, saved.picture

@@ -26,6 +26,8 @@ from grafu.export.whole_file import hidden_name, whole_file
 class ExportFiles:
     """Relative names (with `/`) and the bytes of each file; `formats` says which files a format consists of.
 
+    `notes` say what was written in a simpler way, or left out, because there was no time for more.
+
     Raises:
         ExportError: if a name is not a plain relative path or the marker's, or two names differ only in case or nest
             in one another.
@@ -33,6 +35,7 @@ class ExportFiles:
 
     contents: Mapping[str, bytes]
     formats: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         seen: set[str] = set()
@@ -64,7 +67,8 @@ class ExportFiles:
         clash = [n for n in other.names if n in self.contents and self.contents[n] != other.contents[n]]
         if clash:
             raise ExportError(f"two exports must not write different files of one name: got {clash}")
-        return ExportFiles({**self.contents, **other.contents}, {**self.formats, **other.formats})
+        notes = tuple(dict.fromkeys((*self.notes, *other.notes)))
+        return ExportFiles({**self.contents, **other.contents}, {**self.formats, **other.formats}, notes)
 
 
 def write_files(files: ExportFiles, folder: Path, overwrite: bool = False) -> None:

@@ -10,6 +10,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias, final
 
 from grafu.errors import ExportError
+from grafu.geometry.budget import has_time
+from grafu.processes.limits import give_back_unused
 
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
@@ -128,6 +130,9 @@ def exporter_for(name: str) -> Exporter:
 def export(articulated: "ArticulatedObject", formats: Sequence[str]) -> "ExportFiles":
     """Returns the files of all the formats named, together; their `formats` say which are whose.
 
+    Where the budget in force holds no more, the first is written all the same, and the others are left out: the files'
+    `notes` say which.
+
     Raises:
         ExportError: if a format is unknown or cannot say what the object holds.
     """
@@ -135,9 +140,13 @@ def export(articulated: "ArticulatedObject", formats: Sequence[str]) -> "ExportF
 
     exporters = [exporter_for(name) for name in formats]
     files = ExportFiles({})
-    for name, exporter in zip(formats, exporters, strict=True):
+    for place, (name, exporter) in enumerate(zip(formats, exporters, strict=True)):
+        if place and not has_time():
+            left_out = ", ".join(dict.fromkeys(name.lower() for name in formats[place:]))
+            return files.joined(ExportFiles({}, notes=(f"left out for lack of time: {left_out}; allow more time",)))
         made = exporter(articulated)
-        files = files.joined(ExportFiles(made.contents, {name.lower(): made.names}))
+        give_back_unused()
+        files = files.joined(ExportFiles(made.contents, {name.lower(): made.names}, made.notes))
     return files
 
 

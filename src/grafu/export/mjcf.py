@@ -15,6 +15,7 @@ from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
+from grafu.articulation.sweep import JointValues
 from grafu.export.files import ExportFiles
 from grafu.export.mjcf_looks import MjcfLooks, drawn_meshes
 from grafu.export.names import NameBook, number, numbers, printable
@@ -22,9 +23,11 @@ from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
+from grafu.geometry.budget import within
 from grafu.vocabulary import JointType, PartLabel
 
 VISUAL_GROUP, COLLISION_GROUP, GRASP_GROUP = "2", "3", "4"  # the first is shown by default, the others are not
+_FOR_POSE = 0.3  # of the time that is left
 _STIFF = "0.999 0.9995 0.001"
 """MuJoCo's dry friction yields a little all the time: flaps that it holds would creep open, 0.3 degrees in 2 s."""
 
@@ -81,6 +84,7 @@ class _MjcfWriter:
         self._bodies = _names([link.id for link in articulated.links], taken="world")
         self._joints = _names([joint.id for joint in articulated.joints])
         self._moving: list[Joint] = []
+        self._notes: list[str] = []
 
     def to_files(self) -> ExportFiles:
         name = printable(self._object.name)
@@ -101,7 +105,8 @@ class _MjcfWriter:
         ET.indent(model)
         text = ET.tostring(model, encoding="utf-8", xml_declaration=True) + b"\n"
         named = {name: data for name, data in self._objs.folder.files.items() if name in self._used}
-        return ExportFiles({"model.xml": text} | {f"{MESHES}/{n}": d for n, d in (named | self._looks.images).items()})
+        meshes = {f"{MESHES}/{n}": d for n, d in (named | self._looks.images).items()}
+        return ExportFiles({"model.xml": text} | meshes, notes=(*self._physics.notes, *self._notes))
 
     def _body(self, link: Link) -> ET.Element:
         """Returns the body of a link with all that hangs on it; joints are noted in the order in which they stand."""
@@ -169,7 +174,8 @@ class _MjcfWriter:
     def _add_contacts(self, model: ET.Element) -> None:
         """What a joint holds together does not push itself apart, and neither does what touches at rest."""
         pairs = [(joint.parent, joint.child) for joint in self._object.joints]
-        pairs += [pair for pair in self._physics.touching if pair not in pairs and pair[::-1] not in pairs]
+        joined = {*pairs}
+        pairs += [pair for pair in self._physics.touching if pair not in joined and pair[::-1] not in joined]
         contact = ET.SubElement(model, "contact")
         for a, b in pairs:
             ET.SubElement(contact, "exclude", body1=self._bodies[a], body2=self._bodies[b])
@@ -185,11 +191,23 @@ class _MjcfWriter:
 
     def _add_keyframes(self, element: ET.Element) -> None:
         closed = {joint.id: joint.limits.lower for joint in self._moving}
-        for name, pose in (("closed", closed), ("open", open_together(self._object, self._physics.shapes))):
+        for name, pose in (("closed", closed), *self._open_pose()):
             values = [pose[joint.id] for joint in self._moving]
             key = ET.SubElement(element, "key", name=name, qpos=numbers(values))
             if self._config.actuators:
                 key.set("ctrl", numbers(values))
+
+    def _open_pose(self) -> list[tuple[str, JointValues]]:
+        """Returns the pose `open`; none where there is no time to find out how far all can be open together."""
+
+        def found() -> list[tuple[str, JointValues]]:
+            return [("open", open_together(self._object, self._physics.shapes))]
+
+        def noted(why: str) -> list[tuple[str, JointValues]]:
+            self._notes.append(f"model.xml has no keyframe `open`: {why}")
+            return []
+
+        return within(_FOR_POSE, found, noted)
 
     def _add_order(self, model: ET.Element) -> None:
         waiting = [joint for joint in self._moving if joint.after]

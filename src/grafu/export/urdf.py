@@ -64,7 +64,7 @@ class _UrdfWriter:
         ET.indent(robot)
         text = ET.tostring(robot, encoding="utf-8", xml_declaration=True) + b"\n"
         meshes = {f"{MESHES}/{name}": data for name, data in self._objs.folder.files.items()}
-        return ExportFiles({"model.urdf": text} | meshes)
+        return ExportFiles({"model.urdf": text} | meshes, notes=self._physics.notes)
 
     def _add_link(self, robot: ET.Element, link: Link) -> None:
         element = ET.SubElement(robot, "link", name=link.id)

@@ -12,11 +12,12 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from math import inf
 from time import monotonic
-from typing import TypeVar, final
+from typing import Generic, ParamSpec, TypeVar, final
 
 from grafu.errors import TooComplex
 
 T = TypeVar("T")
+P = ParamSpec("P")
 
 DEFAULT_SECONDS = 120.0
 """For one model: some ten times what large pieces of furniture take."""
@@ -98,6 +99,11 @@ def require_time() -> None:
         raise TooComplex("it takes more time than its share: simplify the meshes, or allow more time")
 
 
+def has_time() -> bool:
+    """Whether the deadline of the budget in force is still to come."""
+    return _present.get().left > 0
+
+
 def require_room(count: int, size: int, what: str) -> None:
     """Goes on where `count` things of `size` bytes each fit into the budget in force; ask before they are made.
 
@@ -128,3 +134,27 @@ def within(part: float, work: Callable[[], T], instead: Callable[[str], T]) -> T
     except MemoryError:
         why = "it takes more memory than there is"
     return instead(why)
+
+
+@final
+class WhileTimeLasts(Generic[P, T]):
+    """A function of many things, one after another: `work` while its share of the time lasts, then `instead`.
+
+    The share is this part (0..1) of the time that is left as it is made. `spared` counts what was done the other way.
+    Not a value.
+    """
+
+    def __init__(self, part: float, work: Callable[P, T], instead: Callable[P, T]) -> None:
+        self.spared = 0
+        self._budget = _present.get().share(part)
+        self._work, self._instead = work, instead
+
+    def __call__(self, *arguments: P.args, **named: P.kwargs) -> T:
+        """Returns what either makes of one thing."""
+        try:
+            with self._budget.in_force():
+                require_time()
+                return self._work(*arguments, **named)
+        except (TooComplex, MemoryError):
+            self.spared += 1
+        return self._instead(*arguments, **named)

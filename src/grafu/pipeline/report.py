@@ -62,6 +62,12 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     return report.model_copy(update={"verdict": verdict_of(report)})
 
 
+def with_notes(report: Report, *notes: str) -> Report:
+    """Returns a report with more notes of what was done in a simpler way, or left out, and the verdict on all."""
+    noted = report.model_copy(update={"notes": (*report.notes, *notes)})
+    return noted.model_copy(update={"verdict": verdict_of(noted)}) if notes else report
+
+
 def _with_removed(result: Functionalized) -> FunctionalGraph:
     """Returns the completed graph, with the nodes of parts that were replaced: what was lacking was so before."""
     graph = result.completion.completed

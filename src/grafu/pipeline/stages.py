@@ -20,6 +20,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig
 from grafu.pipeline.body_additions import Body
 from grafu.pipeline.fittings import Fittings
+from grafu.processes.limits import give_back_unused
 from grafu.realization.carcass.complete import CarcassCompletion
 from grafu.realization.drawer_box.complete import DrawerBoxes
 from grafu.realization.handle.grasp import held_by_label
@@ -114,6 +115,7 @@ class Stages:
         else:
             with self._budget.in_force():
                 found = within(SHARES[name], stage, partial(self._other, name, instead))
+        give_back_unused()
         self.laps.append((name, perf_counter() - started))
         return found
 

@@ -4,6 +4,8 @@ Memory is what the system counts as really there, not what was asked for. The si
 libraries reserve gigabytes that they never touch.
 """
 
+import gc
+import os
 import sys
 from contextlib import suppress
 from dataclasses import dataclass
@@ -12,6 +14,7 @@ from pathlib import Path
 from typing import Final, Generic, TypeVar, final
 
 _SPARE: Final = 2**30  # bytes that may be asked for and never be touched
+_MUCH: Final = 600 * 10**6  # bytes: a process that holds less is not worth the time of looking for what is unused
 
 
 def resident_bytes(process: int) -> int:
@@ -41,6 +44,21 @@ def refuse_beyond(memory: int) -> None:
         wanted = memory + _SPARE
         if most == resource.RLIM_INFINITY or wanted < most:
             resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
+
+
+def give_back_unused() -> None:
+    """Has this process, where it holds much, give back to the system what it does not use any more.
+
+    Values that refer to one another stay until somebody looks for them, and freed memory stays with the allocator.
+    """
+    if _resident(os.getpid()) < _MUCH:
+        return
+    gc.collect()
+    if sys.platform == "linux":
+        import ctypes
+
+        with suppress(OSError, AttributeError):  # not every C library has it
+            ctypes.CDLL(None).malloc_trim(0)
 
 
 def _resident(process: int) -> int:

@@ -7,6 +7,7 @@ import multiprocessing
 import sys
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
+from math import inf
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from time import monotonic
@@ -19,7 +20,8 @@ from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 Start = Literal["fork", "spawn"]
-_LOOK = 0.05  # seconds between two looks at a worker with limits
+_SOONEST, _LATEST = 0.05, 0.5  # seconds between two looks at a worker with limits
+_FILLED = 2 * 10**9  # bytes a second: no process fills memory faster, so one with room needs no look so soon
 _WORN = 0.5  # of its memory: a worker that keeps more from one piece of work to the next is not used again
 
 
@@ -34,6 +36,15 @@ def quick_start() -> Start:
     """
     alone = sys.platform == "linux" and len(list(Path("/proc/self/task").iterdir())) == 1
     return "fork" if alone else "spawn"
+
+
+def next_look(left: float, room: float) -> float:
+    """Returns in how many seconds a worker must be looked at again, if it says nothing.
+
+    `left` are the seconds until it is late, `room` the bytes until it is too large: where there is much of both it is
+    seldom looked at, as each look takes the watcher's time.
+    """
+    return min(max(min(left, room / _FILLED), _SOONEST), _LATEST)
 
 
 @final
@@ -56,6 +67,7 @@ class Worker(Generic[Item, Result]):
         arguments = (run, limits, prepare, theirs, started_by_main_thread())
         self._process = context.Process(target=_serve, args=arguments, daemon=True)
         self._deadline: float | None = None
+        self._held = 0  # bytes, at the last look
         with interrupts_later():
             self._process.start()
         theirs.close()
@@ -63,7 +75,10 @@ class Worker(Generic[Item, Result]):
     @property
     def patience(self) -> float | None:
         """Seconds for which nobody needs to look, while it says nothing; None: for ever."""
-        return None if self._limits == Limits() else _LOOK
+        if self._limits == Limits():
+            return None
+        left = inf if self._deadline is None else self._deadline - monotonic()
+        return next_look(left, inf if self._limits.memory is None else float(self._limits.memory - self._held))
 
     def give(self, item: Item) -> None:
         """Gives it work; one that died meanwhile says so when it is asked for the outcome."""
@@ -110,8 +125,10 @@ class Worker(Generic[Item, Result]):
             self._deadline = monotonic() + PATIENCE * self._limits.seconds
 
     def _excess(self) -> Ending | None:
-        if self._limits.memory is not None and resident_bytes(self._process.pid) > self._limits.memory:
-            return Ending.LARGE
+        if self._limits.memory is not None:
+            self._held = resident_bytes(self._process.pid)
+            if self._held > self._limits.memory:
+                return Ending.LARGE
         return Ending.LATE if self._deadline is not None and monotonic() > self._deadline else None
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from grafu.geometry.arrays import Vec3, extremes
+from grafu.geometry.budget import require_time
 from grafu.render.camera import Camera
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
 
@@ -129,6 +130,7 @@ class Exposure:
         """Returns premultiplied linear RGBA per sample, (height, width, 4). To be called once."""
         rays, start = np.arange(len(self.directions)), self.origins
         for layer in range(_LAYERS):
+            require_time()
             hits = self.scene.cast(start[rays], self.directions[rays])
             self._add(rays[hits.ray], hits, start, outlined=layer == 0)
             glass = hits.alpha < 0.99

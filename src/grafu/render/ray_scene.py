@@ -3,7 +3,7 @@
 It knows neither camera nor light. Everything is 32-bit: pictures need no more and twice as much would be slow.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from typing import Any, final
@@ -16,6 +16,7 @@ from PIL import Image
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.budget import require_time
 
 Rays = Float32[np.ndarray, "n 3"]
 Values = Float32[np.ndarray, " n"]
@@ -52,15 +53,16 @@ class RayScene:
         self._materials: list[Material] = list(dict.fromkeys(s.material for _, s in rows))
         index = {m: k for k, m in enumerate(self._materials)}
         counts = [len(s.mesh.faces) for _, s in rows]
-        self._visual = np.repeat([k for k, _ in rows], counts).astype(np.int64)
-        self._material = np.repeat([index[s.material] for _, s in rows], counts).astype(np.int64)
+        self._visual = np.repeat(np.array([k for k, _ in rows], np.int32), counts)
+        self._material = np.repeat(np.array([index[s.material] for _, s in rows], np.int32), counts)
         surfaces = [s for _, s in rows]
-        self.triangles: np.ndarray = _stacked((s.mesh.triangles for s in surfaces), 3, 3)
-        self._flat: np.ndarray = _stacked((s.mesh.face_normals for s in surfaces), 3)
-        self._normals: np.ndarray = _stacked((_corner_normals(s) for s in surfaces), 3, 3)
-        self._colors: np.ndarray = _stacked((_corner_colors(s) for s in surfaces), 3, 4)
+        textured = any(material.base_color_texture for material in self._materials)
         self._colored = any(s.colors is not None for s in surfaces)
-        self._uvs: np.ndarray = _stacked((_corner_uvs(s) for s in surfaces), 3, 2)
+        self.triangles: np.ndarray = _stacked(surfaces, lambda s: s.mesh.triangles, 3, 3)
+        self._flat: np.ndarray = _stacked(surfaces, lambda s: s.mesh.face_normals, 3)
+        self._normals: np.ndarray = _stacked(surfaces, _corner_normals, 3, 3)
+        self._colors: np.ndarray = _stacked(surfaces if self._colored else [], _corner_colors, 3, 4)
+        self._uvs: np.ndarray = _stacked(surfaces if textured else [], _corner_uvs, 3, 2)
         self._table = _material_table(self._materials)
         self._images = {k: _decode(m.base_color_texture) for k, m in enumerate(self._materials) if m.base_color_texture}
         self._embree = _embree_scene(self.triangles)
@@ -107,9 +109,16 @@ def _embree_scene(triangles: np.ndarray) -> Any:
     return scene
 
 
-def _stacked(blocks: Iterable[np.ndarray], *tail: int) -> np.ndarray:
-    """Returns blocks of rows as one array of 32 bits, each block turned into such by itself: large ones are large."""
-    return np.concatenate([np.zeros((0, *tail), np.float32), *(block.astype(np.float32) for block in blocks)])
+def _stacked(surfaces: Sequence[Surface], values: Callable[[Surface], np.ndarray], *tail: int) -> np.ndarray:
+    """Returns the values of each face of all surfaces as one array of 32 bits, filled one surface after the other."""
+    made = np.empty((sum(len(surface.mesh.faces) for surface in surfaces), *tail), np.float32)
+    start = 0
+    for surface in surfaces:
+        require_time()
+        end = start + len(surface.mesh.faces)
+        made[start:end] = values(surface)
+        start = end
+    return made
 
 
 def _corner_normals(surface: Surface) -> np.ndarray:

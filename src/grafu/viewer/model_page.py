@@ -53,6 +53,7 @@ _SCRIPTS = (
     "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js", "gestures.js",
     "overlay.js", "controls.js", "copy.js", "model.js",
 )  # fmt: skip
+_SCRIPTS_OF_WORDS = ("copy.js",)
 _NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
 _HINT = (
     "Select a part to see its name and its axis. Drag to turn; two fingers or Shift to move; click, then wheel to zoom."
@@ -61,19 +62,25 @@ _ROLES = ((VisualRole.HARDWARE, "hardware", "Hardware"), (VisualRole.ADDED, "add
 
 
 def model_page(
-    asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report, stills: Stills
+    asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report, stills: Stills | None
 ) -> str:
-    """Returns the page of a model: the input, the result, and its report as text, tables and pictures."""
-    scene = scene_data(articulated, report)
+    """Returns the page of a model: the input, the result, and its report as text, tables and pictures.
+
+    Without stills it is text and tables, and the graph: no 3D view, no pictures.
+    """
+    shown: list[Html] = []
+    data: list[Html] = []
+    if stills is not None:
+        scene = scene_data(articulated, report)
+        shown = [_stage(articulated), section("Before and after", stills_row(stills, report.input.name))]
+        data = [json_block("scene", scene.tables), tag("script", Html(scene.packed), type="text/plain", id="geometry")]
     body = joined([
         tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), _facts(asset, report)),
-        tag("main", _stage(articulated), section("Before and after", stills_row(stills, report.input.name)),
-            *_report_sections(report, completion)),
+        tag("main", *shown, *_report_sections(report, completion)),
         tag("footer", f"grafu {report.version}"),
-        json_block("scene", scene.tables),
-        tag("script", Html(scene.packed), type="text/plain", id="geometry"),
+        *data,
     ])  # fmt: skip
-    return whole_page(report.input.name, body, _STYLES, _SCRIPTS)
+    return whole_page(report.input.name, body, _STYLES, _SCRIPTS if shown else _SCRIPTS_OF_WORDS)
 
 
 def _facts(asset: Asset, report: Report) -> Html:

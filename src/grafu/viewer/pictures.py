@@ -19,6 +19,8 @@ from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset
 from grafu.asset.scan_files import library_call
 from grafu.geometry.appearance import Texture
+from grafu.geometry.budget import require_time
+from grafu.processes.limits import give_back_unused
 from grafu.render.camera import three_quarter_view
 from grafu.render.exposure import PictureStyle
 from grafu.render.picture import box_of, opened_values, posed_visuals, render
@@ -98,7 +100,10 @@ def take_stills(asset: Asset, articulated: ArticulatedObject, size: tuple[int, i
     camera = three_quarter_view(box_of([*before, *closed, *opened]), size[0] / size[1])
 
     def taken(visuals: list[Visual]) -> bytes:
-        return _encoded(Image.fromarray(render(visuals, camera, size, _STYLE)))
+        require_time()
+        picture = render(visuals, camera, size, _STYLE)
+        give_back_unused()
+        return _encoded(Image.fromarray(picture))
 
     return Stills(taken(before), b"" if _alike(asset, closed) else taken(closed), taken(opened))
 

@@ -21,6 +21,7 @@ from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Points, extremes
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
 from grafu.pipeline.report_schema import Report
 from grafu.render.picture import CATEGORY_COLORS, box_of, opened_values, posed_visuals
 from grafu.viewer.pictures import texture_uris
@@ -213,6 +214,7 @@ class _Packer:
         }
 
     def _item(self, visual: Visual, link: int) -> Table:
+        require_time()
         pieces = [self._piece(surface) for surface in visual.surfaces if not surface.is_empty]
         box = _corners(visual.mesh.box) if pieces else None
         return {

@@ -7,6 +7,7 @@ from typing import Final
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.physics import physics_of
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
 from grafu.export.usd.config import UsdConfig
@@ -32,7 +33,8 @@ def export_usd(articulated: ArticulatedObject, config: UsdConfig = DEFAULT_USD_C
         path = Path(folder) / "model.usdc"
         if not stage.GetRootLayer().Export(str(path)):
             raise ExportError("OpenUSD could not write model.usdc")
-        return ExportFiles({"model.usdc": path.read_bytes(), **images})
+        notes = physics_of(articulated, config.physics).notes
+        return ExportFiles({"model.usdc": path.read_bytes(), **images}, notes=notes)
 
 
 def export_usdz(articulated: ArticulatedObject, config: UsdConfig = DEFAULT_USD_CONFIG) -> ExportFiles:
@@ -41,7 +43,8 @@ def export_usdz(articulated: ArticulatedObject, config: UsdConfig = DEFAULT_USD_
     Raises:
         ExportError: if `usd-core` is not installed.
     """
-    return ExportFiles({"model.usdz": _packed(export_usd(articulated, config))})
+    files = export_usd(articulated, config)
+    return ExportFiles({"model.usdz": _packed(files)}, notes=files.notes)
 
 
 def _packed(files: ExportFiles) -> bytes:
