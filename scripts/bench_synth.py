@@ -60,8 +60,8 @@ def time_stages(count: int) -> dict[str, float]:
     """Returns the milliseconds of each stage of one model."""
     from grafu.geometry.sampling import sample_surfaces
     from grafu.synth.families.table import draw_made, make_furniture
-    from grafu.synth.noise.habits import draw_untidiness
-    from grafu.synth.noise.untidiness import apply_untidiness
+    from grafu.synth.noise.modelling_noise import apply_noise
+    from grafu.synth.noise.modelling_styles import draw_noise
     from grafu.synth.truth.check import faults_of
     from grafu.synth.truth.true_graph import true_graph
 
@@ -75,7 +75,7 @@ def time_stages(count: int) -> dict[str, float]:
         clock.stop("build alone")
         faults_of(tidy)
         clock.stop("check")
-        whole, _ = apply_untidiness(tidy, draw_untidiness(rng, tidy))
+        whole, _ = apply_noise(tidy, draw_noise(rng, tidy))
         clock.stop("untidy")
         true_graph(whole, 0)
         clock.stop("contacts and mounts")

@@ -1,4 +1,4 @@
-"""What docs/ repeats of the generator's tables: families, traditions, habits, strategies. `docs.py` writes it.
+"""What docs/ repeats of the generator's tables: families, traditions, styles, strategies. `docs.py` writes it.
 
 Reasons for single numbers stand beside the tables in the code; what is said here is what holds for a whole table.
 """
@@ -9,8 +9,8 @@ from dataclasses import fields
 from grafu.data.corruption.config import OFFICIAL, PAPER, STRATEGY_NAMES
 from grafu.data.corruption.strategies import STRATEGIES, probabilities
 from grafu.synth.families.table import FAMILIES
-from grafu.synth.noise import cutting, habits, naming
-from grafu.synth.noise.habits import HABITS
+from grafu.synth.noise import cutting, modelling_styles, naming
+from grafu.synth.noise.modelling_styles import STYLES
 from grafu.synth.sampling import carpentry, style
 from grafu.synth.sampling.traditions import TRADITIONS, Tradition
 
@@ -42,13 +42,13 @@ alike. Reach: on the free edge, as near to the hand as the door allows; middle a
 lying in the middle of the upper or lower edge, which says nothing about the hinge; middle line: in the middle of the
 door.
 """
-HABITS_HEAD = f"""\
-## Modellers' habits
+MODELLING_HEAD = f"""\
+## Modelling styles
 
-A modeller who draws one panel as a sheet does so all over the model. So a habit is drawn first, and it makes the rest
-likely or not ([habits]({SYNTH}/noise/habits.py)). The shares come from the seventeen development models, which are few,
-widened towards what other sources are known for. Chances are per model; that of sheets is for each group of panels,
-that of clutter for each kind, both times the factors below.
+A modeller who draws one panel as a sheet does so all over the model. So a style is drawn first, and it makes the rest
+likely or not ([habits]({SYNTH}/noise/modelling_styles.py)). The shares come from the seventeen development models,
+which are few, widened towards what other sources are known for. Chances are per model; that of sheets is for each group
+of panels, that of loose objects for each kind, both times the factors below.
 """
 MISSING_HEAD = """\
 ## What is not there
@@ -62,7 +62,7 @@ WORDING_HEAD = f"""\
 
 What one data set calls a divider is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such wording holds for
 the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
-drawn in [habits]({SYNTH}/noise/habits.py).
+drawn in [habits]({SYNTH}/noise/modelling_styles.py).
 """
 
 # A tradition's tables of weights, in the order of the page, and what each decides.
@@ -90,7 +90,7 @@ MASKINGS = ("keeps all labels", "lacks a few", "lacks many", "lacks all")
 
 def distributions_page() -> str:
     """Returns docs/distributions.md."""
-    parts = [HEAD, TRADITIONS_HEAD, traditions_tables(), STYLE_HEAD, style_tables(), HABITS_HEAD, habits_tables()]
+    parts = [HEAD, TRADITIONS_HEAD, traditions_tables(), STYLE_HEAD, style_tables(), MODELLING_HEAD, modelling_tables()]
     return "\n".join([*parts, MISSING_HEAD, missing_table(), WORDING_HEAD, wording_tables()])
 
 
@@ -169,33 +169,33 @@ def style_tables() -> str:
     return "\n".join(texts)
 
 
-def habits_tables() -> str:
-    """Returns a row for each habit, and the factors of clutter."""
-    columns = [f.name for f in fields(next(iter(HABITS.values()))) if f.name != "masking"]
+def modelling_tables() -> str:
+    """Returns a row for each style, and the factors of loose objects."""
+    columns = [f.name for f in fields(next(iter(STYLES.values()))) if f.name != "masking"]
     rows = [
-        (name, *(number(getattr(habit, column)) for column in columns), *map(number, habit.masking))
-        for name, habit in HABITS.items()
+        (name, *(number(getattr(style, column)) for column in columns), *map(number, style.masking))
+        for name, style in STYLES.items()
     ]
-    head = ("habit", *(column.replace("_", " ") for column in columns), *MASKINGS)
-    factors = [(kind, f"{factor:g}") for kind, factor in habits.CLUTTER_WEIGHT.items()]
-    sheets = [(label.value, f"{factor:g}") for label, factor in habits.SHEETS.items()]
+    head = ("style", *(column.replace("_", " ") for column in columns), *MASKINGS)
+    factors = [(kind, f"{factor:g}") for kind, factor in modelling_styles.LOOSE_WEIGHT.items()]
+    sheets = [(label.value, f"{factor:g}") for label, factor in modelling_styles.SHEETS.items()]
     return "\n".join(
-        [table(head, rows), table(("clutter", "factor"), factors), table(("drawn as sheets", "factor"), sheets)]
+        [table(head, rows), table(("loose objects", "factor"), factors), table(("drawn as sheets", "factor"), sheets)]
     )
 
 
 def missing_table() -> str:
     """Returns how often each part is missing."""
-    tops = {f"the top: {family}": share for family, share in habits.NO_TOP.items()}
+    tops = {f"the top: {family}": share for family, share in modelling_styles.NO_TOP.items()}
     others = {
-        "the top: other cases": habits.NO_CASE_TOP,
-        "the top: other tables": habits.NO_TABLE_TOP,
-        "backs": habits.NO_BACK,
-        "bottoms": habits.NO_BOTTOM,
-        "all shelves": habits.NO_SHELVES,
-        "one shelf": habits.A_SHELF_LOST,
-        "all handles": habits.NO_HANDLES,
-        "one handle": habits.ONE_HANDLE_LOST,
+        "the top: other cases": modelling_styles.NO_CASE_TOP,
+        "the top: other tables": modelling_styles.NO_TABLE_TOP,
+        "backs": modelling_styles.NO_BACK,
+        "bottoms": modelling_styles.NO_BOTTOM,
+        "all shelves": modelling_styles.NO_SHELVES,
+        "one shelf": modelling_styles.A_SHELF_LOST,
+        "all handles": modelling_styles.NO_HANDLES,
+        "one handle": modelling_styles.ONE_HANDLE_LOST,
     }
     return share_table(tops | others)
 
@@ -203,26 +203,26 @@ def missing_table() -> str:
 def wording_tables() -> str:
     """Returns wording, what is joined, faces, density, and the rates of whole models."""
     models = {
-        "every face drawn from both sides": habits.BOTH_SIDES,
-        "the same, where edges are finely rounded": habits.FINE_BOTH_SIDES,
-        "parts in a drawn order": habits.SHUFFLED,
-        "stretched by up to a tenth": habits.STRETCHED * (1 - habits.WIDELY),
-        "stretched by up to a quarter": habits.STRETCHED * habits.WIDELY,
-        "scaled wrongly": habits.MIS_SCALED,
-        "its front mistaken by quarter turns": habits.TURNED,
-        "askew by up to four degrees": habits.YAWED,
-        "one front ajar": habits.AJAR,
-        "one label wrong": habits.MISLABELLED,
+        "every face drawn from both sides": modelling_styles.BOTH_SIDES,
+        "the same, where edges are finely rounded": modelling_styles.FINE_BOTH_SIDES,
+        "parts in a drawn order": modelling_styles.SHUFFLED,
+        "stretched by up to a tenth": modelling_styles.STRETCHED * (1 - modelling_styles.WIDELY),
+        "stretched by up to a quarter": modelling_styles.STRETCHED * modelling_styles.WIDELY,
+        "scaled wrongly": modelling_styles.MIS_SCALED,
+        "its front mistaken by quarter turns": modelling_styles.TURNED,
+        "askew by up to four degrees": modelling_styles.YAWED,
+        "one front ajar": modelling_styles.AJAR,
+        "one label wrong": modelling_styles.MISLABELLED,
         "of face frames: drawn as bars": cutting.FRAME_IN_BARS,
     }
     texts = [
-        share_table({name: share for name, (_, share) in naming.HABITS.items()}),
+        share_table({name: share for name, (_, share) in naming.STYLES.items()}),
         "**What is joined, where panels are joined**\n",
         weight_table(("", "%"), [{name: weight for name, (weight, _) in cutting.GROUPS.items()}]),
         "**Faces, where they are out of order**\n",
-        weight_table(("", "%"), [habits.FACES]),
+        weight_table(("", "%"), [modelling_styles.FACES]),
         "**How finely models are drawn**\n",
-        weight_table(("", "%"), [habits.DENSITY]),
+        weight_table(("", "%"), [modelling_styles.DENSITY]),
         "**Whole models**\n",
         share_table(models),
     ]

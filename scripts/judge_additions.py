@@ -34,7 +34,7 @@ from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
 SEED = 990_003
-ALL_KINDS = {**TIDY, **UNTIDY}
+ALL_KINDS = {**TIDY, **NOISY}
 
 
 def main() -> int:

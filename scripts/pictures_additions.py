@@ -31,7 +31,7 @@ from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, Top
 from grafu.synth.families.table import draw_made
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
-from grafu.synth.noise.untidy import without_parts
+from grafu.synth.noise.edits import without_parts
 from grafu.synth.pieces.finish import textured_finish
 from grafu.synth.tables.desk import Desk, make_desk
 from grafu.synth.tables.table import Table, make_table

@@ -3,7 +3,7 @@
     python scripts/survey.py [--count 10000] [--seed 0] [--jobs 2] [--points 512] [--out survey]
 
 Every specimen is checked (`grafu.synth.truth.check.faults_in`) and hashed: two of the same boxes and labels are
-duplicates. The first draw of each is judged as well, before it is made untidy: its faults are why draws are rejected.
+duplicates. The first draw of each is judged as well, before it is made noisy: its faults are why draws are rejected.
 Results lie in `--out`, a file for each hundred specimens; a survey that was stopped goes on where it ended. Exit code
 1: something is wrong.
 """

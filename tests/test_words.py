@@ -18,6 +18,8 @@ RETIRED = {
     r"(?i)(?<![a-z])movers?(?![a-z])": "moving body",
     r"(?i)(?<![a-z])riders?(?![a-z])": "attached part",
     r"\bWay\b|\bscene\.ways\b|\bmotion_about\b|\bway_box\b": "joint motion, path",
+    r"(?i)untidiness|(?<![a-z])clutter": "modelling noise, loose objects",
+    r"\bcarpenters?'? rules?\b|the carpenter\b": "rule-based baseline",
     r"(?i)(?<![a-z])lessons?(?![a-z])|syllabus|\bDealConfig\b|\bstream_hands\b": "sample, sampler, batch",
     r"\bMoves\.NOT\b|--move \S+=not\b": "fixed",
     r"\bLack\b|\blacks_of\b": "missing panel",

@@ -12,7 +12,7 @@ from grafu.realization.config import RealizationConfig
 from grafu.realization.report import SkipReason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door
-from grafu.synth.noise import untidy
+from grafu.synth.noise import edits
 
 KINDS = ("doors into the case", "inset door into the side", "drawer into both walls")
 NO_TRIM = RealizationConfig(trim=False)
@@ -80,7 +80,7 @@ def test_without_trimming_parts_stay_and_the_trouble_is_told(kind):
 @pytest.mark.parametrize("sunk", [0.001, 0.004])
 def test_an_inset_door_sunk_into_the_side_by_millimetres_works(sunk):
     asset = make_cabinet(Cabinet(layout=Door(), mount="inset"))
-    result = realized(untidy.with_swollen(asset, "door", np.array([0.003 + sunk, 0.0, 0.0])))
+    result = realized(edits.with_swollen(asset, "door", np.array([0.003 + sunk, 0.0, 0.0])))
     assert not installed(result)["door"].restricted
     assert swept_collisions(result.object, result.object.joints[0], 25) == {}
 

@@ -16,7 +16,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, FaceFrame, Top
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
-from grafu.synth.noise import untidy
+from grafu.synth.noise import edits
 from grafu.vocabulary import MechanismClass
 
 # the kind, a door of it, the class that a joiner would take
@@ -129,7 +129,7 @@ def test_a_wall_beside_the_door_ends_its_opening_and_the_report_says_so():
 
 def test_a_door_that_floats_before_its_case_is_held_by_hardware():
     asset = made_kind("floating door")
-    shifted = untidy.with_shifted(asset, "door_1", vec3(0.0, -0.03, 0.0))
+    shifted = edits.with_shifted(asset, "door_1", vec3(0.0, -0.03, 0.0))
     result = realized(shifted)
     assert not installed(result)["door_1"].restricted
     assert max(largest_gaps(result.object).values()) <= 0.001 * asset.unit
@@ -159,7 +159,7 @@ SPECS = {
 @pytest.mark.parametrize("name", SPECS)
 def test_furniture_on_which_earlier_versions_failed(name):
     # A rail behind the seam above a flap is left out: these versions had none, and a flap must do without
-    asset = untidy.without_parts(make_cabinet(SPECS[name]), ("hinge_rail",))
+    asset = edits.without_parts(make_cabinet(SPECS[name]), ("hinge_rail",))
     result = realized(asset)
     assert set(installed(result)) == {j.part for j in asset.joints}
     for part, outcome in installed(result).items():

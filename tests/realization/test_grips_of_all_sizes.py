@@ -77,8 +77,8 @@ def test_however_a_board_is_cut_into_triangles_the_same_is_taken(seed, kind):
     faces = np.arange(len(loose)).reshape(-1, 3)
     turned = rng.random(len(faces)) < 0.5 * (seed % 2)
     faces[turned] = faces[turned][:, ::-1]
-    untidy = replace(board, surfaces=(replace(board.surfaces[0], mesh=TriangleMesh(loose, faces)),))
-    plain, other = (carve_grip(scene_of(b, DRAWER_MOTION), "drawer", GripConfig(kind=kind)) for b in (board, untidy))
+    noisy = replace(board, surfaces=(replace(board.surfaces[0], mesh=TriangleMesh(loose, faces)),))
+    plain, other = (carve_grip(scene_of(b, DRAWER_MOTION), "drawer", GripConfig(kind=kind)) for b in (board, noisy))
     assert isinstance(plain, Carved)
     assert isinstance(other, Carved)
     assert abs(plain.volume - other.volume) < 1e-9 * plain.volume + 1e-12

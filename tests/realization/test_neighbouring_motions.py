@@ -11,7 +11,7 @@ from grafu.metrics.collision import CollisionConfig, collision_shares, largest_g
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Layout, Pair, Stack
-from grafu.synth.noise import untidy
+from grafu.synth.noise import edits
 
 DROP, LIFT, LEFT, RIGHT = Door("bottom"), Door("top"), Door("left"), Door("right")
 STACKS: dict[str, tuple[Layout, ...]] = {  # from the lowest front up
@@ -32,7 +32,7 @@ def stacked(name: str, mount: str, panel: float = 0.018) -> Asset:
     case = Case(0.6, 1.0, 0.4, panel=panel)
     asset = make_cabinet(Cabinet(case=case, layout=Stack(STACKS[name], (), "nothing"), mount=mount, gap=0.002))
     rails = tuple(part.id for part in asset.parts if part.id.startswith("hinge_rail"))
-    return untidy.without_parts(asset, rails) if rails else asset
+    return edits.without_parts(asset, rails) if rails else asset
 
 
 @pytest.mark.parametrize("mount", ["inset", "overlay"])

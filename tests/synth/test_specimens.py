@@ -1,4 +1,4 @@
-"""Specimens drawn at random: reproducible, sound, and untidy at the stated rates."""
+"""Specimens drawn at random: reproducible, sound, and noisy at the stated rates."""
 
 from functools import cache
 
@@ -7,8 +7,8 @@ import pytest
 from grafu.graph.edges import Contact, ends_of
 from grafu.graph.parse import parse_graph
 from grafu.synth.generate import MOST_PARTS, make_specimen
-from grafu.synth.noise.clutter import CLUTTER
-from grafu.synth.noise.habits import is_storage
+from grafu.synth.noise.loose_objects import LOOSE_OBJECTS
+from grafu.synth.noise.modelling_styles import is_storage
 from grafu.synth.specimen import Specimen
 from grafu.synth.truth.check import faults_in
 from grafu.vocabulary import PartLabel
@@ -129,10 +129,10 @@ def test_patterns_come_at_their_rates() -> None:
     assert {name: rate for name, (rate, low, high) in rates.items() if not low <= rate <= high} == {}
 
 
-def test_every_kind_of_clutter_and_defect_occurs() -> None:
+def test_every_kind_of_loose_object_and_defect_occurs() -> None:
     stems = {"object", "basket", "drawer_runner", "corner_plate", "nailer", "edge", "pad", "plate", "post"}
     found = {stem for s in specimens() for p in s.whole.parts for stem in stems if p.id.startswith(f"{stem}_")}
 
-    assert len(CLUTTER) == len(stems) + 1  # things stand on tops and on shelves
+    assert len(LOOSE_OBJECTS) == len(stems) + 1  # things stand on tops and on shelves
     assert found >= stems - {"basket"}
     assert {d.kind for s in specimens() for d in s.defects} >= {"missing", "interpenetrating", "floating"}

@@ -18,7 +18,7 @@ from grafu.vocabulary import PartLabel
 
 @final
 @dataclass(frozen=True, slots=True)
-class Habit:
+class UsualSize:
     """How large something usually is, in metres, and the spread of its logarithm."""
 
     metres: float
@@ -27,24 +27,24 @@ class Habit:
 
 # Sizes of European and American household furniture as sold; spreads are wide where kinds differ (a sideboard and a
 # wardrobe differ in height by three, in depth hardly).
-STORAGE: Final[dict[str, Habit]] = {
-    "height": Habit(1.05, 0.6),
-    "width": Habit(0.95, 0.6),
-    "depth": Habit(0.45, 0.25),
-    "door width": Habit(0.42, 0.3),
-    "door height": Habit(0.80, 0.5),
-    "drawer width": Habit(0.50, 0.4),
-    "drawer height": Habit(0.18, 0.35),
-    "handle length": Habit(0.13, 0.6),
-    "panel thickness": Habit(0.020, 0.5),
+STORAGE: Final[dict[str, UsualSize]] = {
+    "height": UsualSize(1.05, 0.6),
+    "width": UsualSize(0.95, 0.6),
+    "depth": UsualSize(0.45, 0.25),
+    "door width": UsualSize(0.42, 0.3),
+    "door height": UsualSize(0.80, 0.5),
+    "drawer width": UsualSize(0.50, 0.4),
+    "drawer height": UsualSize(0.18, 0.35),
+    "handle length": UsualSize(0.13, 0.6),
+    "panel thickness": UsualSize(0.020, 0.5),
 }
-TABLE: Final[dict[str, Habit]] = {
-    "height": Habit(0.74, 0.15),
-    "width": Habit(1.30, 0.4),
-    "depth": Habit(0.65, 0.3),
-    "drawer width": Habit(0.45, 0.4),
-    "drawer height": Habit(0.13, 0.4),
-    "panel thickness": Habit(0.025, 0.5),
+TABLE: Final[dict[str, UsualSize]] = {
+    "height": UsualSize(0.74, 0.15),
+    "width": UsualSize(1.30, 0.4),
+    "depth": UsualSize(0.65, 0.3),
+    "drawer width": UsualSize(0.45, 0.4),
+    "drawer height": UsualSize(0.13, 0.4),
+    "panel thickness": UsualSize(0.025, 0.5),
 }
 # A unit in common use, in metres.
 UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001}
@@ -71,11 +71,11 @@ def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furn
         furniture: what kind it is, where the input says so.
     """
     kind = furniture or _kind(parts, whole, up)
-    habits = TABLE if kind == "table" else STORAGE
+    usual = TABLE if kind == "table" else STORAGE
     found = {k: v for k, v in _measures(parts, whole, up).items() if v > 0}
-    known = sorted(set(found) & set(habits), key=lambda k: (habits[k].spread, k))
-    weights = np.array([habits[k].spread ** -2 for k in known])
-    logs = np.array([math.log(habits[k].metres / found[k]) for k in known])
+    known = sorted(set(found) & set(usual), key=lambda k: (usual[k].spread, k))
+    weights = np.array([usual[k].spread ** -2 for k in known])
+    logs = np.array([math.log(usual[k].metres / found[k]) for k in known])
     return Estimate(float(np.exp(weights @ logs / weights.sum())), kind, tuple(known))
 
 

@@ -12,9 +12,9 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.graph.touching import touching_pairs
 from grafu.synth.families.table import draw_made
-from grafu.synth.noise.habits import draw_untidiness
+from grafu.synth.noise.modelling_noise import ModellingNoise, apply_noise, as_given
+from grafu.synth.noise.modelling_styles import draw_noise
 from grafu.synth.noise.tessellation import CUT, STEPS, tessellated
-from grafu.synth.noise.untidiness import Untidiness, apply_untidiness, as_given
 from grafu.synth.repair import repaired
 from grafu.synth.specimen import Specimen
 from grafu.synth.truth.check import faults_in, faults_of
@@ -42,50 +42,50 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
         tidy, absent = repaired(blueprint, made, rng)
         if len(tidy.parts) > MOST_PARTS or faults_of(tidy):
             continue
-        untidiness = draw_untidiness(rng, tidy, blueprint.family, absent)
+        noise = draw_noise(rng, tidy, blueprint.family, absent)
         try:
-            specimen = untidied(name, blueprint.family, tidy, untidiness, points)
+            specimen = with_noise(name, blueprint.family, tidy, noise, points)
         except GraphError:
             continue  # a door stretched or opened until no border lies along its pin
         fits = len(specimen.asset.parts) >= LEAST_PARTS and len(specimen.whole.parts) <= MOST_PARTS
         if fits and not faults_in(specimen):  # a stretched front may strike what it just passed
-            return as_exported(specimen, untidiness)
+            return as_exported(specimen, noise)
     raise ValueError(f"no sound model was found for {name} in {ATTEMPTS} draws")
 
 
-def untidied(name: str, family: str, tidy: Asset, untidiness: Untidiness, points: int = 512) -> Specimen:
-    """Returns a tidy model as this untidiness leaves it, with its truth, boards still plain (see `as_exported`).
+def with_noise(name: str, family: str, tidy: Asset, noise: ModellingNoise, points: int = 512) -> Specimen:
+    """Returns a tidy model as this modelling noise leaves it, with its truth, boards still plain (see `as_exported`).
 
     Raises:
         GraphError: if a door cannot be said in the graph's codes any more.
     """
-    whole, misfits = apply_untidiness(tidy, untidiness)
-    contacts = parse_graph(whole, ParsingConfig(points=points, seed=untidiness.seed % 2**32))
+    whole, misfits = apply_noise(tidy, noise)
+    contacts = parse_graph(whole, ParsingConfig(points=points, seed=noise.seed % 2**32))
     truth = with_true_edges(contacts, whole)
     removable = removable_parts(whole, truth)
-    given, flaws = as_given(whole, untidiness, removable)
+    given, flaws = as_given(whole, noise, removable)
     if any(part.label is PartLabel.UNKNOWN for part in given.parts):
         whole, truth = _with_names_lost(whole, truth, given)
     apart = pairs_apart(contacts, truth)
     return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws), apart)
 
 
-def as_exported(specimen: Specimen, untidiness: Untidiness) -> Specimen:
-    """Returns the specimen with its faces drawn as the untidiness says.
+def as_exported(specimen: Specimen, noise: ModellingNoise) -> Specimen:
+    """Returns the specimen with its faces drawn as the modelling noise says.
 
     Nothing moves by more than an edge is broken, so that motions stay true; contacts are looked at again where edges
     were broken: what barely touched may not touch any more.
     """
-    fine = tessellated(specimen.whole, untidiness.density, untidiness.edge)
-    whole = tessellated(fine, both_sides=untidiness.both_sides)
+    fine = tessellated(specimen.whole, noise.density, noise.edge)
+    whole = tessellated(fine, both_sides=noise.both_sides)
     if whole is specimen.whole:
         return specimen
     drawn = {part.id: part.surfaces for part in whole.parts}
     parts = tuple(replace(part, surfaces=drawn[part.id]) for part in specimen.asset.parts)
     given = replace(specimen.asset, parts=parts)
-    if untidiness.density not in STEPS:
+    if noise.density not in STEPS:
         return replace(specimen, asset=given, whole=whole)
-    parted = _parted(specimen, fine, CUT * untidiness.edge)
+    parted = _parted(specimen, fine, CUT * noise.edge)
     truth = without_contacts(specimen.truth, parted)
     apart = parted & {frozenset(ends_of(edge)) for edge in truth.edges}  # what is left of them are rails and hinges
     return replace(specimen, asset=given, whole=whole, truth=truth, apart=specimen.apart | apart)

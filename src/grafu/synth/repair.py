@@ -18,7 +18,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.families.table import Blueprint, make_furniture
 from grafu.synth.fronts.hold import HandleStyle, Hold
-from grafu.synth.noise.habits import is_storage
+from grafu.synth.noise.modelling_styles import is_storage
 from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import surface_of
 from grafu.synth.sampling.chance import between, chance, pick

@@ -32,7 +32,7 @@ class Defect:
 class Specimen:
     """One made piece of furniture.
 
-    `asset` is what a reader would load: parts may be missing, labels unknown, meshes untidy; it states no joints.
+    `asset` is what a reader would load: parts may be missing, labels unknown, meshes noisy; it states no joints.
     `whole` is its repaired version: the same parts in the same places and those that were missing, all with true
     labels, with the true joints (`AnnotatedJoint`, lower 0) and attached parts. `truth` is the functional graph of
     `whole`: one node per part in the same order, with boxes, points, contacts, hinges, rails and attachments.

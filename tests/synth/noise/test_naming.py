@@ -7,7 +7,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
 from grafu.synth.fronts.layout import Door, Row
-from grafu.synth.noise.naming import HABITS, MISTAKES, draw_wording, mistaken, with_labels_masked, worded
+from grafu.synth.noise.naming import MISTAKES, STYLES, draw_wording, mistaken, with_labels_masked, worded
 from grafu.vocabulary import PartLabel
 from sketches import board, door, sketch
 
@@ -43,10 +43,10 @@ def test_false_fronts_stay_face_frame() -> None:
     assert [p.label for p in found.parts] == [PartLabel.BAR, PartLabel.FACE_FRAME]
 
 
-@pytest.mark.parametrize("habit", sorted(HABITS))
-def test_no_wording_touches_what_moves_or_is_held(habit: str) -> None:
+@pytest.mark.parametrize("style", sorted(STYLES))
+def test_no_wording_touches_what_moves_or_is_held(style: str) -> None:
     fixed = (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE)
-    asset = worded(TIDY, (habit,))
+    asset = worded(TIDY, (style,))
 
     for before, after in zip(TIDY.parts, asset.parts, strict=True):
         assert (before.label in fixed) == (after.label in fixed)
@@ -58,7 +58,7 @@ def test_wordings_come_at_their_rates() -> None:
     rng = np.random.default_rng(3)
     drawn = [draw_wording(rng) for _ in range(1500)]
 
-    for name, (_, share) in HABITS.items():
+    for name, (_, share) in STYLES.items():
         assert sum(name in d for d in drawn) / len(drawn) == pytest.approx(share, abs=0.05)
 
 

@@ -11,9 +11,9 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Stack
-from grafu.synth.generate import as_exported, untidied
+from grafu.synth.generate import as_exported, with_noise
+from grafu.synth.noise.modelling_noise import ModellingNoise
 from grafu.synth.noise.tessellation import SPLITS, STEPS, Density, is_two_sided, rounded_board, tessellated
-from grafu.synth.noise.untidiness import Untidiness
 from grafu.synth.truth.clashes import clashes_of
 
 TIDY = make_cabinet(Cabinet(layout=Stack((Door(shelves=1), Drawer()))))
@@ -62,13 +62,13 @@ def test_boards_drawn_from_both_sides_are_boards_to_the_search_for_clashes() -> 
 
 @pytest.mark.parametrize("density", ["broken edges", "split"])
 def test_exported_specimens_touch_as_their_meshes_do(density: Density) -> None:
-    untidiness = replace(Untidiness("clean cad"), density=density, edge=0.002, both_sides=True, missing=("top_panel",))
-    plain = untidied("made", "cabinet", TIDY, untidiness, 8)
-    exported = as_exported(plain, untidiness)
+    noise = replace(ModellingNoise("clean cad"), density=density, edge=0.002, both_sides=True, missing=("top_panel",))
+    plain = with_noise("made", "cabinet", TIDY, noise, 8)
+    exported = as_exported(plain, noise)
 
     assert [p.id for p in exported.asset.parts] == [p.id for p in plain.asset.parts]
     assert exported.truth.hinges == plain.truth.hinges
     given = {frozenset((e.a, e.b)) for e in exported.given.contacts}
     parsed = {frozenset((e.a, e.b)) for e in parse_graph(exported.asset).contacts}
     assert given == parsed
-    assert as_exported(plain, Untidiness("clean cad")) is plain
+    assert as_exported(plain, ModellingNoise("clean cad")) is plain

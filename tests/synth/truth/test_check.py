@@ -91,7 +91,7 @@ def test_a_drawer_that_does_not_come_out_is_found():
     joint = next(j for j in MIXED.joints if j.part == "drawer")
     board = replace(asset.part("back_panel"), id="drawer", label=PartLabel.DRAWER)
     within = replace(asset, parts=(*asset.parts, board), joints=(replace(joint, upper=0.5),))
-    within = untidy.with_swollen(within, "drawer", vec3(-0.01, 0.0, -0.01))
+    within = edits.with_swollen(within, "drawer", vec3(-0.01, 0.0, -0.01))
     assert ("limit", "drawer") in kinds(faults_of(within))
 
 
@@ -114,7 +114,7 @@ def test_a_handle_on_nothing_is_found():
 
 
 def test_a_handle_in_the_air_is_found():
-    assert kinds(faults_of(untidy.with_shifted(MIXED, "handle_1", vec3(0.0, -0.1, 0.0)))) == {
+    assert kinds(faults_of(edits.with_shifted(MIXED, "handle_1", vec3(0.0, -0.1, 0.0)))) == {
         ("attached part", "handle_1")
     }
 
@@ -135,7 +135,7 @@ def test_a_joint_that_does_not_start_at_0_is_found():
 
 @pytest.mark.parametrize(("part", "factors"), [("door_1", (0.1, 1.0, 1.0)), ("drawer", (1.0, 1.0, 0.1))])
 def test_a_front_too_small_to_be_one_is_found(part, factors):
-    bare = untidy.without_parts(MIXED, ("handle",))
+    bare = edits.without_parts(MIXED, ("handle",))
     box = bare.part(part).box
     T = from_rotation(np.diag(factors), box.center * (1.0 - np.array(factors)))
     surfaces = (Surface(bare.part(part).mesh.transformed(T)),)
@@ -149,7 +149,7 @@ def test_two_parts_in_one_place_are_found():
 
 
 def test_a_sunk_door_is_found():
-    asset = untidy.with_shifted(MIXED, "door_1", vec3(0.0, 0.003, 0.0))
+    asset = edits.with_shifted(MIXED, "door_1", vec3(0.0, 0.003, 0.0))
     assert kinds(faults_of(asset)) == {("collision", "door_1")}
 
 
@@ -196,21 +196,21 @@ def specimen(whole: Asset, *defects: Defect, asset: Asset | None = None) -> Spec
 
 
 def test_what_a_defect_declares_is_no_fault_of_a_specimen():
-    sunk = untidy.with_shifted(MIXED, "door_1", vec3(0.0, 0.003, 0.0))
+    sunk = edits.with_shifted(MIXED, "door_1", vec3(0.0, 0.003, 0.0))
     assert faults_in(specimen(sunk, Defect("interpenetrating", ("door_1",)))) == ()
     assert kinds(faults_in(specimen(sunk, Defect("interpenetrating", ("drawer",))))) == {("collision", "door_1")}
     assert kinds(faults_in(specimen(sunk))) == {("collision", "door_1")}
 
 
 def test_a_false_label_or_a_missing_part_must_be_declared():
-    lied = relabelled(untidy.without_parts(MIXED, ("top_panel",)), "back_panel", PartLabel.SIDE_PANEL)
+    lied = relabelled(edits.without_parts(MIXED, ("top_panel",)), "back_panel", PartLabel.SIDE_PANEL)
     meant = (Defect("mislabelled", ("back_panel",)), Defect("missing", ("top_panel",)))
     assert faults_in(specimen(MIXED, *meant, asset=lied)) == ()
     assert kinds(faults_in(specimen(MIXED, asset=lied))) == {("label", "back_panel"), ("parts", "top_panel")}
 
 
 def test_unknown_labels_are_no_fault():
-    assert faults_in(specimen(MIXED, asset=untidy.with_labels_lost(MIXED))) == ()
+    assert faults_in(specimen(MIXED, asset=edits.with_labels_lost(MIXED))) == ()
 
 
 def test_what_carries_a_door_must_not_be_removable():

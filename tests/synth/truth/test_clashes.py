@@ -71,7 +71,7 @@ def test_a_touch_is_no_clash(sunk, met):
 
 
 @pytest.mark.parametrize("edit", [with_doubled_faces, with_loose_faces, with_open_backs])
-def test_untidy_boards_are_met_like_tidy_ones(edit):
+def test_noisy_boards_are_met_like_clean_ones(edit):
     board = part("board", block([0.1, -0.2, -0.05], [0.2, -0.1, 0.1]))
     assert clashes_of(edit(before(board))).hits("drawer") == {"board"}
 

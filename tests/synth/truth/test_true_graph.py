@@ -9,8 +9,8 @@ from grafu.asset.edit import mirrored
 from grafu.asset.part import Asset
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.synth.noise.distortion import ajar, stretched
+from grafu.synth.noise.edits import with_shifted
 from grafu.synth.noise.segmentation import in_pieces, with_box_apart, with_joined
-from grafu.synth.noise.untidy import with_shifted
 from grafu.synth.truth.true_graph import carriers, true_graph
 from grafu.vocabulary import JointType, PartLabel
 from sketches import Sketched, board, door, drawer, handle, sketch
@@ -127,8 +127,8 @@ def test_runners_and_a_drawer_s_own_boards_carry_nothing() -> None:
 
 def test_a_door_that_floats_or_stands_ajar_keeps_its_mount_and_codes(cabinet: Asset) -> None:
     tidy = {h.child: (h.border, h.sign) for h in true_graph(cabinet, 1).hinges}
-    for untidy in (with_shifted(cabinet, "door_l", np.array([0.0, -0.008, 0.0])), ajar(cabinet, "door_l", 0.2)):
-        graph = true_graph(untidy, 1)
+    for noisy in (with_shifted(cabinet, "door_l", np.array([0.0, -0.008, 0.0])), ajar(cabinet, "door_l", 0.2)):
+        graph = true_graph(noisy, 1)
         assert mounts(graph)["door_l"] == {"left"}
         assert {h.child: (h.border, h.sign) for h in graph.hinges} == tidy
 

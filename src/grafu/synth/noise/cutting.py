@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.synth.noise.modelling_noise import Cut, Joined
 from grafu.synth.noise.segmentation import is_board
-from grafu.synth.noise.untidiness import Cut, Joined
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
 

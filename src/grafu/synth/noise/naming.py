@@ -1,6 +1,6 @@
-"""What people call parts: habits that hold for input and truth alike, labels that are lost, and the rare wrong one.
+"""What people call parts: styles that hold for input and truth alike, labels that are lost, and the rare wrong one.
 
-A habit is a rule of wording, not an error: where one data set calls inner uprights side panels, that is what they are
+A style is a rule of wording, not an error: where one data set calls inner uprights side panels, that is what they are
 there. Lids stay doors in every wording.
 """
 
@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.synth.noise.untidy import with_labels_lost
+from grafu.synth.noise.edits import with_labels_lost
 from grafu.synth.sampling.chance import chance
 from grafu.vocabulary import PartLabel
 
@@ -44,7 +44,7 @@ def _odd_false_fronts(asset: Asset) -> dict[str, PartLabel]:
 
 
 def _frame_bars(asset: Asset) -> dict[str, PartLabel]:
-    """Returns upright bars in front of the case as face frame: the converse of the habit above."""
+    """Returns upright bars in front of the case as face frame: the converse of the style above."""
     front = asset.box.low[1] + 0.25 * asset.box.size[1]
     bars = (p for p in asset.parts if p.label is PartLabel.BAR and p.box.center[1] < front)
     return {p.id: PartLabel.FACE_FRAME for p in bars if p.box.low[2] > asset.box.low[2] + LOW * asset.box.size[2]}
@@ -74,7 +74,7 @@ Rule = Callable[[Asset], dict[str, PartLabel]]
 # inner levels bottom panels, and the shelf between its legs too; 26608 has its dividers as connectors; 45001's false
 # fronts are face frame. Other makers
 # (the authors' vocabulary has divider and face frame) do otherwise, so no rule is certain.
-HABITS: Final[dict[str, tuple[Rule, float]]] = {
+STYLES: Final[dict[str, tuple[Rule, float]]] = {
     "inner uprights are side panels": (_inner_uprights, 0.35),
     "dividers are odds and ends": (_odd_dividers, 0.04),
     "inner levels are bottom panels": (_inner_levels, 0.06),
@@ -101,14 +101,14 @@ MISTAKES: Final[dict[PartLabel, tuple[PartLabel, ...]]] = {
 
 
 def draw_wording(rng: np.random.Generator) -> tuple[str, ...]:
-    """Returns the habits of one maker, drawn by their rates."""
-    return tuple(name for name, (_, share) in HABITS.items() if chance(rng, share))
+    """Returns the styles of one maker, drawn by their rates."""
+    return tuple(name for name, (_, share) in STYLES.items() if chance(rng, share))
 
 
 def worded(asset: Asset, wording: Collection[str]) -> Asset:
-    """Returns the asset with the labels that a maker of these habits gives."""
+    """Returns the asset with the labels that a maker of these styles gives."""
     for name in wording:
-        changes = HABITS[name][0](asset)
+        changes = STYLES[name][0](asset)
         if changes:
             asset = asset.with_labels(changes)
     return asset

@@ -4,19 +4,19 @@ import pytest
 from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Row
-from grafu.synth.noise import untidy
-from grafu.synth.noise.untidy import with_anchored_sheets
+from grafu.synth.noise import edits
+from grafu.synth.noise.edits import with_anchored_sheets
 from grafu.vocabulary import PartLabel
 from sketches import board, sketch
 from sweeping import collisions
 
 TIDY = make_cabinet(Cabinet(layout=Row((Door(), Drawer()))))
-ADDITIVE = [untidy.with_doubled_faces, untidy.with_degenerate_faces, untidy.with_inverted_normals]
-SAME_BOX = [*ADDITIVE, untidy.with_loose_faces]
+ADDITIVE = [edits.with_doubled_faces, edits.with_degenerate_faces, edits.with_inverted_normals]
+SAME_BOX = [*ADDITIVE, edits.with_loose_faces]
 
 
 def test_sheets_keep_one_side_of_each_board_the_outer_one():
-    asset = untidy.with_sheets(TIDY, ("side panel", "back panel"))
+    asset = edits.with_sheets(TIDY, ("side panel", "back panel"))
     left, back = asset.part("side_panel_left"), asset.part("back_panel")
     assert left.box.high[0] == left.box.low[0] == TIDY.part("side_panel_left").box.low[0]
     assert back.box.low[1] == back.box.high[1] == TIDY.part("back_panel").box.high[1]
@@ -24,7 +24,7 @@ def test_sheets_keep_one_side_of_each_board_the_outer_one():
 
 
 def test_open_backs_leave_no_face_that_looks_back():
-    asset = untidy.with_open_backs(TIDY)
+    asset = edits.with_open_backs(TIDY)
     assert all(p.mesh.face_normals[:, 1].max() < 0.5 for p in asset.parts)
     assert not asset.part("door").mesh.is_closed
 
@@ -37,27 +37,27 @@ def test_a_defect_of_faces_leaves_boxes_and_joints_alone(edit):
 
 
 def test_doubled_faces_are_twice_as_many_and_cancel():
-    mesh = untidy.with_doubled_faces(TIDY).part("door").mesh
+    mesh = edits.with_doubled_faces(TIDY).part("door").mesh
     assert len(mesh.faces) == 2 * len(TIDY.part("door").mesh.faces)
     assert np.linalg.det(mesh.triangles).sum() == pytest.approx(0.0, abs=1e-12)  # six times the signed volume
 
 
 def test_inverted_normals_turn_a_solid_inside_out():
-    assert untidy.with_inverted_normals(TIDY, ("door",)).part("door").mesh.to_trimesh().volume < 0
+    assert edits.with_inverted_normals(TIDY, ("door",)).part("door").mesh.to_trimesh().volume < 0
 
 
 def test_degenerate_faces_have_no_area():
-    areas = untidy.with_degenerate_faces(TIDY).part("door").mesh.face_areas
+    areas = edits.with_degenerate_faces(TIDY).part("door").mesh.face_areas
     assert (areas < 1e-15).sum() == 8
 
 
 def test_loose_faces_share_no_vertex():
-    mesh = untidy.with_loose_faces(TIDY).part("door").mesh
+    mesh = edits.with_loose_faces(TIDY).part("door").mesh
     assert len(mesh.vertices) == 3 * len(mesh.faces)
 
 
 def test_many_shells_fill_the_same_board():
-    asset = untidy.with_many_shells(TIDY, 5, ("back panel",))
+    asset = edits.with_many_shells(TIDY, 5, ("back panel",))
     back = asset.part("back_panel")
     assert len(back.surfaces) == 5
     assert np.allclose(back.box.size, TIDY.part("back_panel").box.size)
@@ -65,7 +65,7 @@ def test_many_shells_fill_the_same_board():
 
 
 def test_merged_parts_become_one_without_a_label():
-    asset = untidy.with_merged(TIDY, ("side panel", "top panel", "bottom panel", "back panel"))
+    asset = edits.with_merged(TIDY, ("side panel", "top panel", "bottom panel", "back panel"))
     assert len(asset.parts) == len(TIDY.parts) - 4
     assert asset.part("body").label is PartLabel.UNKNOWN
     assert np.allclose(asset.box.size, TIDY.box.size)
@@ -74,44 +74,44 @@ def test_merged_parts_become_one_without_a_label():
 @pytest.mark.parametrize("where", [("back panel",), ("door", "back panel"), ("handle_1", "back panel")])
 def test_only_several_still_parts_can_be_merged(where):
     with pytest.raises(ValueError, match="two or more still parts"):
-        untidy.with_merged(TIDY, where)
+        edits.with_merged(TIDY, where)
 
 
 def test_a_shifted_drawer_sinks_into_the_wall_with_its_joint_and_handle():
-    asset = untidy.with_shifted(TIDY, "drawer", np.array([0.02, 0.0, 0.0]))
+    asset = edits.with_shifted(TIDY, "drawer", np.array([0.02, 0.0, 0.0]))
     assert asset.joints[1].axis.point[0] == pytest.approx(TIDY.joints[1].axis.point[0] + 0.02)
     assert asset.part("handle_2").box.low[0] == pytest.approx(TIDY.part("handle_2").box.low[0] + 0.02)
     assert "side_panel_right" in collisions(asset, "drawer")
 
 
 def test_a_swollen_part_grows_to_both_sides_and_interpenetrates():
-    asset = untidy.with_swollen(TIDY, "drawer", np.array([0.02, 0.0, 0.0]))
+    asset = edits.with_swollen(TIDY, "drawer", np.array([0.02, 0.0, 0.0]))
     assert asset.part("drawer").box.size[0] == pytest.approx(TIDY.part("drawer").box.size[0] + 0.04)
     assert {"side_panel_right", "divider"} <= set(collisions(asset, "drawer"))
 
 
 def test_lost_labels_are_unknown_and_names_say_nothing():
-    asset = untidy.with_labels_lost(TIDY)
+    asset = edits.with_labels_lost(TIDY)
     assert {p.label for p in asset.parts} == {PartLabel.UNKNOWN}
     assert all(p.source.name.startswith("Cube.") for p in asset.parts)
 
 
 def test_parts_go_with_their_attached_parts_and_joints():
-    asset = untidy.without_parts(TIDY, ("drawer", "top panel"))
+    asset = edits.without_parts(TIDY, ("drawer", "top panel"))
     assert {p.id for p in TIDY.parts} - {p.id for p in asset.parts} == {"drawer", "handle_2", "top_panel"}
     assert [j.part for j in asset.joints] == ["door"]
 
 
 def test_defects_can_be_combined():
     asset = TIDY
-    for edit in [*SAME_BOX, untidy.with_open_backs]:
+    for edit in [*SAME_BOX, edits.with_open_backs]:
         asset = edit(asset)
     assert all(len(p.mesh.faces) for p in asset.parts)
 
 
 def test_at_least_one_board_is_needed():
     with pytest.raises(ValueError, match="at least 1"):
-        untidy.with_many_shells(TIDY, 0)
+        edits.with_many_shells(TIDY, 0)
 
 
 # A back let in between two sides, which ends flush with them: its outer face touches them, its inner one, too

@@ -1,7 +1,7 @@
-"""Modellers' habits, and the drawing of one model's untidiness: all rates stand here, each with its reason.
+"""Modelling styles, and the drawing of one model's modelling noise: all rates stand here, each with its reason.
 
 A modeller who draws panels as sheets does so all over the model, and one who exports merged meshes has no handles of
-their own: so a habit is drawn first and makes the rest likely or not. The shares come from the seventeen development
+their own: so a style is drawn first and makes the rest likely or not. The shares come from the seventeen development
 models (numbers in brackets), which are few, widened towards what other sources of models are known for.
 """
 
@@ -12,11 +12,11 @@ from typing import Final, final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.synth.noise.clutter import CLUTTER
 from grafu.synth.noise.cutting import draw_cuts, draw_joined
+from grafu.synth.noise.loose_objects import LOOSE_OBJECTS
+from grafu.synth.noise.modelling_noise import Faces, Misfit, ModellingNoise
 from grafu.synth.noise.naming import draw_wording
 from grafu.synth.noise.tessellation import Density
-from grafu.synth.noise.untidiness import Faces, Misfit, Untidiness
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
 
@@ -25,15 +25,15 @@ Masking = tuple[float, float, float, float]  # none, a few, many, all labels los
 
 @final
 @dataclass(frozen=True, slots=True)
-class Habit:
-    """How one kind of modeller works: chances per model, but `sheets` per group of panels and `clutter` per kind."""
+class ModellingStyle:
+    """A modelling style: chances per model, but `sheets` per group of panels and `loose_objects` per kind."""
 
     share: float
     sheets: float
     cuts: float
     joined: float
     handles_joined: float
-    clutter: float
+    loose_objects: float
     misfits: float
     faces: float
     bend: float
@@ -43,13 +43,13 @@ class Habit:
 # Sheets for panels: 5 of 17 models (41003, 44781, 45463, 45940, 32052), so about one group of panels in five over all.
 # Handles within doors: rare in segmented data (0 of 17), usual where meshes are merged.
 # Labels lost: over all about 53 % of models keep all, 25 % lose a few, 12 % many, 10 % all (files without names).
-HABITS: Final[dict[str, Habit]] = {
-    "clean cad": Habit(0.38, 0.10, 0.20, 0.12, 0.02, 0.09, 0.15, 0.04, 0.0, (0.63, 0.25, 0.08, 0.04)),
-    "sheets": Habit(0.22, 0.50, 0.20, 0.20, 0.03, 0.07, 0.25, 0.70, 0.0, (0.50, 0.26, 0.14, 0.10)),
-    "exploded export": Habit(0.13, 0.10, 0.75, 0.02, 0.0, 0.25, 0.20, 0.10, 0.0, (0.59, 0.27, 0.09, 0.05)),
-    "merged export": Habit(0.12, 0.15, 0.0, 1.0, 0.15, 0.05, 0.20, 0.20, 0.0, (0.42, 0.23, 0.17, 0.18)),
-    "game asset": Habit(0.12, 0.50, 0.05, 0.50, 0.15, 0.05, 0.25, 0.25, 0.0, (0.39, 0.24, 0.18, 0.19)),
-    "scan": Habit(0.03, 0.10, 0.05, 0.60, 0.20, 0.10, 0.30, 0.05, 1.0, (0.25, 0.17, 0.18, 0.40)),
+STYLES: Final[dict[str, ModellingStyle]] = {
+    "clean cad": ModellingStyle(0.38, 0.10, 0.20, 0.12, 0.02, 0.09, 0.15, 0.04, 0.0, (0.63, 0.25, 0.08, 0.04)),
+    "sheets": ModellingStyle(0.22, 0.50, 0.20, 0.20, 0.03, 0.07, 0.25, 0.70, 0.0, (0.50, 0.26, 0.14, 0.10)),
+    "exploded export": ModellingStyle(0.13, 0.10, 0.75, 0.02, 0.0, 0.25, 0.20, 0.10, 0.0, (0.59, 0.27, 0.09, 0.05)),
+    "merged export": ModellingStyle(0.12, 0.15, 0.0, 1.0, 0.15, 0.05, 0.20, 0.20, 0.0, (0.42, 0.23, 0.17, 0.18)),
+    "game asset": ModellingStyle(0.12, 0.50, 0.05, 0.50, 0.15, 0.05, 0.25, 0.25, 0.0, (0.39, 0.24, 0.18, 0.19)),
+    "scan": ModellingStyle(0.03, 0.10, 0.05, 0.60, 0.20, 0.10, 0.30, 0.05, 1.0, (0.25, 0.17, 0.18, 0.40)),
 }
 LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))  # shares of labels for the four entries of a masking
 
@@ -118,7 +118,7 @@ FINE_BOTH_SIDES = 0.9
 EDGE = (0.0005, 0.0025)  # metres: below, nobody sees it; above, it is a profile
 WIDEST_EDGE = 0.0015  # of the largest side: more, and boards set edge to edge would hardly touch
 # Nailers behind or under backs stand in 8 of 17 models, corner plates in 6, edges as sheets in 2, runners in 2.
-CLUTTER_WEIGHT: Final[dict[str, float]] = {
+LOOSE_WEIGHT: Final[dict[str, float]] = {
     "nailers": 3.0,
     "corner plates": 2.5,
     "edge sheets": 2.0,
@@ -144,10 +144,8 @@ STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, a
 MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
 
 
-def draw_untidiness(
-    rng: np.random.Generator, tidy: Asset, family: str = "", absent: Collection[str] = ()
-) -> Untidiness:
-    """Returns what will be untidy about a tidy model with true labels, joints and attached parts.
+def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: Collection[str] = ()) -> ModellingNoise:
+    """Returns what will be noisy about a tidy model with true labels, joints and attached parts.
 
     Args:
         rng: where all chance comes from.
@@ -155,29 +153,29 @@ def draw_untidiness(
         family: what it is, where that is known: some are sold without a top.
         absent: ids of parts that are missing in any case.
     """
-    name = pick(rng, {key: habit.share for key, habit in HABITS.items()})
-    habit = HABITS[name]
+    name = pick(rng, {key: style.share for key, style in STYLES.items()})
+    style = STYLES[name]
     missing = tuple(dict.fromkeys((*_missing(rng, tidy, family), *(p.id for p in tidy.parts if p.id in absent))))
     kept = [p for p in tidy.parts if p.id not in missing]
     tops = JOINED_TOP if is_storage(tidy) and NO_TOP.get(family, 1.0) > NO_TABLE_TOP else 0.0
-    joined = draw_joined(rng, tidy, kept, habit.joined, habit.handles_joined, tops)
+    joined = draw_joined(rng, tidy, kept, style.joined, style.handles_joined, tops)
     free = [p for p in kept if not any(p.id in group.ids for group in joined)]
     density = pick(rng, DENSITY)
-    return Untidiness(
+    return ModellingNoise(
         name,
         int(rng.integers(2**62)),
-        clutter=_clutter(rng, habit, tidy, missing),
+        loose_objects=_loose(rng, style, tidy, missing),
         joined=joined,
-        cuts=draw_cuts(rng, tidy, free, habit.cuts),
-        faces=_faces(rng, habit, kept),
-        misfits=_misfits(rng, free, tidy.unit) if chance(rng, habit.misfits) else (),
+        cuts=draw_cuts(rng, tidy, free, style.cuts),
+        faces=_faces(rng, style, kept),
+        misfits=_misfits(rng, free, tidy.unit) if chance(rng, style.misfits) else (),
         ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
         factors=_factors(rng),
-        bend=between(rng, BEND) if chance(rng, habit.bend) else 0.0,
+        bend=between(rng, BEND) if chance(rng, style.bend) else 0.0,
         yaw=_yaw(rng),
         wording=draw_wording(rng),
         missing=missing,
-        masked=between(rng, LOST[int(rng.choice(4, p=habit.masking))]),
+        masked=between(rng, LOST[int(rng.choice(4, p=style.masking))]),
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
         density=density,
@@ -196,9 +194,9 @@ def is_storage(asset: Asset) -> bool:
     return PartLabel.BOTTOM_PANEL in labels or PartLabel.BACK_PANEL in labels
 
 
-def _clutter(rng: np.random.Generator, habit: Habit, tidy: Asset, missing: Collection[str]) -> tuple[str, ...]:
-    """Returns the kinds of clutter; nothing stands on a top or on shelves that are not there."""
-    drawn = [k for k in CLUTTER if chance(rng, habit.clutter * CLUTTER_WEIGHT.get(k, 1.0))]
+def _loose(rng: np.random.Generator, style: ModellingStyle, tidy: Asset, missing: Collection[str]) -> tuple[str, ...]:
+    """Returns the kinds of loose objects; nothing stands on a top or on shelves that are not there."""
+    drawn = [k for k in LOOSE_OBJECTS if chance(rng, style.loose_objects * LOOSE_WEIGHT.get(k, 1.0))]
     gone = {tidy.part(i).label for i in missing}
     needs = {"things on top": PartLabel.TOP_PANEL, "things on shelves": PartLabel.SHELF, "basket": PartLabel.SHELF}
     return tuple(kind for kind in drawn if needs.get(kind) not in gone)
@@ -237,13 +235,15 @@ def _one(rng: np.random.Generator, parts: Sequence[Part]) -> list[Part]:
     return [parts[int(rng.integers(len(parts)))]] if parts else []
 
 
-def _faces(rng: np.random.Generator, habit: Habit, parts: Sequence[Part]) -> tuple[tuple[Faces, tuple[str, ...]], ...]:
+def _faces(
+    rng: np.random.Generator, style: ModellingStyle, parts: Sequence[Part]
+) -> tuple[tuple[Faces, tuple[str, ...]], ...]:
     found: list[tuple[Faces, tuple[str, ...]]] = []
     for label, weight in SHEETS.items():
         ids = tuple(p.id for p in parts if p.label is label and p.box.size.min() < THICKEST_SHEET)
-        if ids and chance(rng, habit.sheets * weight):
+        if ids and chance(rng, style.sheets * weight):
             found.append(("sheet", ids if chance(rng, 0.8) else ids[:1]))
-    if chance(rng, habit.faces):
+    if chance(rng, style.faces):
         everything = tuple(p.id for p in parts)
         some = tuple(i for i in everything if chance(rng, 0.3))
         found.append((pick(rng, FACES), everything if chance(rng, 0.5) else some))

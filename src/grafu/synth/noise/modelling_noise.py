@@ -1,6 +1,6 @@
-"""How one model is untidy: every decision drawn (`Untidiness`), and their application. `habits` draws them.
+"""The modelling noise of one model: every decision drawn (`ModellingNoise`), and how it is applied.
 
-Two things come of it: the whole (untidy in its geometry, cut and words, complete, with true joints) and what is given
+It gives two assets: the whole (noisy in its geometry, cut and words, complete, with true joints) and what is given
 of it (parts missing, labels lost or wrong).
 """
 
@@ -13,9 +13,10 @@ import numpy as np
 from grafu.asset.edit import centred, yawed
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
-from grafu.synth.noise import untidy
-from grafu.synth.noise.clutter import with_clutter
+from grafu.synth.noise import edits
 from grafu.synth.noise.distortion import ajar, bent, stretched
+from grafu.synth.noise.edits import with_anchored_sheets
+from grafu.synth.noise.loose_objects import with_loose_objects
 from grafu.synth.noise.naming import MISTAKES, mistaken, with_labels_masked, worded
 from grafu.synth.noise.segmentation import (
     in_pieces,
@@ -27,7 +28,6 @@ from grafu.synth.noise.segmentation import (
     with_joined,
 )
 from grafu.synth.noise.tessellation import Density
-from grafu.synth.noise.untidy import with_anchored_sheets
 from grafu.synth.specimen import Defect
 from grafu.vocabulary import PartLabel
 
@@ -36,11 +36,11 @@ Faces = Literal["sheet", "open back", "doubled", "inverted", "loose", "shells"]
 
 FACE_EDITS: Final[dict[Faces, Callable[[Asset, Collection[str]], Asset]]] = {
     "sheet": with_anchored_sheets,
-    "open back": untidy.with_open_backs,
-    "doubled": untidy.with_doubled_faces,
-    "inverted": untidy.with_inverted_normals,
-    "loose": untidy.with_loose_faces,
-    "shells": lambda asset, ids: untidy.with_many_shells(asset, 3, ids),
+    "open back": edits.with_open_backs,
+    "doubled": edits.with_doubled_faces,
+    "inverted": edits.with_inverted_normals,
+    "loose": edits.with_loose_faces,
+    "shells": lambda asset, ids: edits.with_many_shells(asset, 3, ids),
 }
 BOARDS_ONLY: Final[frozenset[Faces]] = frozenset({"shells"})  # edits that would fill what is no plain board
 
@@ -80,18 +80,18 @@ class Misfit:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Untidiness:
-    """All that is untidy about one model; the parts named are those of the tidy one.
+class ModellingNoise:
+    """All that is noisy about one model; the parts named are those of the tidy one.
 
     `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
     shares of their range; `masked` is the share of parts whose label is lost. `density`, `edge` (metres) and
-    `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying (clutter,
-    which labels are lost) follows `seed`.
+    `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying
+    (loose_objects, which labels are lost) follows `seed`.
     """
 
-    habit: str
+    style: str
     seed: int = 0
-    clutter: tuple[str, ...] = ()
+    loose_objects: tuple[str, ...] = ()
     joined: tuple[Joined, ...] = ()
     cuts: tuple[Cut, ...] = ()
     faces: tuple[tuple[Faces, tuple[str, ...]], ...] = ()
@@ -110,45 +110,45 @@ class Untidiness:
     both_sides: bool = False
 
 
-def apply_untidiness(tidy: Asset, untidiness: Untidiness) -> tuple[Asset, tuple[Defect, ...]]:
-    """Returns the whole, untidy model, centred and standing on z = 0, and the defects of its geometry.
+def apply_noise(tidy: Asset, noise: ModellingNoise) -> tuple[Asset, tuple[Defect, ...]]:
+    """Returns the whole, noisy model, centred and standing on z = 0, and the defects of its geometry.
 
     A decision about a part that an earlier one did away with is passed over.
     """
-    rng = np.random.default_rng(untidiness.seed)
+    rng = np.random.default_rng(noise.seed)
     asset = tidy
-    for kind in untidiness.clutter:
-        asset = with_clutter(asset, kind, rng)
-    asset = _recut(asset, untidiness)
-    asset = worded(asset, untidiness.wording)
+    for kind in noise.loose_objects:
+        asset = with_loose_objects(asset, kind, rng)
+    asset = _recut(asset, noise)
+    asset = worded(asset, noise.wording)
     defects = []
-    for part_id, share in untidiness.ajar:
+    for part_id, share in noise.ajar:
         if _has(asset, part_id):
             asset = ajar(asset, part_id, share)
             defects.append(Defect("ajar", (part_id,)))
-    for misfit in untidiness.misfits:
+    for misfit in noise.misfits:
         if _has(asset, misfit.part):
             before, asset = asset, _misfitted(asset, misfit)
             defects.append(_defect(before, asset, misfit))
-    for edit, ids in untidiness.faces:
+    for edit, ids in noise.faces:
         asset = _with_faces(asset, edit, ids)
-    if untidiness.bend:
-        asset = bent(asset, untidiness.bend, rng)
+    if noise.bend:
+        asset = bent(asset, noise.bend, rng)
         defects.append(Defect("interpenetrating", tuple(joint.part for joint in asset.joints)))
-    asset = stretched(asset, vec3(*untidiness.factors))
-    asset = centred(yawed(asset, untidiness.yaw)) if untidiness.yaw else asset
-    if untidiness.shuffled:
+    asset = stretched(asset, vec3(*noise.factors))
+    asset = centred(yawed(asset, noise.yaw)) if noise.yaw else asset
+    if noise.shuffled:
         asset = replace(asset, parts=tuple(asset.parts[k] for k in rng.permutation(len(asset.parts))))
     return replace(asset, frame=tidy.frame), tuple(defects)
 
 
-def as_given(whole: Asset, untidiness: Untidiness, removable: Collection[str]) -> tuple[Asset, tuple[Defect, ...]]:
+def as_given(whole: Asset, noise: ModellingNoise, removable: Collection[str]) -> tuple[Asset, tuple[Defect, ...]]:
     """Returns what a reader would load of the whole: without missing parts, joints, attachments; labels that survive.
 
     Only `removable` parts go missing, and never all still parts.
     """
-    rng = np.random.default_rng([untidiness.seed, 1])
-    gone = [p.id for p in whole.parts if p.id in untidiness.missing and p.id in removable]
+    rng = np.random.default_rng([noise.seed, 1])
+    gone = [p.id for p in whole.parts if p.id in noise.missing and p.id in removable]
     given = whole.without_annotation()
     kept = tuple(p for p in given.parts if p.id not in gone)
     if not any(p.label.is_support for p in kept):
@@ -156,12 +156,12 @@ def as_given(whole: Asset, untidiness: Untidiness, removable: Collection[str]) -
     given = replace(given, parts=kept)
     defects = [Defect("missing", tuple(gone))] if gone else []
     mistakable = [part for part in kept if part.label in MISTAKES]
-    if untidiness.mislabelled and mistakable:
+    if noise.mislabelled and mistakable:
         part = mistakable[int(rng.integers(len(mistakable)))]
         given = given.with_labels({part.id: mistaken(part, rng)})
         defects.append(Defect("mislabelled", (part.id,)))
-    nameless = {_joined_id(k) for k, group in enumerate(untidiness.joined) if not group.named}
-    lost = _masked(given, untidiness.masked, rng) | {p.id for p in kept if p.id in nameless}
+    nameless = {_joined_id(k) for k, group in enumerate(noise.joined) if not group.named}
+    lost = _masked(given, noise.masked, rng) | {p.id for p in kept if p.id in nameless}
     return with_labels_masked(given, lost), tuple(defects)
 
 
@@ -184,14 +184,14 @@ def _has(asset: Asset, part_id: str) -> bool:
     return any(part.id == part_id for part in asset.parts)
 
 
-def _recut(asset: Asset, untidiness: Untidiness) -> Asset:
-    for k, group in enumerate(untidiness.joined):
+def _recut(asset: Asset, noise: ModellingNoise) -> Asset:
+    for k, group in enumerate(noise.joined):
         if group.label is None:
             asset = with_attached_joined(asset, group.ids)
             continue
         ids = [p.id for p in asset.parts if p.id in group.ids]
         asset = with_joined(asset, ids, group.label, _joined_id(k)) if len(ids) > 1 else asset
-    for cut in untidiness.cuts:
+    for cut in noise.cuts:
         asset = _cut(asset, cut) if _has(asset, cut.part) else asset
     return asset
 
@@ -209,7 +209,7 @@ def _cut(asset: Asset, cut: Cut) -> Asset:
 
 
 def _misfitted(asset: Asset, misfit: Misfit) -> Asset:
-    edit = untidy.with_swollen if misfit.grown else untidy.with_shifted
+    edit = edits.with_swollen if misfit.grown else edits.with_shifted
     return edit(asset, misfit.part, vec3(*misfit.offset))
 
 

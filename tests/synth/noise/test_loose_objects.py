@@ -23,11 +23,11 @@ def added(asset: Asset, tidy: Asset = TIDY) -> list[str]:
     return [p.id for p in asset.parts if p.id not in {q.id for q in tidy.parts}]
 
 
-@pytest.mark.parametrize("kind", sorted(CLUTTER))
+@pytest.mark.parametrize("kind", sorted(LOOSE_OBJECTS))
 def test_every_kind_adds_parts_that_obstruct_nothing(kind: str) -> None:
     found = []
     for seed in range(5):
-        asset = with_clutter(TIDY, kind, np.random.default_rng(seed))
+        asset = with_loose_objects(TIDY, kind, np.random.default_rng(seed))
         assert asset.joints == TIDY.joints
         assert asset.parts[: len(TIDY.parts)] == TIDY.parts
         assert not faults_of(asset, articulated_of(asset)), (kind, seed)
@@ -37,7 +37,7 @@ def test_every_kind_adds_parts_that_obstruct_nothing(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["things on top", "things on shelves"])
 def test_things_stand_on_something(kind: str) -> None:
-    asset = with_clutter(TIDY, kind, np.random.default_rng(1))
+    asset = with_loose_objects(TIDY, kind, np.random.default_rng(1))
 
     for name in added(asset):
         foot = asset.part(name).box.low[2]
@@ -47,12 +47,12 @@ def test_things_stand_on_something(kind: str) -> None:
 def test_nothing_stands_on_a_lid() -> None:
     chest = make_chest(Chest())
 
-    assert not added(with_clutter(chest, "things on top", np.random.default_rng(0)), chest)
+    assert not added(with_loose_objects(chest, "things on top", np.random.default_rng(0)), chest)
 
 
 def test_runners_lie_beside_their_drawers_within_the_gap() -> None:
     for seed in range(6):
-        asset = with_clutter(TIDY, "runners", np.random.default_rng(seed))
+        asset = with_loose_objects(TIDY, "runners", np.random.default_rng(seed))
         runners = [asset.part(name) for name in added(asset)]
         assert len(runners) >= 4
         assert {p.label for p in runners} == {PartLabel.MISC}
@@ -62,4 +62,4 @@ def test_runners_lie_beside_their_drawers_within_the_gap() -> None:
 
 def test_an_unknown_kind_is_a_mistake() -> None:
     with pytest.raises(KeyError):
-        with_clutter(TIDY, "fairy lights", np.random.default_rng(0))
+        with_loose_objects(TIDY, "fairy lights", np.random.default_rng(0))

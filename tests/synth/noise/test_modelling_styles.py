@@ -1,4 +1,4 @@
-"""The rates at which untidiness is drawn, without building anything."""
+"""The rates at which modelling noise is drawn, without building anything."""
 
 from collections import Counter
 from functools import cache
@@ -12,14 +12,14 @@ from grafu.synth.noise.habits import (
     AJAR,
     BOTH_SIDES,
     DENSITY,
-    HABITS,
     NO_BACK,
     NO_BOTTOM,
     NO_CASE_TOP,
     NO_HANDLES,
     NO_TOP,
+    STYLES,
     TURNED,
-    draw_untidiness,
+    draw_noise,
     is_storage,
 )
 from grafu.synth.noise.untidiness import Untidiness
@@ -32,25 +32,25 @@ NUMBER = 2000
 
 
 @cache
-def draws(family: str = "") -> tuple[Untidiness, ...]:
+def draws(family: str = "") -> tuple[ModellingNoise, ...]:
     rng = np.random.default_rng(5)
-    return tuple(draw_untidiness(rng, TIDY, family) for _ in range(NUMBER))
+    return tuple(draw_noise(rng, TIDY, family) for _ in range(NUMBER))
 
 
 def share(found: list[bool]) -> float:
     return sum(found) / len(found)
 
 
-def test_habits_come_at_their_shares() -> None:
-    counts = Counter(u.habit for u in draws())
+def test_styles_come_at_their_shares() -> None:
+    counts = Counter(u.style for u in draws())
 
-    assert sum(h.share for h in HABITS.values()) == pytest.approx(1.0)
-    for name, habit in HABITS.items():
-        assert counts[name] / NUMBER == pytest.approx(habit.share, abs=0.04)
+    assert sum(h.share for h in STYLES.values()) == pytest.approx(1.0)
+    for name, style in STYLES.items():
+        assert counts[name] / NUMBER == pytest.approx(style.share, abs=0.04)
 
 
 def test_maskings_are_distributions_and_labels_survive_in_about_half() -> None:
-    assert all(sum(h.masking) == pytest.approx(1.0) for h in HABITS.values())
+    assert all(sum(h.masking) == pytest.approx(1.0) for h in STYLES.values())
     assert share([u.masked == 0 for u in draws()]) == pytest.approx(0.53, abs=0.04)
     assert share([u.masked == 1 for u in draws()]) == pytest.approx(0.10, abs=0.03)
 
@@ -95,8 +95,8 @@ def test_sizes_are_off_by_no_more_than_people_are() -> None:
 
 
 def test_a_merging_modeller_merges_and_never_cuts_panels() -> None:
-    merging = [u for u in draws() if u.habit == "merged export"]
-    exploding = [u for u in draws() if u.habit == "exploded export"]
+    merging = [u for u in draws() if u.style == "merged export"]
+    exploding = [u for u in draws() if u.style == "exploded export"]
 
     assert all(u.joined for u in merging)
     assert not any(u.cuts for u in merging)
@@ -106,11 +106,11 @@ def test_a_merging_modeller_merges_and_never_cuts_panels() -> None:
 def test_what_is_absent_is_missing() -> None:
     rng = np.random.default_rng(0)
 
-    assert all("shelf_1" in draw_untidiness(rng, TIDY, absent=("shelf_1",)).missing for _ in range(20))
+    assert all("shelf_1" in draw_noise(rng, TIDY, absent=("shelf_1",)).missing for _ in range(20))
 
 
 def test_nothing_stands_on_what_is_missing() -> None:
-    assert not any("top_panel" in u.missing and "things on top" in u.clutter for u in draws())
+    assert not any("top_panel" in u.missing and "things on top" in u.loose_objects for u in draws())
 
 
 def test_tables_are_no_storage() -> None:

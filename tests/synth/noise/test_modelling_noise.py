@@ -1,4 +1,4 @@
-"""One model's untidiness applied: each decision leaves its mark, and nothing else changes."""
+"""One model's modelling noise applied: each decision leaves its mark, and nothing else changes."""
 
 from dataclasses import replace
 
@@ -7,13 +7,13 @@ import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Stack
-from grafu.synth.generate import untidied
-from grafu.synth.noise.untidiness import Cut, Joined, Misfit, Untidiness, apply_untidiness, as_given
+from grafu.synth.generate import with_noise
+from grafu.synth.noise.modelling_noise import Cut, Joined, Misfit, ModellingNoise, apply_noise, as_given
 from grafu.synth.truth.check import faults_in
 from grafu.vocabulary import PartLabel
 
 TIDY = make_cabinet(Cabinet(layout=Stack((Door(shelves=1), Drawer()))))
-NEAT = Untidiness("clean cad")
+NEAT = ModellingNoise("clean cad")
 WALLS = ("side_panel_left", "side_panel_right", "back_panel")
 
 
@@ -22,7 +22,7 @@ def ids(asset: object) -> list[str]:
 
 
 def test_a_neat_model_stays_as_it_is() -> None:
-    whole, defects = apply_untidiness(TIDY, NEAT)
+    whole, defects = apply_noise(TIDY, NEAT)
 
     assert ids(whole) == ids(TIDY)
     assert defects == ()
@@ -31,7 +31,7 @@ def test_a_neat_model_stays_as_it_is() -> None:
 
 
 DECISIONS = [
-    replace(NEAT, clutter=("nailers", "things on top")),
+    replace(NEAT, loose_objects=("nailers", "things on top")),
     replace(NEAT, joined=(Joined(WALLS, PartLabel.SIDE_PANEL),)),
     replace(NEAT, joined=(Joined(("handle_1", "handle_2"), None),)),
     replace(NEAT, cuts=(Cut("side_panel_left", "planks", count=3, axis=1), Cut("shelf_1", "edge strip"))),
@@ -48,9 +48,9 @@ DECISIONS = [
 ]
 
 
-@pytest.mark.parametrize("untidiness", DECISIONS, ids=lambda u: str(DECISIONS.index(u)))
-def test_each_decision_makes_a_sound_specimen(untidiness: Untidiness) -> None:
-    specimen = untidied("made", "cabinet", TIDY, untidiness, 4)
+@pytest.mark.parametrize("noise", DECISIONS, ids=lambda u: str(DECISIONS.index(u)))
+def test_each_decision_makes_a_sound_specimen(noise: ModellingNoise) -> None:
+    specimen = with_noise("made", "cabinet", TIDY, noise, 4)
 
     assert not faults_in(specimen)
     assert {j.part for j in specimen.whole.joints} == {"door", "drawer"}
@@ -63,9 +63,9 @@ def test_geometry_out_of_place_is_declared() -> None:
     loose = replace(NEAT, misfits=(Misfit("door", (0.0, -0.004, 0.0)),))
     open_drawer = replace(NEAT, ajar=(("drawer", 0.3),))
 
-    kinds = {apply_untidiness(TIDY, u)[1][0].kind: apply_untidiness(TIDY, u)[1][0].parts for u in (sunk, loose)}
+    kinds = {apply_noise(TIDY, u)[1][0].kind: apply_noise(TIDY, u)[1][0].parts for u in (sunk, loose)}
     assert kinds == {"interpenetrating": ("door",), "floating": ("door",)}
-    assert apply_untidiness(TIDY, open_drawer)[1][0].kind == "ajar"
+    assert apply_noise(TIDY, open_drawer)[1][0].kind == "ajar"
 
 
 def test_decisions_about_parts_that_are_gone_are_passed_over() -> None:
@@ -77,7 +77,7 @@ def test_decisions_about_parts_that_are_gone_are_passed_over() -> None:
         faces=(("sheet", ("side_panel_right",)),),
     )
 
-    whole, defects = apply_untidiness(TIDY, gone)
+    whole, defects = apply_noise(TIDY, gone)
 
     assert ids(whole)[0] == "joined_1"
     assert defects == ()

@@ -1,8 +1,9 @@
 """What stands, hangs and is screwed on besides the furniture itself: table from kind to maker of extra parts.
 
-Nothing here gets into the way of a door or a drawer: what would, is left out (`with_clutter`). Seen on the development
-models: corner plates (45001), nailers behind backs (41003), front edges as sheets of their own (41003), runners and
-sliders beside drawers (22692, 26608), posts (22692), feet of four millimetres (45963), things on shelves (47315).
+Nothing here gets into the way of a door or a drawer: what would, is left out (`with_loose_objects`). Seen on the
+development models: corner plates (45001), nailers behind backs (41003), front edges as sheets of their own (41003),
+runners and sliders beside drawers (22692, 26608), posts (22692), feet of four millimetres (45963), things on shelves
+(47315).
 """
 
 from collections.abc import Callable, Iterator
@@ -30,8 +31,8 @@ SAME = 0.0002  # metres within which two boxes are one: what is there already is
 CLEAR = 0.0005  # metres that must stay free between what is added and what moves
 
 
-def with_clutter(asset: Asset, kind: str, rng: np.random.Generator) -> Asset:
-    """Returns the asset with the parts of one kind of clutter added, those that obstruct nothing.
+def with_loose_objects(asset: Asset, kind: str, rng: np.random.Generator) -> Asset:
+    """Returns the asset with the parts of one kind of loose objects added, those that obstruct nothing.
 
     Pads below and nailers behind may leave it off its middle and its floor.
 
@@ -41,7 +42,7 @@ def with_clutter(asset: Asset, kind: str, rng: np.random.Generator) -> Asset:
     swept = _swept_boxes(asset)
     still = np.array([(p.box.low, p.box.high) for p in asset.parts])
     parts = list(asset.parts)
-    for addition in CLUTTER[kind](asset, rng):
+    for addition in LOOSE_OBJECTS[kind](asset, rng):
         if addition.rides_on is None and not _is_free(addition, swept, still):
             continue
         name = fresh_ids(replace(asset, parts=tuple(parts)), addition.stem, 1)[0]
@@ -240,7 +241,7 @@ def _posts(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
             yield Addition(label, "post", mesh)
 
 
-CLUTTER: Final[dict[str, Callable[[Asset, np.random.Generator], Iterator[Addition]]]] = {
+LOOSE_OBJECTS: Final[dict[str, Callable[[Asset, np.random.Generator], Iterator[Addition]]]] = {
     "things on top": _things_on_top,
     "things on shelves": _things_on_shelves,
     "basket": _basket,
