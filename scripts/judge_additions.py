@@ -29,7 +29,7 @@ from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.synth.generate import make_specimen
-from grafu.synth.samples import TIDY, UNTIDY
+from grafu.synth.samples import NOISY, TIDY
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 

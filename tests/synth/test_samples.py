@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from grafu.asset.load import load_asset
-from grafu.synth.samples import KINDS, SAMPLES, TIDY, UNTIDY, furniture_of
+from grafu.synth.samples import KINDS, NOISY, SAMPLES, TIDY, furniture_of
 from sweeping import collisions
 
 ROOT = Path(__file__).parent.parent.parent
@@ -61,15 +61,15 @@ def test_a_tidy_kind_moves_freely_about_its_true_joints(name):
         assert collisions(asset, joint.part, ignored=doors if behind else frozenset()) == {}
 
 
-@pytest.mark.parametrize("name", UNTIDY)
-def test_an_untidy_kind_keeps_its_joints(name):
-    asset = UNTIDY[name]()
+@pytest.mark.parametrize("name", NOISY)
+def test_a_noisy_kind_keeps_its_joints(name):
+    asset = NOISY[name]()
     assert len(asset.joints) == sum(p.id.startswith(("door", "drawer")) for p in asset.parts) > 0
 
 
 @pytest.mark.parametrize("name", SUNK)
 def test_what_is_sunk_into_a_neighbour_collides_at_rest(name):
-    assert collisions(UNTIDY[name](), SUNK[name], values=[0.0]) != {}
+    assert collisions(NOISY[name](), SUNK[name], values=[0.0]) != {}
 
 
 def test_kinds_are_the_same_each_time():

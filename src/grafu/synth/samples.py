@@ -4,7 +4,7 @@ And walls of doors and drawers of any number of parts, for benches.
 
 A catalogue of the kinds of furniture on which building mechanisms is hard: a table from name to maker.
 
-Every kind has its true joints. The untidy ones state the same joints as their tidy originals, whatever collides.
+Every kind has its true joints. The noisy ones state the same joints as their tidy originals, whatever collides.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from grafu.synth.case.construction import Back, Base, FaceFrame, Top
 from grafu.synth.fronts.hold import Hold
 from grafu.synth.fronts.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
 from grafu.synth.fronts.setting import Mount
-from grafu.synth.noise import untidy
+from grafu.synth.noise import edits
 from grafu.synth.pieces.finish import textured_finish
 from grafu.synth.tables.desk import Desk, make_desk
 from grafu.synth.tables.table import Table, make_table
@@ -103,28 +103,28 @@ TIDY: dict[str, Maker] = {
     "moulding below": _cabinet(Pair(), case=Case(moulding=0.06, moulding_at="bottom")),
     "muntin between a pair": _cabinet(Pair(muntin=0.04), case=Case()),
 }
-UNTIDY: dict[str, Maker] = {
-    "sheets for panels": _mixed(lambda a: untidy.with_sheets(a, PANELS)),
-    "sheets for doors": _mixed(lambda a: untidy.with_sheets(a, ("door",))),
-    "open backs": _mixed(untidy.with_open_backs),
-    "doubled faces": _mixed(untidy.with_doubled_faces),
-    "inverted normals": _mixed(untidy.with_inverted_normals),
-    "degenerate faces": _mixed(untidy.with_degenerate_faces),
-    "loose faces": _mixed(untidy.with_loose_faces),
-    "many shells": _mixed(lambda a: untidy.with_many_shells(a, 4, PANELS)),
-    "one still body": _mixed(lambda a: untidy.with_merged(a, PANELS)),
-    "doors into the case": _mixed(lambda a: untidy.with_shifted(a, "door_1", vec3(0.0, 0.003, 0.0))),
-    "inset door into the side": lambda: untidy.with_swollen(
+NOISY: dict[str, Maker] = {
+    "sheets for panels": _mixed(lambda a: edits.with_sheets(a, PANELS)),
+    "sheets for doors": _mixed(lambda a: edits.with_sheets(a, ("door",))),
+    "open backs": _mixed(edits.with_open_backs),
+    "doubled faces": _mixed(edits.with_doubled_faces),
+    "inverted normals": _mixed(edits.with_inverted_normals),
+    "degenerate faces": _mixed(edits.with_degenerate_faces),
+    "loose faces": _mixed(edits.with_loose_faces),
+    "many shells": _mixed(lambda a: edits.with_many_shells(a, 4, PANELS)),
+    "one still body": _mixed(lambda a: edits.with_merged(a, PANELS)),
+    "doors into the case": _mixed(lambda a: edits.with_shifted(a, "door_1", vec3(0.0, 0.003, 0.0))),
+    "inset door into the side": lambda: edits.with_swollen(
         make_cabinet(Cabinet(layout=Door(), mount="inset")), "door", vec3(0.006, 0.0, 0.0)
     ),
-    "drawer into both walls": lambda: untidy.with_swollen(
+    "drawer into both walls": lambda: edits.with_swollen(
         make_cabinet(Cabinet(case=NARROW, layout=Drawer(), mount="inset")), "drawer", vec3(0.005, 0.0, 0.0)
     ),
-    "floating door": _mixed(lambda a: untidy.with_shifted(a, "door_1", vec3(0.0, -0.008, 0.0))),
-    "names lost": _mixed(untidy.with_labels_lost),
-    "handles lost": _mixed(lambda a: untidy.without_parts(a, ("handle",))),
+    "floating door": _mixed(lambda a: edits.with_shifted(a, "door_1", vec3(0.0, -0.008, 0.0))),
+    "names lost": _mixed(edits.with_labels_lost),
+    "handles lost": _mixed(lambda a: edits.without_parts(a, ("handle",))),
 }
-KINDS: dict[str, Maker] = {**TIDY, **UNTIDY}
+KINDS: dict[str, Maker] = {**TIDY, **NOISY}
 
 
 CASE_PARTS = 5  # two sides, top, bottom, back

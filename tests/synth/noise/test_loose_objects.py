@@ -9,7 +9,7 @@ from grafu.synth.cabinets.chest import Chest, make_chest
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
 from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
-from grafu.synth.noise.clutter import CLUTTER, with_clutter
+from grafu.synth.noise.loose_objects import LOOSE_OBJECTS, with_loose_objects
 from grafu.synth.truth.check import faults_of
 from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import PartLabel

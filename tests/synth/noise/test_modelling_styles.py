@@ -8,7 +8,8 @@ import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
-from grafu.synth.noise.habits import (
+from grafu.synth.noise.modelling_noise import ModellingNoise
+from grafu.synth.noise.modelling_styles import (
     AJAR,
     BOTH_SIDES,
     DENSITY,
@@ -22,7 +23,6 @@ from grafu.synth.noise.habits import (
     draw_noise,
     is_storage,
 )
-from grafu.synth.noise.untidiness import Untidiness
 from grafu.synth.samples import TIDY as KINDS
 from grafu.vocabulary import PartLabel
 

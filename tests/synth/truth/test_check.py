@@ -20,7 +20,7 @@ from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Stack
 from grafu.synth.generate import make_specimen
-from grafu.synth.noise import untidy
+from grafu.synth.noise import edits
 from grafu.synth.samples import TIDY
 from grafu.synth.specimen import Defect, Specimen
 from grafu.synth.truth.check import Fault, faults_in, faults_of

@@ -16,7 +16,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
-from grafu.synth.noise.untidy import with_doubled_faces, with_loose_faces, with_open_backs
+from grafu.synth.noise.edits import with_doubled_faces, with_loose_faces, with_open_backs
 from grafu.synth.pieces.shapes import turned
 from grafu.synth.samples import KINDS, TIDY
 from grafu.synth.truth import clashes as module
