@@ -10,7 +10,7 @@ for name, each in (("before", result), ("after", changed)):
     joint = each.joint(door)
     print(f"{name}: {door} turns about x = {joint.origin[0]:.2f} m on {joint.count} x {joint.template}")
 
-still = changed.with_motion(door, "not")
+still = changed.with_motion(door, "fixed")
 print(f"stopped: {[joint.part for joint in still.joints]}")
 
 for added in changed.added:
