@@ -49,7 +49,7 @@ def refuse_beyond(memory: int) -> None:
 def give_back_unused() -> None:
     """Has this process, where it holds much, give back to the system what it does not use any more.
 
-    Values that refer to one another stay until somebody looks for them, and freed memory stays with the allocator.
+    Values that refer to one another stay until the garbage collector runs, and freed memory stays with the allocator.
     """
     if _resident(os.getpid()) < _MUCH:
         return

@@ -11,7 +11,7 @@ from grafu.processes.lifetime import started_by_main_thread
 
 @final
 class Terminated(KeyboardInterrupt):
-    """Somebody asked this process to end (SIGTERM); it ends as after Ctrl-C."""
+    """SIGTERM reached this process; it ends as after Ctrl-C."""
 
 
 @final
