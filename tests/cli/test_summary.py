@@ -48,6 +48,18 @@ def test_joints_that_the_input_states_and_nobody_read_are_told(
     assert "1 input states 2 joints; --motion annotation builds such" in capsys.readouterr().out
 
 
+def test_what_happened_to_the_input_is_told_but_not_without_end(
+    topless: Succeeded, capsys: pytest.CaptureFixture[str]
+) -> None:
+    notes = ["body was cut into 2 fronts and the rest (--parts auto)", *(f"note {k}" for k in range(6))]
+    read = topless.report.input.model_copy(update={"notes": notes})
+    print_results([replace(topless, report=topless.report.model_copy(update={"input": read}))])
+    said = capsys.readouterr().out
+
+    assert f"input: {notes[0]}\n" in said
+    assert "input: note 3\ninput: 2 more notes (report.json)\n" in said
+
+
 def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys: pytest.CaptureFixture[str]) -> None:
     skipped = tuple(SkippedRecord(request=f"part_{k}", reason=SkipReason.NO_ROOM, detail="narrow") for k in range(3))
     print_results([replace(topless, report=topless.report.model_copy(update={"skipped": skipped}))])

@@ -17,6 +17,7 @@ from grafu.viewer.wording import added, unused_joints
 from grafu.vocabulary import JointType
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)
+_READ_NOTES = 5  # of one input; the report has all
 _ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
 
 
@@ -40,12 +41,20 @@ def print_results(results: Sequence[JobResult]) -> None:
 
 
 def _said_of_one(report: Report) -> list[str]:
-    """Returns the verdict with what may set it right, what was added, and what was not used or guessed."""
+    """Returns the verdict with what may set it right, what was added, not used, cut or guessed."""
     verdict, given = verdict_of(report), added(report)
     said = [f"{verdict.colour}: {verdict.sentence}", *map(_fault, verdict.lines)]
     said += [f"added: {listed(given)}"] if given else []
     said += [f"the input {unused}"] if (unused := unused_joints(report)) else []
+    said += _read(report.input.notes)
     return said + [f"guessed: {line}" for line in report.frame.assumed if "changes it" in line]
+
+
+def _read(notes: Sequence[str]) -> list[str]:
+    """Returns what happened to the input while it was read: what was cut, joined, renamed or left out."""
+    shown = [f"input: {note}" for note in notes[:_READ_NOTES]]
+    more = len(notes) - len(shown)
+    return [*shown, f"input: {more} more notes (report.json)"] if more else shown
 
 
 def _fault(line: FaultRecord) -> str:
