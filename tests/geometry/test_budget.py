@@ -47,6 +47,24 @@ def test_a_share_is_of_what_is_left() -> None:
     assert budget.share(0.5).left == 0.0
 
 
+def test_a_busy_machine_changes_no_result_until_the_clock_on_the_wall_ends_the_work(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    processor, wall = Clock(), Clock()
+    monkeypatch.setattr("grafu.geometry.budget.process_time", processor)
+    monkeypatch.setattr("grafu.geometry.budget.monotonic", wall)
+    budget = Budget.lasting(100.0)
+    share = budget.share(0.1)
+    wall.now = 39.0  # others had the processor
+    assert share.left == pytest.approx(1.0)
+    assert budget.left == pytest.approx(61.0)
+    processor.now = 10.0
+    assert share.left == 0.0
+    assert budget.share(1.0).left == pytest.approx(0.9 * 61.0)  # something is left for what comes after
+    wall.now = 100.0
+    assert budget.left == 0.0
+
+
 def test_what_exceeds_its_share_is_replaced_and_the_rest_has_its_time() -> None:
     clock = Clock()
 

@@ -8,7 +8,6 @@ a few newtons at the handle, and stays closed against gravity. It knows no file 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from math import inf
 from typing import TypeVar, final
 from weakref import WeakKeyDictionary
 
@@ -142,7 +141,7 @@ def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_P
     What the budget in force does not hold is found in a simpler way: masses and shapes from boxes around parts.
     """
     known = _LATEST.get(articulated)
-    if known is None or known[0] != config or (known[1].notes and present_budget().deadline == inf):
+    if known is None or known[0] != config or (known[1].notes and present_budget().is_unlimited):
         known = (config, _found(articulated, config))
         _LATEST[articulated] = known
     return known[1]

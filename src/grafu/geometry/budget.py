@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from math import inf
-from time import monotonic
+from time import monotonic, process_time
 from typing import Generic, ParamSpec, TypeVar, final
 
 from grafu.errors import TooComplex
@@ -21,6 +21,8 @@ P = ParamSpec("P")
 
 DEFAULT_SECONDS = 120.0
 """For one model: some ten times what large pieces of furniture take."""
+_STRETCH, _MOST = 4.0, 0.9  # of the clock on the wall
+"""A share of the processor's time may take four times as much of the clock's, but never all of it."""
 DEFAULT_ROOM = 400 * 2**20
 """Bytes of one step: with what stays beside it, a process keeps below some 1.5 GB."""
 
@@ -28,9 +30,11 @@ DEFAULT_ROOM = 400 * 2**20
 @final
 @dataclass(frozen=True, slots=True)
 class Budget:
-    """A point in time at which work ends, by a clock, and how many bytes one step of it may take.
+    """A point in time at which work ends, and how many bytes one step of it may take.
 
-    `deadline` is in seconds of the `clock`, which tests replace; infinity: there is no end.
+    `deadline` is in seconds of the `clock`: the processor's time of this process, so that a busy machine changes no
+    result; tests replace it. `latest` is the end by the clock on the wall (`time.monotonic`), whatever the processor
+    did. Infinity: there is no end.
 
     Raises:
         ValueError: if `room` is not above 0.
@@ -38,7 +42,8 @@ class Budget:
 
     deadline: float = inf
     room: int = DEFAULT_ROOM
-    clock: Callable[[], float] = monotonic
+    clock: Callable[[], float] = process_time
+    latest: float = inf
 
     def __post_init__(self) -> None:
         if not self.room > 0:
@@ -46,28 +51,36 @@ class Budget:
 
     @classmethod
     def lasting(
-        cls, seconds: float = DEFAULT_SECONDS, room: int = DEFAULT_ROOM, clock: Callable[[], float] = monotonic
+        cls, seconds: float = DEFAULT_SECONDS, room: int = DEFAULT_ROOM, clock: Callable[[], float] | None = None
     ) -> "Budget":
-        """Returns a budget of so many seconds from now.
+        """Returns a budget of so many seconds from now: of the processor, and on the wall; or of the clock given.
 
         Raises:
             ValueError: if `seconds` is not above 0.
         """
         if not seconds > 0:
             raise ValueError(f"a budget must last more than 0 seconds: got {seconds}")
-        return cls(clock() + seconds, room, clock)
+        if clock is not None:
+            return cls(clock() + seconds, room, clock)
+        return cls(process_time() + seconds, room, process_time, monotonic() + seconds)
 
     @property
     def left(self) -> float:
-        """Seconds until the deadline; never negative, infinity where there is none."""
-        return inf if self.deadline == inf else max(self.deadline - self.clock(), 0.0)
+        """Seconds until the nearer end; never negative, infinity where there is none."""
+        on_wall = inf if self.latest == inf else self.latest - monotonic()
+        return max(min(inf if self.deadline == inf else self.deadline - self.clock(), on_wall), 0.0)
+
+    @property
+    def is_unlimited(self) -> bool:
+        """Whether time has no end."""
+        return self.deadline == inf and self.latest == inf
 
     def share(self, part: float) -> "Budget":
-        """Returns a budget that ends after this part (0..1) of the time that is left."""
-        if self.deadline == inf:
+        """Returns a budget that ends after this part (0..1) of the time that is left; on the wall after more of it."""
+        if self.is_unlimited:
             return self
-        now = self.clock()
-        return Budget(now + part * max(self.deadline - now, 0.0), self.room, self.clock)
+        deadline = _part_of(part, self.deadline, self.clock)
+        return Budget(deadline, self.room, self.clock, _part_of(min(_STRETCH * part, _MOST), self.latest, monotonic))
 
     @contextmanager
     def in_force(self) -> Iterator[None]:
@@ -77,6 +90,11 @@ class Budget:
             yield
         finally:
             _present.reset(before)
+
+
+def _part_of(part: float, end: float, clock: Callable[[], float]) -> float:
+    """Returns the point in time after this part of what is left until an end."""
+    return inf if end == inf else (now := clock()) + part * max(end - now, 0.0)
 
 
 UNLIMITED = Budget()
@@ -94,8 +112,7 @@ def require_time() -> None:
     Raises:
         TooComplex: if the deadline of the budget in force has passed.
     """
-    budget = _present.get()
-    if budget.deadline != inf and budget.clock() >= budget.deadline:
+    if _present.get().left == 0:
         raise TooComplex("it takes more time than its share: simplify the meshes, or allow more time")
 
 
