@@ -40,8 +40,8 @@ def library_call(where: object, expected: str) -> Iterator[None]:
             yield
     except MemoryError:
         raise
-    except Exception:
-        raise UnreadableAsset(f"{where} is damaged or of another kind: expected {expected}") from None
+    except Exception as error:
+        raise UnreadableAsset(f"{where} is damaged or of another kind: expected {expected}") from error
 
 
 _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
