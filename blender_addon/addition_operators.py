@@ -153,7 +153,7 @@ class GRAFU_OT_set_top(Adds, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns the settings with the top."""
-        from grafu.realization.top.config import TopConfig
+        from grafu.additions.top.config import TopConfig
 
         sizes = {name: round(getattr(self, name), 6) for name in _TOP}
         top = replace(settings.additions.top or TopConfig(), shape=self.shape, **sizes) if self.add else None

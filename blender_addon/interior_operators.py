@@ -114,7 +114,7 @@ class GRAFU_OT_furnish(Adds, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns the settings with what the compartments get."""
-        from grafu.realization.interior.request import CompartmentChoice
+        from grafu.additions.interior.request import CompartmentChoice
 
         chosen = [self.number] if self.number >= 0 else _selected_numbers(context)
         if self.number < 0 and self.compartment != SELECTED:

@@ -157,7 +157,7 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns the settings with the choice."""
-        from grafu.realization.plan import JointChoice, Supports
+        from grafu.joints.plan import JointChoice, Supports
         from grafu.vocabulary import MechanismClass
 
         opening = self.opening
@@ -189,7 +189,7 @@ class GRAFU_OT_reset_joint(Applies, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns the settings without a choice for the joint."""
-        from grafu.realization.plan import AUTOMATIC
+        from grafu.joints.plan import AUTOMATIC
 
         return settings.with_joint(self.part, AUTOMATIC)
 

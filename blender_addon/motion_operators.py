@@ -72,7 +72,7 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns the settings with the motion."""
-        from grafu.realization.motion_choice import MotionChoice, Moves, Side
+        from grafu.joints.motion_choice import MotionChoice, Moves, Side
 
         self.part = self.part or chosen_part(context)
         if not self.part:

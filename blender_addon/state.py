@@ -211,9 +211,9 @@ def store(session, settings, report_json: str, interior_json: str, made) -> None
 
 
 def _fill_joints(session, settings, report, made) -> None:
+    from grafu.joints.plan import AUTOMATIC
     from grafu.pipeline.motion_choices import motions_of
     from grafu.pipeline.triage import Level, joint_states
-    from grafu.realization.plan import AUTOMATIC
 
     records, motions = {joint.part: joint for joint in report.joints}, motions_of(made)
     session.joints.clear()

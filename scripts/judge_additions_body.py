@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from judge_additions_table import COVERED, INTERIORS
 
+from grafu.additions.interior.request import parse_interior
+from grafu.additions.interior.turned import furnish_scene
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
@@ -17,8 +19,6 @@ from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.fittings import Fittings, fitted_object
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source
 from grafu.pipeline.motion_source import MotionSource
-from grafu.realization.interior.request import parse_interior
-from grafu.realization.interior.turned import furnish_scene
 from grafu.vocabulary import PartLabel
 
 OPEN = 0.5  # share of the plan that lies open where there is no top

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import trimesh
 
+from grafu.additions.handle.config import size_factor
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual, VisualRole
 from grafu.articulation.sweep import values_before
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.metrics.bodies import largest_side
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
-from grafu.realization.handle.config import size_factor
 from grafu.vocabulary import PartLabel
 
 POSES = 40  # of each joint in which handles are looked at

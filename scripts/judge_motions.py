@@ -28,9 +28,9 @@ from grafu.evaluation.methods import masked
 from grafu.evaluation.moving_parts import MovingPart, counted_parts
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph
+from grafu.joints.make_plan import plan_from_completion
 from grafu.metrics.motion import Motion, compare_motions
 from grafu.pipeline.learned import complete_by_weights
-from grafu.realization.make_plan import plan_from_completion
 from grafu.vocabulary import PartLabel
 
 GONE = 0.25  # of the parts that stand still

@@ -9,6 +9,10 @@ from math import radians
 
 import numpy as np
 
+from grafu.additions.grip.config import GripConfig, GripKind
+from grafu.additions.handle.config import HandleConfig
+from grafu.additions.interior.request import parse_interior
+from grafu.additions.top.config import TopConfig, TopShape
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset, Part, PartSource
@@ -19,10 +23,6 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
-from grafu.realization.grip.config import GripConfig, GripKind
-from grafu.realization.handle.config import HandleConfig
-from grafu.realization.interior.request import parse_interior
-from grafu.realization.top.config import TopConfig, TopShape
 from grafu.render.camera import Camera, three_quarter_view
 from grafu.render.picture import Picture, box_of, contact_sheet, opened_values, posed_visuals, render
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet

@@ -25,7 +25,7 @@ from grafu.processes.limits import PATIENCE
 from grafu.training.ablation import FOLD_MODELS
 from grafu.training.config import BASE, SMALL
 from grafu.training.source import TEST_SEED, VALIDATION_SEED
-from stated.constants_built import Sentence, additions, per_cent, realization
+from stated.constants_built import Sentence, additions, joints, per_cent
 
 SEEN = FeatureConfig()
 
@@ -38,7 +38,7 @@ def millions(config: GraFuConfig) -> float:
 def sentences() -> Iterator[Sentence]:
     """Yields a page, its words and the values that stand in them."""
     yield from additions()
-    yield from realization()
+    yield from joints()
     yield from evaluation()
     yield from learning()
     yield from others()

@@ -1,24 +1,24 @@
-"""Sentences of the pages on what is built: additions, realization, templates and exports (see `constants.py`)."""
+"""Sentences of the pages on what is built: additions, joints, templates and exports (see `constants.py`)."""
 
 from collections.abc import Iterator
 from math import degrees
 
 from judge_additions_table import COVERED
 
+from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.grip.config import GripConfig
+from grafu.additions.handle.config import GraspConfig, HandleConfig
+from grafu.additions.interior import arrangement
+from grafu.additions.interior.config import InteriorConfig
+from grafu.additions.top import complete, coverage, evidence, outline, supports
+from grafu.additions.top.config import TopConfig
 from grafu.articulation.physics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
+from grafu.joints.config import RealizationConfig
 from grafu.metrics import tops
 from grafu.metrics.collision import ConnectivityConfig
-from grafu.realization.carcass.config import CarcassConfig
-from grafu.realization.config import RealizationConfig
-from grafu.realization.drawer_box.config import DrawerBoxConfig
-from grafu.realization.grip.config import GripConfig
-from grafu.realization.handle.config import GraspConfig, HandleConfig
-from grafu.realization.interior import arrangement
-from grafu.realization.interior.config import InteriorConfig
-from grafu.realization.top import complete, coverage, evidence, outline, supports
-from grafu.realization.top.config import TopConfig
 from grafu.templates import user
 from grafu.templates.rails import TRAVEL
 
@@ -118,9 +118,9 @@ def additions() -> Iterator[Sentence]:
     yield page, "found by shape ({} to {} m deep", evidence._BASIN_DEPTH
 
 
-def realization() -> Iterator[Sentence]:
-    """Yields what docs/realization.md, templates.md and exports.md repeat."""
-    page = "realization.md"
+def joints() -> Iterator[Sentence]:
+    """Yields what docs/joints.md, templates.md and exports.md repeat."""
+    page = "joints.md"
     yield page, "smaller by {} units on each side", (BUILT.depth,)
     yield page, "a face beside the door within {} units", (BUILT.contact,)
     yield page, "a face behind the border within {} units", (BUILT.contact,)

@@ -14,7 +14,7 @@
       ExportError             a format cannot say this, or the output cannot be written
       TooComplex              it takes more time or room than its budget holds
 
-A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.realization.report`).
+A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.joints.report`).
 Messages are one line: what was given, what was expected, how to fix it.
 """
 

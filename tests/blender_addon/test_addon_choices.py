@@ -5,8 +5,8 @@ import json
 import pytest
 from probe_runs import SAMPLES, assert_refused, assert_taken_back, facts_in, run_probe
 
+from grafu.joints.plan import Supports
 from grafu.pipeline.settings import settings_from_json
-from grafu.realization.plan import Supports
 from grafu.templates.gallery import builtin_gallery
 
 REFUSED = {

@@ -10,9 +10,9 @@ import pytest
 from grafu.cli.finalize import finalize
 from grafu.cli.main import main
 from grafu.export.blend.process import unpacked
+from grafu.joints.plan import JointChoice
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
-from grafu.realization.plan import JointChoice
 from spoiled_files import DAMAGED, SPOILS
 
 SAMPLE = Path(__file__).parents[2] / "samples" / "chest.glb"

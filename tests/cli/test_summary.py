@@ -8,8 +8,8 @@ from obj_inputs import CABINET, write_cabinet
 
 from grafu.cli.job import Failed, Job, JobOptions, Succeeded, run_job
 from grafu.cli.summary import print_results
+from grafu.joints.report import SkipReason
 from grafu.pipeline.report_schema import SkippedRecord
-from grafu.realization.report import SkipReason
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.evaluation.methods import Method, made_by
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.realization.plan import JointRequest, RealizationPlan
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.vocabulary import JointType, PartLabel
 from sketches import Sketched, board, door, drawer, handle, sketch
 

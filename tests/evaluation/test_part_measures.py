@@ -12,8 +12,8 @@ from grafu.evaluation.measures import PartMeasure, measure_parts
 from grafu.evaluation.moving_parts import counted_parts, raw_object
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.realization.make_plan import plan_from_annotation
-from grafu.realization.plan import RealizationPlan
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.plan import RealizationPlan
 from grafu.vocabulary import JointType, PartLabel
 from sketches import board, door, sketch
 

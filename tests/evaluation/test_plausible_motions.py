@@ -8,8 +8,8 @@ from measured_cabinets import DOOR, DRAWER, cabinet, carcass, sliding, turning
 from grafu.asset.part import Asset
 from grafu.evaluation.moving_parts import counted_parts, raw_object
 from grafu.evaluation.plausible import Plausibility, judge_motion
-from grafu.realization.make_plan import plan_from_annotation
-from grafu.realization.plan import RealizationPlan
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.plan import RealizationPlan
 from grafu.vocabulary import PartLabel
 from sketches import door, handle, sketch
 

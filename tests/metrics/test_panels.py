@@ -4,6 +4,7 @@ from math import radians
 
 import pytest
 
+from grafu.additions.interior.request import parse_interior
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.asset.edit import scaled, yawed
 from grafu.asset.part import Asset
@@ -15,7 +16,6 @@ from grafu.metrics.panels import empty_rooms
 from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
-from grafu.realization.interior.request import parse_interior
 from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from grafu.additions.addition import Addition, added_part
 from grafu.asset.part import Asset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3, vec3
@@ -13,7 +14,6 @@ from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import parse_graph
 from grafu.pipeline.built_graph import as_built
-from grafu.realization.addition import Addition, added_part
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door
 from grafu.vocabulary import PartLabel

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from grafu.additions.interior.request import parse_interior
 from grafu.asset.part import Asset
 from grafu.completion.features import FeatureConfig
 from grafu.completion.rule import complete_by_rule
@@ -19,7 +20,6 @@ from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig
 from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
-from grafu.realization.interior.request import parse_interior
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

@@ -10,10 +10,10 @@ from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.realize import Realized
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.idle import without_idle
 from grafu.pipeline.motion_source import MotionSource
-from grafu.realization.realize import Realized
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 

@@ -16,13 +16,7 @@ from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
-from grafu.pipeline.functionalize import Functionalized, functionalize
-from grafu.pipeline.motion_choices import REJECTED, motions_of
-from grafu.pipeline.motion_source import MotionSource
-from grafu.pipeline.report import report_of
-from grafu.pipeline.settings import Settings, settings_from_json
-from grafu.pipeline.triage import Level, joint_states
-from grafu.realization.motion_choice import (
+from grafu.joints.motion_choice import (
     DIRECTIONS,
     STANDS_STILL,
     MotionChoice,
@@ -32,7 +26,13 @@ from grafu.realization.motion_choice import (
     choice_in_words,
     motion_as_choice,
 )
-from grafu.realization.plan import JointChoice
+from grafu.joints.plan import JointChoice
+from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.motion_choices import REJECTED, motions_of
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings, settings_from_json
+from grafu.pipeline.triage import Level, joint_states
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

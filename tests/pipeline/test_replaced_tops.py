@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
+from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
-from grafu.realization.top.config import TopConfig
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case, Top
 from grafu.synth.fronts.layout import Door

@@ -8,13 +8,13 @@ from clocks import Clock
 from grafu.asset.part import Asset
 from grafu.export.formats import export
 from grafu.geometry.budget import Budget, present_budget
+from grafu.joints import build_all
+from grafu.joints.build_all import joint_share
+from grafu.joints.report import SkipReason
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
-from grafu.realization import build_all
-from grafu.realization.build_all import joint_share
-from grafu.realization.cache import content_key
-from grafu.realization.report import SkipReason
+from grafu.processes.cache import content_key
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

@@ -10,19 +10,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grafu.additions.interior.request import CompartmentChoice
+from grafu.additions.interior.turned import compartments_of
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
+from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
+from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.pipeline.addition_config import NO_ADDITIONS, HandleChoice
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import SCHEMA, Settings, settings_from_json
-from grafu.realization.interior.request import CompartmentChoice
-from grafu.realization.interior.turned import compartments_of
-from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
-from grafu.realization.plan import AUTOMATIC, JointChoice
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

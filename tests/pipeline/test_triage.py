@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from grafu.joints.plan import PIVOT, JointChoice
 from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
@@ -11,7 +12,6 @@ from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.triage import Level, joint_states, lost
-from grafu.realization.plan import PIVOT, JointChoice
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

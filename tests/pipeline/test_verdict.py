@@ -12,6 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.asset.part import Asset
+from grafu.joints.config import RealizationConfig
+from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
+from grafu.joints.report import SkipReason
 from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
@@ -20,9 +23,6 @@ from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import LEAST_CONFIDENCE, LEAST_OPENING, MOST_CARVED, verdict_of
-from grafu.realization.config import RealizationConfig
-from grafu.realization.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
-from grafu.realization.report import SkipReason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

@@ -9,19 +9,19 @@ from pathlib import Path
 
 import pytest
 
+from grafu.additions.interior.request import CompartmentChoice
+from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
 from grafu.export.blend.process import unpacked
 from grafu.export.glb import export_glb
+from grafu.joints.plan import JointChoice
 from grafu.pipeline.addition_config import HandleChoice
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.interactive import compartments_to_json, run
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
-from grafu.realization.cache import Cache
-from grafu.realization.interior.request import CompartmentChoice
-from grafu.realization.plan import JointChoice
-from grafu.realization.top.config import TopConfig
+from grafu.processes.cache import Cache
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 

@@ -8,11 +8,11 @@ from page_reader import PageReader
 
 from grafu.cli.job import Job, JobOptions, Succeeded
 from grafu.cli.summary import print_results
+from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import verdict_of
-from grafu.realization.report import SkipReason
 from grafu.viewer.run_table import RunEntry, functionalized_run
 
 PRAISE = ("Everything works", "Nothing was skipped", "all else that was asked for was built")

@@ -6,11 +6,11 @@ import pytest
 from page_reader import PageReader
 
 from grafu.cli.move_option import part_move
+from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline import move_options as options_of
 from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.move_options import move_options
-from grafu.realization.motion_choice import MotionChoice, Moves, Side
 
 
 def said_of(made, part):

@@ -4,8 +4,8 @@ import pytest
 from made_models import ATTACK
 from page_reader import PageReader
 
+from grafu.joints.report import SkipReason
 from grafu.pipeline.report_schema import SkippedRecord
-from grafu.realization.report import SkipReason
 from grafu.viewer.run_page import binned, run_page
 from grafu.viewer.run_table import Column, Figure, Run, RunEntry, RunRow, RunTable, functionalized_run
 

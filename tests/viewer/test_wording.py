@@ -4,11 +4,11 @@ from math import pi
 
 import pytest
 
+from grafu.joints.report import SkipReason
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
 from grafu.pipeline.words import counted, listed, opening
-from grafu.realization.report import SkipReason
 from grafu.viewer.wording import (
     added,
     axis_words,

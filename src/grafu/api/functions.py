@@ -18,11 +18,11 @@ from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
+from grafu.joints.motion_choice import MotionChoice
 from grafu.pipeline.addition_choice import choose_additions
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.motion_source import MotionSource, parse_motion
 from grafu.pipeline.settings import Settings
-from grafu.realization.motion_choice import MotionChoice
 from grafu.templates.available import open_handles
 
 PathLikeStr = str | PathLike[str]

@@ -12,10 +12,10 @@ from typing import Any, TypeVar, final
 from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
+from grafu.joints.motion_choice import MotionChoice, choice_in_words
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.settings import Settings
-from grafu.realization.cache import Cache
-from grafu.realization.motion_choice import MotionChoice, choice_in_words
+from grafu.processes.cache import Cache
 from grafu.templates.available import open_gallery
 from grafu.templates.user import load_handles
 

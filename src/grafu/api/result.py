@@ -16,6 +16,8 @@ from grafu.export.files import write_files
 from grafu.export.formats import exporter_for
 from grafu.export.output_names import why_not_apart
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.motion_choice import TURNING_SIDES
+from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.pipeline.addition_choice import GRIPS
 from grafu.pipeline.addition_config import HandleChoice
 from grafu.pipeline.front_choices import NO_HANDLE
@@ -23,8 +25,6 @@ from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings
-from grafu.realization.motion_choice import TURNING_SIDES
-from grafu.realization.plan import AUTOMATIC, JointChoice
 from grafu.templates.available import open_handles
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
 

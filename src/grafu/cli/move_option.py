@@ -53,7 +53,7 @@ def with_moves(
         OptionError: if there are several inputs, or the motions are another system's.
     """
     from grafu.errors import OptionError
-    from grafu.realization.motion_choice import choice_in_words
+    from grafu.joints.motion_choice import choice_in_words
 
     if not alone:
         raise OptionError("`--move` names parts of one model: give one input")

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.additions.handle.grasp import find_grasp
+from grafu.additions.interior.compartments import Compartment, find_compartments
+from grafu.additions.interior.furnish import furnish
+from grafu.additions.interior.request import InteriorKind, InteriorRequest
+from grafu.additions.top.complete import missing_top
 from grafu.pipeline.functionalize import Functionalized
-from grafu.realization.handle.grasp import find_grasp
-from grafu.realization.interior.compartments import Compartment, find_compartments
-from grafu.realization.interior.furnish import furnish
-from grafu.realization.interior.request import InteriorKind, InteriorRequest
-from grafu.realization.scene import Scene
-from grafu.realization.top.complete import missing_top
+from grafu.scene.scene import Scene
 
 _ONE_PANEL = (InteriorRequest(InteriorKind.COUNTED, shelves=1), InteriorRequest(InteriorKind.COUNTED, dividers=1))
 

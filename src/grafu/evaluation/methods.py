@@ -11,13 +11,13 @@ from typing import Final, final
 
 import numpy as np
 
+from grafu.additions.interior.request import NOTHING
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
-from grafu.realization.interior.request import NOTHING
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 

@@ -16,9 +16,9 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint, Join
 from grafu.asset.part import Asset, Part
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.metrics.motion import Motion
-from grafu.realization.make_plan import plan_from_annotation
-from grafu.realization.plan import JointRequest, RealizationPlan
 from grafu.vocabulary import JointType, PartLabel
 
 LARGEST = 0.08  # of the object's largest side: what is smaller is a knob or a caster, not a door

@@ -3,14 +3,14 @@
 from collections.abc import Collection
 from dataclasses import replace
 
+from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.grip.config import GripConfig, GripKind
+from grafu.additions.handle.config import HandleConfig
+from grafu.additions.interior.request import InteriorRequest, parse_interior
+from grafu.additions.top.config import TopConfig
 from grafu.errors import OptionError
 from grafu.pipeline.addition_config import AdditionConfig
-from grafu.realization.carcass.config import CarcassConfig
-from grafu.realization.drawer_box.config import DrawerBoxConfig
-from grafu.realization.grip.config import GripConfig, GripKind
-from grafu.realization.handle.config import HandleConfig
-from grafu.realization.interior.request import InteriorRequest, parse_interior
-from grafu.realization.top.config import TopConfig
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")
 GRIPS = ("grip", "groove", "edge", "hole")

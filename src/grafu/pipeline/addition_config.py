@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import final
 
-from grafu.realization.carcass.config import CarcassConfig
-from grafu.realization.drawer_box.config import DrawerBoxConfig
-from grafu.realization.grip.config import GripConfig
-from grafu.realization.handle.config import GraspConfig, HandleConfig
-from grafu.realization.interior.config import InteriorConfig
-from grafu.realization.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
-from grafu.realization.top.config import TopConfig
+from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.grip.config import GripConfig
+from grafu.additions.handle.config import GraspConfig, HandleConfig
+from grafu.additions.interior.config import InteriorConfig
+from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
+from grafu.additions.top.config import TopConfig
 
 
 @final

@@ -4,20 +4,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.additions.addition import Addition
+from grafu.additions.carcass.complete import CarcassCompletion, complete_carcass
+from grafu.additions.carcass.missing_panels import missing_panels
+from grafu.additions.drawer_box.complete import DrawerBoxes, complete_drawers, with_attached
+from grafu.additions.top.complete import TopVerdict, missing_tops
+from grafu.additions.top.config import DEFAULT_TOP
+from grafu.additions.top.replace import ReplacedTop, replace_top
+from grafu.additions.top.unwanted import why_no_top
 from grafu.asset.part import Asset
 from grafu.geometry.box import Box
 from grafu.graph.completion import GraphCompletion
+from grafu.joints.plan import RealizationPlan
+from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.addition_config import AdditionConfig
-from grafu.realization.addition import Addition
-from grafu.realization.carcass.complete import CarcassCompletion, complete_carcass
-from grafu.realization.carcass.missing_panels import missing_panels
-from grafu.realization.drawer_box.complete import DrawerBoxes, complete_drawers, with_attached
-from grafu.realization.plan import RealizationPlan
-from grafu.realization.report import Skipped, SkipReason
-from grafu.realization.top.complete import TopVerdict, missing_tops
-from grafu.realization.top.config import DEFAULT_TOP
-from grafu.realization.top.replace import ReplacedTop, replace_top
-from grafu.realization.top.unwanted import why_no_top
 from grafu.vocabulary import PartLabel
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from grafu.additions.addition import Addition
 from grafu.asset.part import Asset, Part
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of
@@ -16,7 +17,6 @@ from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import ParsingConfig, near_pairs
 from grafu.graph.touching import touching_pairs
-from grafu.realization.addition import Addition
 from grafu.vocabulary import PartLabel
 
 

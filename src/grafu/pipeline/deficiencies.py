@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
+from grafu.additions.carcass.missing_panels import MissingPanel
+from grafu.additions.drawer_box.verdict import BoxVerdict
+from grafu.additions.handle.grasp import Grasp
+from grafu.additions.top.complete import TopVerdict, missing_top
 from grafu.asset.part import Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.realization.carcass.missing_panels import MissingPanel
-from grafu.realization.drawer_box.verdict import BoxVerdict
-from grafu.realization.handle.grasp import Grasp
-from grafu.realization.top.complete import TopVerdict, missing_top
 from grafu.vocabulary import PartLabel
 
 

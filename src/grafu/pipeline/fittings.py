@@ -4,25 +4,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import final
 
+from grafu.additions.addition import Addition
+from grafu.additions.grip.carve import carve_grip
+from grafu.additions.grip.config import GripConfig
+from grafu.additions.grip.outcome import Carved
+from grafu.additions.handle.grasp import Grasp, find_grasps
+from grafu.additions.handle.place import Handles, add_handles, bodies_without
+from grafu.additions.handle.relief import Reliefs
+from grafu.additions.interior.furnish import Furnished, RefusedInterior
+from grafu.additions.interior.request import InteriorKind, PanelHint
+from grafu.additions.interior.turned import furnish_scene
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.intersection import forget_large_shapes
 from grafu.graph.completion import GraphCompletion
+from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.front_choices import fit_fronts, without_replaced
-from grafu.realization.addition import Addition
-from grafu.realization.grip.carve import carve_grip
-from grafu.realization.grip.config import GripConfig
-from grafu.realization.grip.outcome import Carved
-from grafu.realization.handle.grasp import Grasp, find_grasps
-from grafu.realization.handle.place import Handles, add_handles, bodies_without
-from grafu.realization.handle.relief import Reliefs
-from grafu.realization.interior.furnish import Furnished, RefusedInterior
-from grafu.realization.interior.request import InteriorKind, PanelHint
-from grafu.realization.interior.turned import furnish_scene
-from grafu.realization.report import Skipped, SkipReason
-from grafu.realization.scene import Scene
+from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 

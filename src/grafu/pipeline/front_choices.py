@@ -4,17 +4,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.additions.addition import Addition
+from grafu.additions.grip.carve import carve_grip
+from grafu.additions.grip.config import GripConfig, GripKind
+from grafu.additions.grip.outcome import Carved
+from grafu.additions.handle.config import HandleConfig
+from grafu.additions.handle.grasp import Grasp
+from grafu.additions.handle.place import add_handles
 from grafu.geometry.arrays import Vec3
+from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
-from grafu.realization.addition import Addition
-from grafu.realization.grip.carve import carve_grip
-from grafu.realization.grip.config import GripConfig, GripKind
-from grafu.realization.grip.outcome import Carved
-from grafu.realization.handle.config import HandleConfig
-from grafu.realization.handle.grasp import Grasp
-from grafu.realization.handle.place import add_handles
-from grafu.realization.report import Skipped, SkipReason
-from grafu.realization.scene import Scene
+from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 

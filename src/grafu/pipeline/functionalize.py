@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar, final
 
+from grafu.additions.addition import Addition
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.motions import ForeignMotions
@@ -17,6 +18,13 @@ from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.joints.config import RealizationConfig
+from grafu.joints.joint_choice import with_choices
+from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
+from grafu.joints.motion_choice import MotionChoice
+from grafu.joints.plan import JointChoice, RealizationPlan
+from grafu.joints.realize import realize
+from grafu.joints.report import RealizationReport
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.annotation import complete_by_annotation
 from grafu.pipeline.body_additions import Body, complete_body
@@ -27,15 +35,7 @@ from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.stages import Stages, bare_body, bare_fittings, by_contacts, without_joints, without_network
-from grafu.realization.addition import Addition
-from grafu.realization.cache import NO_CACHE, Cache
-from grafu.realization.config import RealizationConfig
-from grafu.realization.joint_choice import with_choices
-from grafu.realization.make_plan import plan_from_annotation, plan_from_completion
-from grafu.realization.motion_choice import MotionChoice
-from grafu.realization.plan import JointChoice, RealizationPlan
-from grafu.realization.realize import realize
-from grafu.realization.report import RealizationReport
+from grafu.processes.cache import NO_CACHE, Cache
 from grafu.templates.template import Gallery, HandleTemplate
 from grafu.vocabulary import PartLabel
 

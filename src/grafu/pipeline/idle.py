@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
+from grafu.joints.realize import Realized
 from grafu.pipeline.body_additions import Body
-from grafu.realization.realize import Realized
 
 
 def without_idle(body: Body, realized: Realized) -> tuple[Body, Realized]:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from grafu.additions.interior.turned import compartments_of
 from grafu.asset.load import load_asset
 from grafu.asset.own_files import read_own
 from grafu.asset.part import Asset
@@ -21,8 +22,7 @@ from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import settings_from_bytes
-from grafu.realization.cache import NO_CACHE, Cache
-from grafu.realization.interior.turned import compartments_of
+from grafu.processes.cache import NO_CACHE, Cache
 from grafu.templates.gallery import builtin_gallery
 from grafu.visible import visible
 

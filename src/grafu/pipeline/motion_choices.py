@@ -17,10 +17,10 @@ from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
-from grafu.realization.make_plan import attached_to
-from grafu.realization.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
-from grafu.realization.plan import JointChoice, JointRequest, RealizationPlan, Refusal
-from grafu.realization.report import SkipReason
+from grafu.joints.make_plan import attached_to
+from grafu.joints.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
+from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan, Refusal
+from grafu.joints.report import SkipReason
 from grafu.vocabulary import PartLabel
 
 USER = "user"

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from grafu.asset.part import Asset, Part
 from grafu.errors import OptionError
+from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion, motion_as_choice
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.motion_choices import motions_of
-from grafu.realization.motion_choice import MotionChoice, Moves, Side, axis_of_motion, motion_as_choice
 from grafu.vocabulary import JointType, PartLabel
 
 _SIDES = (Side.LEFT, Side.RIGHT, Side.TOP, Side.BOTTOM)

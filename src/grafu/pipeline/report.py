@@ -6,6 +6,7 @@ from dataclasses import asdict, replace
 from grafu.articulation.articulated_object import Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.joints.report import Installed
 from grafu.pipeline.certainty import guesses_of
 from grafu.pipeline.deficiencies import Findings, find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
@@ -22,7 +23,6 @@ from grafu.pipeline.report_schema import (
     SkippedRecord,
 )
 from grafu.pipeline.verdict import verdict_of
-from grafu.realization.report import Installed
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
 

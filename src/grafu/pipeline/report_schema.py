@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
 from grafu.graph.completion import Question
+from grafu.joints.report import SkipReason
 from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.motion_source import MotionSource
-from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
 
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]

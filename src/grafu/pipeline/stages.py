@@ -12,23 +12,23 @@ from time import perf_counter
 from types import MappingProxyType
 from typing import TypeVar, final
 
+from grafu.additions.carcass.complete import CarcassCompletion
+from grafu.additions.drawer_box.complete import DrawerBoxes
+from grafu.additions.handle.grasp import held_by_label
+from grafu.additions.top.complete import TopVerdict
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.geometry.budget import Budget, within
 from grafu.graph.completion import GraphCompletion, RefusedMotion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig
+from grafu.joints.plan import RealizationPlan
+from grafu.joints.realize import Realized, realize
+from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.body_additions import Body
 from grafu.pipeline.fittings import Fittings
 from grafu.processes.limits import give_back_unused
-from grafu.realization.carcass.complete import CarcassCompletion
-from grafu.realization.drawer_box.complete import DrawerBoxes
-from grafu.realization.handle.grasp import held_by_label
-from grafu.realization.plan import RealizationPlan
-from grafu.realization.realize import Realized, realize
-from grafu.realization.report import Skipped, SkipReason
-from grafu.realization.scene import Scene
-from grafu.realization.top.complete import TopVerdict
+from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery
 
 T = TypeVar("T")

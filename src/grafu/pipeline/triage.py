@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
+from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import FaultRecord, Report
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
-from grafu.realization.report import SkipReason
 
 
 class Level(StrEnum):

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from math import prod
 from typing import Final
 
+from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import FaultRecord, GuessRecord, JointRecord, Report, SkippedRecord, VerdictRecord
 from grafu.pipeline.words import counted, listed, opening, percent
-from grafu.realization.report import SkipReason
 from grafu.vocabulary import JointType, PartLabel
 
 LEAST_CONFIDENCE: Final = 0.8

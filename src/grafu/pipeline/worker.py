@@ -17,7 +17,7 @@ from threading import Thread
 
 from grafu.errors import FunctionalizationError
 from grafu.pipeline.interactive import run
-from grafu.realization.cache import Cache
+from grafu.processes.cache import Cache
 from grafu.visible import visible
 
 CACHED_VALUES = 400

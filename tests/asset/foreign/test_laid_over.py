@@ -19,7 +19,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import rotation_matrix
-from grafu.realization.make_plan import plan_from_annotation
+from grafu.joints.make_plan import plan_from_annotation
 from grafu.vocabulary import JointType, PartLabel
 from predictions import cabinet, predicted, require_same_joints, reversed_joints, unlabelled, way
 from sketches import board, door, drawer, handle, sketch

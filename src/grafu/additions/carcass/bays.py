@@ -1,0 +1,229 @@
+"""Bays: the spaces behind doors and drawers, with the walls that enclose them, found by rays on real meshes.
+
+All is measured in a view: x to the right as seen from the side to which the fronts open, y into the furniture, z up. No
+label is asked: a wall is what a ray to the side meets.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.additions.carcass.config import CarcassConfig
+from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.components import clustered
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.joints.plan import JointRequest
+from grafu.joints.rail.search import slides_in_its_plane
+from grafu.scene.border import part_axes
+from grafu.scene.scene import Scene
+from grafu.vocabulary import JointType
+
+_LEVEL = 0.3  # the most of a unit direction that points up where a front stands upright
+_SQUARE = float(np.cos(np.radians(8.0)))  # how near to an axis of the object a front's way is taken to be along it
+_SAME_WAY = 0.97  # cosine between the directions of two fronts of one view
+_INNER = np.linspace(0.15, 0.85, 7)  # shares of a front's sides: its edges lap onto the case
+_DEEP = 24  # places along the depth at which walls are felt for
+_FINE = 17  # places between two of those at which the walls' edges are
+_FRONT = 0.02  # metres: the thickness of fronts, where a drawer is drawn with its box
+_ALIKE = 0.04  # share of the object's largest side by which the walls of one space may differ
+_MANY, _COARSE = 4000, 0.008  # faces from which a part is coarsened, to cells of this share of the largest side
+_APART = 0.08  # share of it that parts drawers above each other at most: a rail between them
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class View:
+    """One side to which fronts open: its axes as columns, its moving bodies, the still body's box in it.
+
+    `others` are the moving bodies that open to other sides: a back door closes a body, too.
+    """
+
+    rotation: Mat3
+    moving_bodies: tuple[str, ...]
+    body: Box
+    rays: RayCaster
+    others: RayCaster
+
+    def local(self, points: Points) -> Points:
+        """Returns points of the object frame in the view."""
+        return np.asarray(points @ self.rotation)
+
+    def cast(self, origins: Points, direction: Vec3) -> Scalars:
+        """Returns the distances to the still body of rays in the view, metres."""
+        return self.rays.along(origins @ self.rotation.T, self.rotation @ direction)
+
+    def cast_through(self, origins: Points, direction: Vec3) -> Scalars:
+        """Returns the distances of rays in the view to the still body and to what opens to other sides."""
+        along = self.rotation @ direction
+        return np.minimum(self.cast(origins, direction), self.others.along(origins @ self.rotation.T, along))
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class Bay(ArrayValue):
+    """A space behind fronts: its low and high corner in the view, from the walls' front edges to their rear ones.
+
+    `outline` is what the fronts themselves cover: x and z from and to. `walled` is the share of the depth at which
+    walls stand on both sides; `has_door` whether one of the fronts is a door, `inset` whether they lie between them,
+    `lowest` how high the lowest of them is.
+    """
+
+    moving_bodies: tuple[str, ...]
+    low: Vec3
+    high: Vec3
+    outline: np.ndarray
+    walled: float
+    has_door: bool
+    inset: bool
+    lowest: float
+
+    def joined(self, other: "Bay") -> "Bay":
+        """Returns both as one."""
+        a, b = self.outline, other.outline
+        outline = np.array([min(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), max(a[3], b[3])])
+        return Bay(
+            (*self.moving_bodies, *other.moving_bodies),
+            np.minimum(self.low, other.low),
+            np.maximum(self.high, other.high),
+            outline,
+            min(self.walled, other.walled),
+            self.has_door or other.has_door,
+            self.inset and other.inset,
+            self.lowest if a[2] < b[2] else other.lowest,
+        )
+
+
+def find_views(scene: Scene, requests: Iterable[JointRequest]) -> tuple[View, ...]:
+    """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
+    ways = {r.moving: way for r in requests if (way := _outward(scene, r)) is not None}
+    groups: list[tuple[Vec3, list[str]]] = []
+    for moving, way in ways.items():
+        group = next((g for g in groups if float(g[0] @ way) > _SAME_WAY), None)
+        if group is None:
+            groups.append((way, [moving]))
+        else:
+            group[1].append(moving)
+    still = merge_meshes([_coarse(p.mesh, scene.unit) for p in scene.static_parts])
+    if not groups or not len(still.faces):
+        return ()
+    rays = RayCaster(still)
+    return tuple(_view(scene, still, rays, way, tuple(moving_bodies)) for way, moving_bodies in groups)
+
+
+def _coarse(mesh: TriangleMesh, unit: float) -> TriangleMesh:
+    """Returns a mesh of many faces with fewer: things on shelves and carvings cost more rays than they are worth."""
+    return clustered(mesh, _COARSE * unit) if len(mesh.faces) > _MANY else mesh
+
+
+def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
+    """Returns the level unit direction to which a front looks; None where it is a lid, or slides up."""
+    mesh = scene.parts[request.moving].mesh
+    direction = np.asarray(request.axis.direction)
+    if request.type is JointType.PRISMATIC and not slides_in_its_plane(mesh, direction):
+        way = direction
+    else:
+        axes = part_axes(mesh)
+        thin = axes[:, int(np.argmin(np.ptp(mesh.vertices @ axes, axis=0)))]
+        if request.type is JointType.REVOLUTE:
+            towards = np.cross(direction, mesh.box.center - request.axis.point)
+        else:
+            towards = mesh.box.center - np.mean([p.box.center for p in scene.parts.values()], axis=0)
+        way = thin * (1.0 if float(thin @ towards) >= 0 else -1.0)
+    if abs(float(way[2])) > _LEVEL:
+        return None
+    level = vec3(float(way[0]), float(way[1]), 0.0)
+    level = level / np.linalg.norm(level)
+    nearest = int(np.argmax(np.abs(level)))  # carved leaves lie a little crooked in their boxes
+    square = np.sign(level[nearest]) * np.eye(3)[nearest]
+    return square if float(square @ level) > _SQUARE else level
+
+
+def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, moving_bodies: tuple[str, ...]) -> View:
+    y = -way
+    rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
+    own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
+    others = merge_meshes([_coarse(scene.parts[i].mesh, scene.unit) for i in sorted(scene.moving_ids - own)])
+    return View(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
+
+
+def find_bays(view: View, scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[Bay, ...]:
+    """Returns the bays behind the fronts of a view, those that open into one another as one."""
+    doors = {r.moving for r in requests if r.type is JointType.REVOLUTE}
+    bays = [
+        bay for moving in view.moving_bodies if (bay := _bay(view, scene, moving, moving in doors, config)) is not None
+    ]
+    merged = True
+    while merged:
+        merged = False
+        for i, one in enumerate(bays):
+            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], scene.unit)), None)
+            if k is not None:
+                bays[i], merged = one.joined(bays.pop(k)), True
+                break
+    return tuple(bays)
+
+
+def _one_space(a: Bay, b: Bay, unit: float) -> bool:
+    """Whether two bays have the same walls and lie above, below or within one another."""
+    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < _ALIKE * unit
+    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < _APART * unit)
+
+
+def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
+    """Returns the space behind one front; None where no walls stand on both sides of it."""
+    front = view.local(scene.parts[moving].mesh.vertices)
+    low, high = front.min(axis=0), front.max(axis=0)
+    depth = float(view.body.high[1] - low[1])
+    if depth < config.least_depth * scene.unit:
+        return None
+    x, z = float(low[0] + high[0]) / 2, low[2] + _INNER * (high[2] - low[2])
+    depths = float(low[1]) + np.linspace(0.0, 1.0, _DEEP) * depth
+    both = _between(view, x, depths, z)
+    if not both.any():
+        return None
+    first, last = int(np.argmax(both)), _DEEP - 1 - int(np.argmax(both[::-1]))
+    start = _refined(view, x, z, (float(depths[max(first - 1, 0)]), float(depths[first])))
+    end = _refined(view, x, z, (float(depths[min(last + 1, _DEEP - 1)]), float(depths[last])))
+    if end - start < config.least_depth * scene.unit:
+        return None
+    sides = [_walls(view, x, depths[both], z, sign) for sign in (-1.0, 1.0)]
+    x0, x1 = (
+        x + sign * float(np.median(found[np.isfinite(found)])) for sign, found in zip((-1.0, 1.0), sides, strict=True)
+    )
+    walled = float(both[first : last + 1].mean()) * (end - start) / depth
+    outline = np.array([low[0], high[0], low[2], high[2]])
+    inset = start < float(low[1]) + 0.5 * min(float(high[1] - low[1]), _FRONT)
+    return Bay(
+        (moving,),
+        vec3(x0, start, outline[2]),
+        vec3(x1, end, outline[3]),
+        outline,
+        walled,
+        is_door,
+        inset,
+        float(high[2] - low[2]),
+    )
+
+
+def _walls(view: View, x: float, depths: Scalars, z: np.ndarray, sign: float) -> np.ndarray:
+    """Returns the distance to a wall on one side, (depths, heights); infinity where there is none."""
+    y, heights = (a.ravel() for a in np.meshgrid(depths, z, indexing="ij"))
+    origins = np.column_stack([np.full(y.size, x), y, heights])
+    return view.cast(origins, vec3(sign, 0.0, 0.0)).reshape(len(depths), len(z))
+
+
+def _between(view: View, x: float, depths: Scalars, z: np.ndarray) -> np.ndarray:
+    """Returns for each depth whether walls stand on both sides over at least half of the heights."""
+    met = [np.isfinite(_walls(view, x, depths, z, sign)) for sign in (-1.0, 1.0)]
+    return np.asarray((met[0] & met[1]).mean(axis=1) >= 0.5)
+
+
+def _refined(view: View, x: float, z: np.ndarray, span: tuple[float, float]) -> float:
+    """Returns where walls end between a depth without and one with them (or the latter, if both have them)."""
+    depths = np.linspace(*span, _FINE)
+    both = _between(view, x, depths, z)
+    return float(depths[int(np.argmax(both))]) if both.any() else span[1]

@@ -1,0 +1,114 @@
+"""What a carcass lacks: a back or a bottom that should close the space behind doors and drawers. It adds nothing.
+
+Tables, racks and open shelves have no carcass here: only what stands behind a door, or behind drawers that fill a good
+part of the height under them, between walls on both sides, is looked at. Whether the open back was meant so (a cabinet
+around pipes, say) cannot be told; it is reported all the same.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.additions.carcass.bays import Bay, View, find_bays, find_views
+from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
+from grafu.asset.part import Part
+from grafu.geometry.arrays import vec3
+from grafu.joints.plan import RealizationPlan
+from grafu.vocabulary import PartLabel
+
+DEFAULT = CarcassConfig()
+
+_GRID = np.linspace(0.12, 0.88, 13)  # shares of a bay's sides at which rays are cast: walls and edges lie outside
+_BELOW = (
+    0.2,
+    0.15,
+)  # share of the lowest front's height, and of the object's largest side, from which a bottom is looked for
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class MissingPanel:
+    """A board that a carcass lacks, behind or below which doors and drawers: `covered` is the share that is there.
+
+    `view` and `bay` say where, for `complete_carcass`.
+    """
+
+    what: PartLabel
+    moving_bodies: tuple[str, ...]
+    covered: float
+    why: str
+    view: View
+    bay: Bay
+
+
+def missing_panels(
+    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT
+) -> tuple[MissingPanel, ...]:
+    """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
+    around = surroundings_of(parts, plan)
+    return panels_missing(around, config)
+
+
+def panels_missing(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[MissingPanel, ...]:
+    """Returns what the bodies lack, all moving bodies closed."""
+    found: list[MissingPanel] = []
+    for view in find_views(around.scene, around.requests):
+        bays = [
+            bay
+            for bay in find_bays(view, around.scene, around.requests, config)
+            if bay.walled >= config.walled and _is_carcass(bay, around.scene.unit, view, config)
+        ]
+        for bay in bays:
+            covered = _back_covered(view, bay)
+            if covered < config.covered:
+                found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
+            if not any(_under(other, bay) for other in bays):
+                covered = _bottom_covered(view, bay, around.scene.unit)
+                if covered < config.covered:
+                    found.append(_missing_panel(PartLabel.BOTTOM_PANEL, bay, covered, view))
+    return tuple(found)
+
+
+def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: View) -> MissingPanel:
+    side = "back" if what is PartLabel.BACK_PANEL else "bottom"
+    named = ", ".join(bay.moving_bodies[:3]) + (" and others" if len(bay.moving_bodies) > 3 else "")
+    return MissingPanel(
+        what, bay.moving_bodies, covered, f"the {side} behind {named} is covered to {covered:.0%}", view, bay
+    )
+
+
+def _is_carcass(bay: Bay, unit: float, view: View, config: CarcassConfig) -> bool:
+    """Whether a bay is that of a body: it has a door, or drawers fill enough of the height down to the floor."""
+    if bay.has_door:
+        return True
+    floor = float(view.body.low[2])
+    filled = float(bay.outline[3] - bay.outline[2])
+    return filled >= config.filled * max(float(bay.outline[3]) - floor, 0.1 * unit)
+
+
+def _back_covered(view: View, bay: Bay) -> float:
+    """Returns the share of a bay's back at which something stands, seen through the fronts."""
+    (x0, y0, z0), (x1, _, z1) = bay.low.tolist(), bay.high.tolist()
+    x, z = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), z0 + _GRID * (z1 - z0), indexing="ij"))
+    y = y0 + 0.3 * (float(bay.high[1]) - y0)  # past whatever frames the opening
+    hits = view.cast_through(np.column_stack([x, np.full(x.size, y), z]), vec3(0.0, 1.0, 0.0))
+    return float(np.isfinite(hits).mean())
+
+
+def _bottom_covered(view: View, bay: Bay, unit: float) -> float:
+    """Returns the share of a bay's bottom at which something stands below it."""
+    (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
+    x, y = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), y0 + _GRID * (y1 - y0), indexing="ij"))
+    start = z0 + min(_BELOW[0] * bay.lowest, _BELOW[1] * unit)
+    hits = view.cast(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
+    return float(np.isfinite(hits).mean())
+
+
+def _under(other: Bay, bay: Bay) -> bool:
+    """Whether another bay lies below a bay: that one has the bottom."""
+    below = other is not bay and float(other.outline[2]) < float(bay.outline[2]) - 1e-6
+    shared = min(other.high[0], bay.high[0]) - max(other.low[0], bay.low[0])
+    return bool(below and shared > 0.5 * (bay.high[0] - bay.low[0]))

@@ -1,0 +1,236 @@
+"""Drawers that are only a front, or lack boards of their box, get what is missing. It builds no rails.
+
+Every drawer that a plan moves is looked at, closed, in its place among all others. Boards are parts of their own that
+ride on the drawer. They are labelled misc, as the loose boards of drawers are in other models: none of them is a panel
+of the case, and none moves on its own.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.additions.addition import Addition, added_part, free_ids
+from grafu.additions.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
+from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.drawer_box.loose import loose_boards
+from grafu.additions.drawer_box.room import Room, find_room
+from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
+from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
+from grafu.additions.likeness import surface_like
+from grafu.asset.part import Part
+from grafu.geometry.arrays import Points
+from grafu.geometry.box import Box
+from grafu.geometry.cells import pieces_in, spans_of
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.geometry.transform import translation
+from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
+from grafu.joints.rail.body_region import DrawerFrame, drawer_frame, is_shallow
+from grafu.joints.rail.search import carried_mesh, slides_in_its_plane
+from grafu.scene.scene import Scene
+from grafu.vocabulary import JointType, PartLabel
+
+DEFAULT = DrawerBoxConfig()
+_WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
+_OVER = 1e-3  # metres by which such boards may stick out of the drawer's outline
+
+
+@final
+@dataclass(frozen=True)
+class DrawerBoxes:
+    """The outcome for all drawers of a plan: what each has, the boards added, and those that could not be, with why.
+
+    `loose` names parts of the input that turned out to be boards of a drawer's box: drawer, then part. They must move
+    with it (`with_attached`).
+    """
+
+    verdicts: tuple[BoxVerdict, ...] = ()
+    additions: tuple[Addition, ...] = ()
+    refused: tuple[Refusal, ...] = ()
+    loose: tuple[tuple[str, str], ...] = ()
+
+
+def complete_drawers(
+    parts: Sequence[Part], plan: RealizationPlan, config: DrawerBoxConfig = DEFAULT, *, build: bool = True
+) -> DrawerBoxes:
+    """Returns the boards that the drawers of a plan lack, each drawer keeping out of those of the others.
+
+    `build=False` only looks: what is missing is said, nothing is added.
+    """
+    requests = [r for r in plan.joints if r.type is JointType.PRISMATIC]
+    if not requests:
+        return DrawerBoxes()
+    around = surroundings_of(parts, plan)
+    verdicts: list[BoxVerdict] = []
+    additions: list[Addition] = []
+    refused: list[Refusal] = []
+    loose: list[tuple[str, str]] = []
+    known = {part.id for part in parts}
+    for request in requests:
+        if request.moving not in around.scene.parts:
+            continue
+        verdict = missing_box(request, around, config)
+        if verdict.kind == "front only":
+            found = find_loose(request, around, config)
+            loose += [(request.moving, part_id) for part_id in found]
+            around = around.with_members(request.moving, found)
+            verdict = missing_box(request, around, config) if found else verdict
+        verdicts.append(verdict)
+        if not build or not verdict.missing:
+            continue
+        made = drawer_box(verdict, request, around, config, known)
+        if isinstance(made, Refusal):
+            if drawn_with_the_case(verdict, request, around, config):
+                verdicts[-1] = replace(verdict, kind="whole", missing=(), why=_WITH_THE_CASE)
+            else:
+                refused.append(made)
+            continue
+        additions += made
+        known |= {addition.part.id for addition in made}
+        around = around.with_parts(tuple(_closed(a.part, request) for a in made))
+    return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
+
+
+def with_attached(plan: RealizationPlan, made: DrawerBoxes) -> RealizationPlan:
+    """Returns the plan in which the boards that were added, and loose ones of the input, move with their drawers."""
+    riding: dict[str, list[str]] = {}
+    for drawer, part_id in (*made.loose, *((a.part.rides_on or "", a.part.id) for a in made.additions)):
+        riding.setdefault(drawer, []).append(part_id)
+    joints = tuple(replace(r, attached=(*r.attached, *riding.get(r.moving, ()))) for r in plan.joints)
+    return replace(plan, joints=joints)
+
+
+def find_loose(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> tuple[str, ...]:
+    """Returns the still parts that are boards of the box behind a mere front."""
+    frame, mesh = _framed(request, around.scene)
+    return loose_boards(request, mesh, frame, around, config) if frame is not None and mesh is not None else ()
+
+
+def missing_box(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> BoxVerdict:
+    """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
+    frame, mesh = _framed(request, around.scene)
+    if frame is None or mesh is None:
+        return BoxVerdict(request.moving, "no drawer", why="it does not slide out of a case")
+    verdict = box_verdict(request.moving, mesh, frame, config)
+    if verdict.kind != "front only" and is_shallow(frame):
+        behind = _space_behind(frame, around, request)
+        if behind > config.deeper * frame.depth:
+            return as_front_only(verdict, frame, behind)
+    return verdict
+
+
+def drawn_with_the_case(
+    verdict: BoxVerdict, request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT
+) -> bool:
+    """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
+
+    Nobody can tell those from the case; boards beside them would stand there twice.
+    """
+    frame, mesh = _framed(request, around.scene)
+    if verdict.kind != "incomplete" or frame is None or mesh is None:
+        return False
+    still, _ = around.triangles(request, frame)
+    half = np.array([frame.width / 2, np.inf, frame.height / 2]) + _OVER
+    inside = (np.abs(still) <= half).all(axis=(1, 2)) & (still[..., 1] <= frame.depth + _OVER).all(axis=1)
+    inside &= (still[..., 1] >= 0.0).all(axis=1)
+    corners = still[inside].reshape(-1, 3)
+    boards = TriangleMesh(corners, np.arange(len(corners)).reshape(-1, 3))
+    return not box_verdict(request.moving, merge_meshes([mesh, boards]), frame, config).missing
+
+
+def drawer_box(
+    verdict: BoxVerdict,
+    request: JointRequest,
+    around: Surroundings,
+    config: DrawerBoxConfig = DEFAULT,
+    taken: Iterable[str] = (),
+) -> tuple[Addition, ...] | Refusal:
+    """Returns the boards that a drawer lacks, at rest as the drawer is drawn, or why there can be none.
+
+    `taken` are the ids that parts have.
+    """
+    frame, mesh = _framed(request, around.scene)
+    if frame is None or mesh is None or not verdict.missing:
+        return Refusal(request.moving, "nothing is missing behind it")
+    still, others = around.triangles(request, frame)
+    caster = RayCaster(mesh)
+    room: Room | str | None = None
+    if verdict.kind == "front only" or not has_walls(verdict):
+        front = replace(frame, depth=verdict.inner_front)
+        room = find_room(caster, front, still, others, config, around.limit_behind(request, front))
+    if isinstance(room, str):
+        return Refusal(request.moving, room)
+    if verdict.kind == "front only" and room is not None:
+        boards: Mapping[BoardName, Box] | str = boards_in_room(room.box, caster, frame, config)
+    else:
+        boards = boards_to_complete(verdict, mesh, caster, frame, config, room.box if room else None)
+        if not isinstance(boards, str):
+            boards = _free(boards, np.concatenate([still, others]))
+    if isinstance(boards, str):
+        return Refusal(request.moving, boards)
+    return _additions(boards, verdict, request, frame, around, set(taken))
+
+
+def _framed(request: JointRequest, scene: Scene) -> tuple[DrawerFrame | None, TriangleMesh | None]:
+    """Returns a drawer's frame, and the drawer with what rides behind its front in it; None where it is no drawer."""
+    direction = np.asarray(request.axis.direction)
+    if slides_in_its_plane(scene.parts[request.moving].mesh, direction):
+        return None, None
+    mesh = carried_mesh(request, scene)
+    frame = drawer_frame(mesh, direction)
+    if frame is None or min(frame.width, frame.height) <= 0:
+        return None, None
+    return frame, TriangleMesh(_local(mesh.vertices, frame), mesh.faces)
+
+
+def _local(points: Points, frame: DrawerFrame) -> Points:
+    return np.asarray((points - frame.origin) @ frame.rotation)
+
+
+def _space_behind(frame: DrawerFrame, around: Surroundings, request: JointRequest) -> float:
+    """Returns how deep the space behind a part's middle is, metres, 0 where nothing ends it."""
+    still, others = around.triangles(request, frame)
+    near = np.concatenate([still, others])
+    reach = 0.2 * min(frame.width, frame.height)
+    low, high = spans_of(near)
+    met = (np.abs(low[:, [0, 2]] + high[:, [0, 2]]) / 2 - (high - low)[:, [0, 2]] / 2 < reach).all(axis=1)
+    met &= high[:, 1] > frame.depth
+    return max(float(low[met, 1].min()) - frame.depth, 0.0) if met.any() else 0.0
+
+
+def _free(boards: Mapping[BoardName, Box], obstacles: np.ndarray) -> Mapping[BoardName, Box] | str:
+    """Returns the boards, or which of them something stands in the way of."""
+    for name, board in boards.items():
+        inside = board.grown(-min(5e-4, 0.1 * float(board.size.min())))
+        if len(pieces_in(obstacles, inside, (4, 4, 4)).low):
+            return f"something stands where its {name.replace('_', ' ')} would be"
+    return boards
+
+
+def _additions(
+    boards: Mapping[BoardName, Box],
+    verdict: BoxVerdict,
+    request: JointRequest,
+    frame: DrawerFrame,
+    around: Surroundings,
+    taken: set[str],
+) -> tuple[Addition, ...]:
+    ajar = translation(request.drawn_at * np.asarray(request.axis.direction))
+    T = ajar @ frame.T_object_drawer
+    like = around.body if verdict.kind == "front only" else (around.scene.parts[request.moving],)
+    why = "it was only a front" if verdict.kind == "front only" else f"its box lacked {verdict.why}"
+    made = []
+    for name, board in boards.items():
+        (part_id,) = free_ids(f"{request.moving}_{name}", 1, taken)
+        taken.add(part_id)
+        surface = surface_like(TriangleMesh.box_mesh(board).transformed(T), like)
+        part = added_part(part_id, PartLabel.MISC, (surface,), request.moving)
+        made.append(Addition(part, f"{request.moving}: {why}", "drawer box"))
+    return tuple(made)
+
+
+def _closed(part: Part, request: JointRequest) -> Part:
+    T = translation(-request.drawn_at * np.asarray(request.axis.direction))
+    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))

@@ -1,0 +1,103 @@
+"""What surrounds a drawer: static parts and other moving bodies, closed, as triangles in its frame."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.geometry.box import Box
+from grafu.geometry.transform import translation
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.rail.body_region import DrawerFrame
+from grafu.scene.scene import MovingBody, Scene
+from grafu.vocabulary import JointType
+
+_OPPOSITE = -0.9  # cosine between the ways of two drawers from which on they face away from each other
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """The parts as they stand with every moving body closed, and who moves how; `scene` holds no hardware."""
+
+    scene: Scene
+    requests: tuple[JointRequest, ...]
+
+    @property
+    def body(self) -> tuple[Part, ...]:
+        """The still parts: what new boards look like."""
+        return self.scene.static_parts
+
+    def triangles(self, request: JointRequest, frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the triangles (n, 3, 3) of the still parts, and of the other moving bodies, in a drawer's frame."""
+        own = set(self.scene.moving_bodies[request.moving].members)
+        moving = [self.scene.parts[i] for i in sorted(self.scene.moving_ids) if i not in own]
+        return _local_triangles(self.scene.static_parts, frame), _local_triangles(moving, frame, frame.height / 2)
+
+    def limit_behind(self, request: JointRequest, frame: DrawerFrame) -> float:
+        """Returns the y up to which a box may reach for the sake of a front that faces the other way behind it."""
+        nearest = float("inf")
+        for other in self.requests:
+            way = float(np.asarray(other.axis.direction) @ np.asarray(request.axis.direction))
+            if other.moving == request.moving or other.type is not JointType.PRISMATIC or way > _OPPOSITE:
+                continue
+            local = (self.scene.parts[other.moving].mesh.vertices - frame.origin) @ frame.rotation
+            low, high = local.min(axis=0), local.max(axis=0)
+            beside = abs(low[0] + high[0]) < frame.width + high[0] - low[0]
+            level = abs(low[2] + high[2]) < frame.height + high[2] - low[2]
+            if beside and level and high[1] > frame.depth:
+                nearest = min(nearest, (frame.depth + max(float(low[1]), frame.depth)) / 2)
+        return nearest
+
+    def with_members(self, moving_id: str, members: Iterable[str]) -> "Surroundings":
+        """Returns the surroundings in which some still parts ride on a moving body."""
+        moving = self.scene.moving_bodies[moving_id]
+        moving_bodies = {**self.scene.moving_bodies, moving_id: MovingBody(moving_id, (*moving.members, *members))}
+        return replace(self, scene=Scene(self.scene.parts, moving_bodies, self.scene.unit))
+
+    def with_parts(self, parts: tuple[Part, ...]) -> "Surroundings":
+        """Returns the surroundings with parts that ride on a moving body added."""
+        moving_bodies = dict(self.scene.moving_bodies)
+        for part in parts:
+            if part.rides_on in moving_bodies:
+                moving = moving_bodies[part.rides_on]
+                moving_bodies[moving.id] = MovingBody(moving.id, (*moving.members, part.id))
+        scene = Scene({**self.scene.parts, **{p.id: p for p in parts}}, moving_bodies, self.scene.unit)
+        return replace(self, scene=scene)
+
+
+def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surroundings:
+    """Returns the parts with every moving body of a plan closed; parts without faces are left out."""
+    known = {part.id: part for part in parts if len(part.mesh.faces)}
+    requests = tuple(r for r in plan.joints if r.moving in known)
+    moving_bodies = {
+        r.moving: MovingBody(r.moving, (r.moving, *(i for i in r.attached if i in known))) for r in requests
+    }
+    for request in requests:
+        if request.drawn_at > 0:
+            for member in moving_bodies[request.moving].members:
+                known[member] = _closed(known[member], request)
+    whole = Box.enclosing(part.box for part in known.values())
+    return Surroundings(Scene(known, moving_bodies, float(whole.size.max())), requests)
+
+
+def _closed(part: Part, request: JointRequest) -> Part:
+    if request.type is JointType.REVOLUTE:
+        T = request.axis.rotation(-request.drawn_at)
+    else:
+        T = translation(-request.drawn_at * np.asarray(request.axis.direction))
+    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
+
+
+def _local_triangles(parts: Iterable[Part], frame: DrawerFrame, above: float = np.inf) -> np.ndarray:
+    """Returns the triangles of the parts that reach behind a drawer's front, or up to `above` over it, in its frame."""
+    wide, low_z = frame.width / 2, -frame.height / 2
+    found = []
+    for part in parts:
+        corners = (part.box.corners() - frame.origin) @ frame.rotation
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        if low[0] < wide and high[0] > -wide and high[1] > 0 and low[2] < above and high[2] > low_z:
+            found.append(((part.mesh.vertices - frame.origin) @ frame.rotation)[part.mesh.faces])
+    return np.concatenate(found) if found else np.zeros((0, 3, 3))

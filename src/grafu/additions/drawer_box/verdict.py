@@ -1,0 +1,159 @@
+"""What a drawer has of a box behind its front, told by rays on its real meshes. It adds nothing and knows no scene.
+
+All is measured in the drawer's frame (`DrawerFrame`): x across, y from the front into the cabinet, z up. A board counts
+where rays meet it on its side of the drawer: the bottom from above, sides and back from outside. Solid blocks are met
+everywhere and lack nothing; flat trays and pull-out boards have no walls and want none.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, final
+
+import numpy as np
+
+from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.geometry.arrays import vec3
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.joints.rail.body_region import DrawerFrame, is_board
+
+BoxKind = Literal[
+    "whole",  # nothing is missing, or what it is wants no box (a solid block, a tray, a pull-out board)
+    "front only",  # no board of a box is there
+    "incomplete",  # some boards are there, others not
+    "no drawer",  # it slides sideways in its own plane, or up and down
+]
+BoardName = Literal["side_left", "side_right", "back", "bottom"]
+BOARDS: tuple[BoardName, ...] = ("side_left", "side_right", "back", "bottom")
+
+_COLUMNS, _LEVELS = 16, 32
+_INNER = 0.8  # share of the width in which the bottom and the back are looked for: walls and overhangs lie outside
+_OUTER = 0.35  # share of the half width from which on a board is the one on that side
+_RIM = (0.006, 0.04)  # metres, share of the height: what stands higher than this above a bottom is a wall
+_WALL = 0.35  # share of the height that makes a wall where there is no bottom: a slider's bar is lower
+_BLOCK = 0.9  # share of the height from which on an upper side is that of a solid block, which has walls below it
+_FLAT = 0.12  # a part lower than this share of its smaller level side is a board or a tray
+_EPS = 1e-3
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Wall:
+    """What makes a wall: the z above which it is measured, and the least height above it."""
+
+    above: float
+    height: float
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class BoxVerdict:
+    """What a drawer has: the share of each board of its box that is there (0..1), and the boards that are missing.
+
+    `inner_front` is the y of the front's inner face, metres in the drawer's frame; `why` says in words what was seen.
+    """
+
+    drawer: str
+    kind: BoxKind
+    shares: tuple[tuple[BoardName, float], ...] = ()
+    missing: tuple[BoardName, ...] = ()
+    inner_front: float = 0.0
+    why: str = ""
+
+
+def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: DrawerBoxConfig) -> BoxVerdict:
+    """Returns what a drawer has of a box; `mesh` is the drawer with what rides behind its front, in its own frame."""
+    if is_board(frame):
+        return _front_only(drawer, frame, f"it is {frame.depth:.3f} m deep: a front")
+    caster = RayCaster(mesh)
+    inner = _inner_front(caster, frame)
+    bottom, floor = _bottom(caster, frame, inner)
+    if bottom >= config.covered and frame.height < _FLAT * min(frame.width, frame.depth):
+        return BoxVerdict(drawer, "whole", (("bottom", bottom),), (), inner, "it is a board or a tray")
+    wall = _Wall(-frame.height, _WALL * frame.height)
+    if bottom >= config.covered and floor < (_BLOCK - 0.5) * frame.height:
+        wall = _Wall(floor, min(max(_RIM[0], _RIM[1] * frame.height), 0.3 * frame.height))
+    left, right = (_side(caster, frame, inner, sign, wall) for sign in (-1.0, 1.0))
+    shares = {"side_left": left, "side_right": right, "back": _back(caster, frame, inner, wall), "bottom": bottom}
+    missing = tuple(name for name in BOARDS if shares[name] < config.covered)
+    if len(missing) == len(BOARDS):
+        return _front_only(drawer, frame, "no board of a box is behind it")
+    stated = tuple((name, round(shares[name], 3)) for name in BOARDS)
+    if not missing:
+        return BoxVerdict(drawer, "whole", stated, (), inner, "bottom, sides and back are there")
+    said = ", ".join(f"{name} covered to {shares[name]:.0%}" for name in missing)
+    return BoxVerdict(drawer, "incomplete", stated, missing, inner, said)
+
+
+def _front_only(drawer: str, frame: DrawerFrame, why: str) -> BoxVerdict:
+    return BoxVerdict(drawer, "front only", tuple((name, 0.0) for name in BOARDS), BOARDS, frame.depth, why)
+
+
+def as_front_only(verdict: BoxVerdict, frame: DrawerFrame, behind: float) -> BoxVerdict:
+    """Returns the verdict on a shallow part that turned out to stand before a space `behind` metres deep."""
+    return _front_only(
+        verdict.drawer, frame, f"it is {frame.depth:.3f} m deep before a space of {behind:.3f} m: a front with its pull"
+    )
+
+
+def _inner_front(caster: RayCaster, frame: DrawerFrame) -> float:
+    """Returns the y of the front's inner face, seen from the middle of the box."""
+    middle = 0.5 * frame.depth
+    x, z = _grid(0.6 * frame.width / 2, 0.6 * frame.height / 2, 9, 9)
+    hits = caster.along(np.column_stack([x, np.full(x.size, middle), z]), vec3(0.0, -1.0, 0.0))
+    found = hits[hits <= middle + _EPS]
+    if len(found) < 0.5 * len(hits):
+        return min(0.02, 0.1 * frame.depth)
+    inner = middle - float(np.median(found))
+    return inner if inner > 1e-4 else min(0.02, 0.1 * frame.depth)  # a solid block shows its outer face
+
+
+def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float) -> tuple[float, float]:
+    """Returns the share of the bottom that is there, and the z of its upper side."""
+    x, y = (
+        a.ravel()
+        for a in np.meshgrid(
+            np.linspace(-_INNER, _INNER, _COLUMNS) * frame.width / 2, _along(frame, inner), indexing="ij"
+        )
+    )
+    half = frame.height / 2 + _EPS
+    above = half - caster.along(np.column_stack([x, y, np.full(x.size, half)]), vec3(0.0, 0.0, -1.0))
+    hit = np.isfinite(above)
+    return float(hit.mean()), float(np.median(above[hit])) if hit.any() else 0.0
+
+
+def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall: _Wall) -> float:
+    """Returns the share of one side's length at which a wall stands."""
+    y, z = (a.ravel() for a in np.meshgrid(_along(frame, inner), _levels(frame), indexing="ij"))
+    outside = frame.width / 2 + _EPS
+    origins = np.column_stack([np.full(y.size, sign * outside), y, z])
+    hits = caster.along(origins, vec3(-sign, 0.0, 0.0)) <= outside - _OUTER * frame.width / 2
+    return _high_enough(hits & (z > wall.above), frame, wall)
+
+
+def _back(caster: RayCaster, frame: DrawerFrame, inner: float, wall: _Wall) -> float:
+    """Returns the share of the back's width at which a wall stands."""
+    x = np.linspace(-_INNER, _INNER, _COLUMNS) * frame.width / 2
+    x, z = (a.ravel() for a in np.meshgrid(x, _levels(frame), indexing="ij"))
+    origins = np.column_stack([x, np.full(x.size, frame.depth + _EPS), z])
+    hits = caster.along(origins, vec3(0.0, -1.0, 0.0)) <= 0.5 * (frame.depth - inner) + _EPS
+    return _high_enough(hits & (z > wall.above), frame, wall)
+
+
+def _high_enough(hits: np.ndarray, frame: DrawerFrame, wall: _Wall) -> float:
+    heights = hits.reshape(_COLUMNS, _LEVELS).sum(axis=1) * frame.height / _LEVELS
+    return float((heights > wall.height).mean())
+
+
+def _along(frame: DrawerFrame, inner: float) -> np.ndarray:
+    """Returns values of y behind the front, short of the back."""
+    room = frame.depth - inner
+    return np.linspace(inner + 0.1 * room, frame.depth - max(0.1 * room, min(0.02, 0.3 * room)), _COLUMNS)
+
+
+def _levels(frame: DrawerFrame) -> np.ndarray:
+    return ((np.arange(_LEVELS) + 0.5) / _LEVELS - 0.5) * frame.height
+
+
+def _grid(x: float, z: float, columns: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    xs, zs = np.meshgrid(np.linspace(-x, x, columns), np.linspace(-z, z, rows), indexing="ij")
+    return xs.ravel(), zs.ravel()

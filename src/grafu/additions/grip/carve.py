@@ -1,0 +1,116 @@
+"""`carve_grip`: a recessed grip in a door or drawer front of the final scene, or a reason why there is none.
+
+The new part has the old one's id, box, materials and texture coordinates; it lost what was cut, and the cut shows the
+material of the front. Nothing is added outside the old part, so that every motion stays as free as it was.
+"""
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+
+from grafu.additions.grip.config import GripConfig, GripKind
+from grafu.additions.grip.ground import Site, front_part, site_of
+from grafu.additions.grip.outcome import Carved, GripRefusal, Refused
+from grafu.additions.grip.place import levelled, spots
+from grafu.additions.grip.shape import Cut, cutters, front_of, lining, tilted, union
+from grafu.additions.likeness import surface_like
+from grafu.asset.part import Part, PartSource
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Points, Vec3
+from grafu.geometry.bodywork import CutOut, cut_out
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.solids import ConvexSolid
+from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
+
+_FURNITURE = 0.4  # metres: an object smaller than this is a model at a reduced scale, and so are its grips
+_SAME = 1e-6  # metres
+_FULL = 0.5  # of the box around a groove: less was cut where what looked solid is not
+
+
+def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refused:
+    """Returns the moving body's front with a grip, or why it takes none.
+
+    Args:
+        scene: the final scene, with hardware and joint motions.
+        moving_id: the door or drawer.
+        config: what to carve.
+        spot: a point of the object frame (metres) near which the grip is wanted; others are tried where it is no good.
+
+    Raises:
+        KeyError: if the scene has no such moving body.
+    """
+    moving = scene.moving_bodies[moving_id]
+    joint_motion = scene.joint_motions.get(moving_id)
+    if joint_motion is None:
+        return Refused(moving_id, GripRefusal.NO_MOTION)
+    scale = min(1.0, scene.unit / _FURNITURE)
+    front = front_of(scene.parts[moving.id].mesh, joint_motion, config)
+    part = front_part(scene, moving_id, front)
+    if part.id != moving_id:
+        local = Box.around(front.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
+        front = replace(front, box=local)
+    site = site_of(scene, moving_id, front, part, scale)
+    reasons: list[tuple[GripKind, Counter[GripRefusal]]] = []
+    for kind in config.kinds:
+        met: Counter[GripRefusal] = Counter()
+        for cut in spots(front, config, kind, scale, spot):
+            found = levelled(site, cut, config)
+            made = found if isinstance(found, GripRefusal) else _carved(site, found)
+            if isinstance(made, Carved):
+                return made
+            met[made] += 1
+        reasons.append((kind, met or Counter({GripRefusal.TOO_SMALL: 1})))
+    told = "; ".join(f"{kind}: {', '.join(reason for reason, _ in met.most_common())}" for kind, met in reasons)
+    return Refused(moving_id, reasons[-1][1].most_common(1)[0][0], told)
+
+
+def _carved(site: Site, cut: Cut) -> Carved | GripRefusal:
+    """Returns the part less the grip, unless that would harm it."""
+    front = site.front
+    hulls = [ConvexSolid.around(_in_object(site, cut, np.asarray(solid.vertices))) for solid in cutters(cut)]
+    solids = [solid for solid in hulls if solid is not None]
+    around = union(cut)
+    whole = around and TriangleMesh(_in_object(site, cut, np.asarray(around.vertices)), around.faces)
+    left = cut_out(site.body, solids, whole)
+    expected = cut.size.length * cut.size.width * cut.size.depth
+    if cut.kind is GripKind.GROOVE and not cut.is_hollow and left.volume < _FULL * expected:
+        return GripRefusal.NO_THICKNESS
+    surfaces = tuple(s for s in left.surfaces if not s.is_empty)
+    if not left.is_whole or not surfaces:
+        return GripRefusal.WOULD_BREAK
+    part = replace(site.part, surfaces=(*surfaces, *_walls(site, cut, left)))
+    if not _has_same_box(site.part, part):
+        return GripRefusal.WOULD_BREAK
+    size = np.array([cut.size.length, cut.size.width, cut.size.depth])
+    direction, outward = front.rotation[:, 0], front.rotation[:, 2]
+    if size[1] > size[0]:
+        size, direction = size[[1, 0, 2]], front.rotation[:, 1]
+    middle = np.array([*cut.box.center[:2], cut.face])
+    centre = front.in_object(middle[None])[0]
+    return Carved(part, cut.kind, cut.profile, centre, direction, outward, size, left.volume, left.area)
+
+
+def _walls(site: Site, cut: Cut, left: CutOut) -> tuple[Surface, ...]:
+    """Returns the faces of the cut in the material of the front that was cut, textured as it is."""
+    wall = left.wall
+    if cut.is_hollow and cut.size.depth > site.seam:
+        lined = lining(cut)
+        wall = TriangleMesh(_in_object(site, cut, np.asarray(lined.vertices)), lined.faces)
+    if not len(wall.faces):
+        return ()
+    skin = site.part.surfaces[left.skin]
+    like = Part("skin", PartLabel.UNKNOWN, (skin,), PartSource(""))
+    return (surface_like(wall, [like], skin.material),)
+
+
+def _in_object(site: Site, cut: Cut, points: Points) -> Points:
+    return site.front.in_object(tilted(cut, points))
+
+
+def _has_same_box(before: Part, after: Part) -> bool:
+    return bool(
+        np.abs(before.box.low - after.box.low).max() < _SAME and np.abs(before.box.high - after.box.high).max() < _SAME
+    )

@@ -1,0 +1,104 @@
+"""Sizes of recessed grips. Lengths are metres, made for hands, and capped by shares of the front."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Literal, final
+
+from grafu.joints.config import require_positive, require_shares
+
+
+class GripKind(StrEnum):
+    """What is carved."""
+
+    GROOVE = "groove"  # a U-shaped hollow in the front face; a wall stays behind it
+    EDGE = "edge"  # a notch in the free edge, through the thickness: fingers reach behind the front
+    HOLE = "hole"  # a round or oval hole through the front
+
+
+GripProfile = Literal["sharp", "rounded"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class GripSize:
+    """`length` along the gripped edge, `width` across it (an edge notch: how far it reaches in); `depth` of a groove.
+
+    Raises:
+        ValueError: if a length is not positive.
+    """
+
+    length: float
+    width: float
+    depth: float = 0.012
+
+    def __post_init__(self) -> None:
+        require_positive(self, "length", "width", "depth")
+
+    def scaled(self, factor: float) -> "GripSize":
+        """Returns the size with its length and width multiplied."""
+        return GripSize(factor * self.length, factor * self.width, self.depth)
+
+
+# As routed and drilled by joiners: four fingers are 80 mm wide, one is 20 mm thick; 35 mm is the common bore.
+GRIP_SIZES = {
+    GripKind.GROOVE: GripSize(0.14, 0.03, 0.012),
+    GripKind.EDGE: GripSize(0.10, 0.028),
+    GripKind.HOLE: GripSize(0.035, 0.035),
+}
+
+
+@final
+@dataclass(frozen=True)
+class GripConfig:
+    """Which grip is carved, and what must remain.
+
+    Raises:
+        ValueError: if a length or share is out of its range.
+    """
+
+    kind: GripKind | Literal["auto"] = "auto"
+    """What to carve; `auto` tries an edge notch, a hole and a groove in this order: best held first."""
+    profile: GripProfile = "rounded"
+    """Sharp corners, or rounded ends and bottoms."""
+    size: tuple[float, float] | None = None
+    """Length along the gripped edge and width across it, metres; none: the kind's own."""
+    depth: float | None = None
+    """How deep a groove goes, metres; none: 12 mm."""
+    margin: float = 0.018
+    """Least material between the grip and the front's edges, metres."""
+    wall: float = 0.003
+    """Least thickness that stays behind a groove, metres."""
+    drawer_side: Literal["top", "bottom"] = "top"
+    """The edge of a drawer's front at which the grip sits."""
+    turned: bool = False
+    """Whether a groove or oval hole lies across the gripped edge instead of along it."""
+    finger_room: float = 0.02
+    """Free depth that fingers need behind a notch or hole, metres."""
+    length_share: float = 0.5
+    """Longest grip, as a share of the gripped edge."""
+    width_share: float = 0.3
+    """Widest grip, as a share of the front's side across the gripped edge."""
+    depth_share: float = 0.65
+    """Deepest groove, as a share of the front's thickness."""
+    thickest: float = 0.05
+    """Thickest front through which a hole or notch is cut, metres."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "margin", "wall", "finger_room", "thickest")
+        require_shares(self, "length_share", "width_share", "depth_share")
+        own = (*(self.size or ()), *(() if self.depth is None else (self.depth,)))
+        if not all(length > 0 for length in own):
+            raise ValueError(f"a grip's own size and depth must be above 0: got {self.size} and {self.depth}")
+
+    @property
+    def kinds(self) -> tuple[GripKind, ...]:
+        """What is tried, in order."""
+        return (GripKind.EDGE, GripKind.HOLE, GripKind.GROOVE) if self.kind == "auto" else (self.kind,)
+
+    def wanted(self, kind: GripKind) -> GripSize:
+        """Returns the size that a kind should have where there is room."""
+        plain = GRIP_SIZES[kind]
+        length, width = self.size or (plain.length, plain.width)
+        if self.turned and kind is not GripKind.EDGE:
+            length, width = width, length
+        return GripSize(length, width, self.depth or plain.depth)

@@ -1,0 +1,198 @@
+"""What a front is made of at a spot, by lines straight into it: how thick, how even, and what stands around it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import final
+
+import numpy as np
+from jaxtyping import Float
+
+from grafu.additions.grip.shape import Front
+from grafu.asset.part import Part
+from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
+from grafu.geometry.bodywork import Bodywork
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.geometry.raycast import Crossings, line_crossings
+from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
+
+_OPAQUE = 0.95  # of a colour
+_ASIDE = 1e-4 * np.sqrt(2.0)  # of a grid's step: lines do not run along the edges between faces
+_MAP = 24  # lines each way that look for the front's outermost part
+_BOARD = 0.04  # metres: sheets no farther apart are the two sides of one board
+_AROUND = 0.08  # metres: what is farther from a front is of no concern
+
+Triangles = Float[np.ndarray, "_ 3 3"]
+Grid = Float[np.ndarray, " _"]  # rising coordinates
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Ground(ArrayValue):
+    """What lines into the front meet first, one row per line; heights are Z of the front frame.
+
+    `face` is where a line enters (-inf: it meets nothing), `back` where the first layer ends, `solid` how much of that
+    layer is solid (0: mere sheets), `beneath` where the part's next layer begins (-inf: there is none). Sheets that
+    follow one another closely are a hollow board, and count as one layer.
+    """
+
+    face: Scalars
+    back: Scalars
+    solid: Scalars
+    beneath: Scalars
+    is_opaque: Mask
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
+
+    def lowered(self, by: Scalars) -> "Ground":
+        """Returns the ground with each line's heights less by some metres: what is tilted comes to lie level."""
+        return replace(self, face=self.face - by, back=self.back - by, beneath=self.beneath - by)
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether every line meets something."""
+        return bool(np.isfinite(self.face).all())
+
+    @property
+    def thickness(self) -> Scalars:
+        """How far the back of the first layer lies behind its face."""
+        return self.face - self.back
+
+    @property
+    def is_hollow(self) -> bool:
+        """Whether the first layer is nowhere solid: a sheet, or a board of sheets with nothing in between."""
+        return not np.any(self._is_solid)
+
+    @property
+    def is_mixed(self) -> bool:
+        """Whether the first layer is solid in some places only."""
+        return bool(np.any(self._is_solid) and not np.all(self._is_solid))
+
+    @property
+    def _is_solid(self) -> Mask:
+        return (self.solid > 0) & (self.solid >= 0.5 * self.thickness)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Site:
+    """A front to carve: its part, its frame, and everything around it as triangles in the front frame.
+
+    `attached` moves with the front (handles, hardware); `still` and `others` do not.
+    """
+
+    part: Part
+    front: Front
+    attached: Triangles
+    still: Triangles
+    others: Triangles
+    scale: float
+
+    @cached_property
+    def body(self) -> Bodywork:
+        """The part's faces, sorted."""
+        return Bodywork.of(self.part.surfaces)
+
+    @cached_property
+    def _triangles(self) -> Triangles:
+        local = self.front.local(np.asarray(self.body.mesh.vertices))
+        return np.asarray(local[self.body.faces])
+
+    @cached_property
+    def _extent(self) -> tuple[np.ndarray, np.ndarray]:
+        return triangle_bounds(self._triangles)
+
+    @cached_property
+    def _is_opaque(self) -> Mask:
+        clear = [s.material.base_color[3] < _OPAQUE or s.material.alpha_mode == "BLEND" for s in self.body.surfaces]
+        return ~np.array(clear)[self.body.owner[self.body.source]]
+
+    def ground(self, xs: Grid, ys: Grid) -> Ground:
+        """Returns what the lines through a grid meet, the second coordinate running fastest."""
+        low, high = self._extent
+        near = np.flatnonzero(
+            (low[:, 0] <= xs[-1]) & (high[:, 0] >= xs[0]) & (low[:, 1] <= ys[-1]) & (high[:, 1] >= ys[0])
+        )
+        found = line_crossings(self._triangles[near], aside(xs), aside(ys))
+        face = near[found.face]
+        return _layered(
+            found, self.body.is_solid[face], self._is_opaque[face], len(xs) * len(ys), (self.seam, _BOARD * self.scale)
+        )
+
+    @property
+    def seam(self) -> float:
+        """Layers no farther apart than this count as one, metres."""
+        return 0.002 * self.scale
+
+
+def aside(grid: Grid) -> Grid:
+    """Returns a grid's coordinates moved aside by a trace."""
+    return grid + _ASIDE * (grid[-1] - grid[0]) / max(len(grid) - 1, 1)
+
+
+def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, limits: tuple[float, float]) -> Ground:
+    """Returns what each line meets first; `limits` are the widest seam and the thickest hollow board, metres."""
+    rows = [(-np.inf, -np.inf, 0.0, -np.inf, True)] * lines
+    starts = np.searchsorted(found.line, np.arange(lines + 1)).tolist()
+    steps = np.where(is_solid, np.where(found.looks_up, 1, -1), 0).tolist()
+    heights, opaque = found.height.tolist(), is_opaque.tolist()
+    for line in range(lines):
+        span = slice(starts[line], starts[line + 1])
+        if span.start < span.stop:
+            rows[line] = _first_layer(heights[span], steps[span], opaque[span], *limits)
+    face, back, solid, beneath, clear = zip(*rows, strict=True)
+    return Ground(np.array(face), np.array(back), np.array(solid), np.array(beneath), np.array(clear))
+
+
+def _first_layer(
+    heights: list[float], steps: list[int], opaque: list[bool], seam: float, board: float
+) -> tuple[float, float, float, float, bool]:
+    """Returns a row of `Ground` from a line's crossings; a step is +1 into a solid, -1 out of one, 0 at a sheet."""
+    face = back = heights[0]
+    solid, inside, is_opaque = 0.0, 0, True
+    for height, step, is_dull in zip(heights, steps, opaque, strict=True):
+        if inside > 0:
+            solid += back - height
+        elif back - height > seam and not (solid == 0.0 and face - height <= board):
+            return face, back, solid, height, is_opaque
+        back, inside, is_opaque = height, inside + step, is_opaque and is_dull
+    return face, back, solid, -np.inf, is_opaque
+
+
+def site_of(scene: Scene, moving_id: str, front: Front, part: Part, scale: float) -> Site:
+    """Returns the site on one of the moving body's parts."""
+    around = Box.around(front.in_object(front.box.corners())).grown(_AROUND * scale)
+    own = [scene.parts[m].mesh for m in scene.moving_bodies[moving_id].members if m != part.id]
+    own += [v.mesh for v in scene.hardware_of(moving_id)]
+    still = [scene.static_mesh_near(around, 0.0)]
+    still += [v.mesh for owner, v in scene.hardware if not owner]
+    others = [scene.equipped_mesh(other) for other in scene.moving_bodies if other != moving_id]
+    attached, fixed, moving = (_near(front, meshes, around) for meshes in (own, still, others))
+    return Site(part, front, attached, fixed, moving, scale)
+
+
+def _near(front: Front, meshes: Sequence[TriangleMesh], around: Box) -> Triangles:
+    """Returns the triangles, in the front frame, whose boxes meet a box of the object frame."""
+    mesh = merge_meshes([m for m in meshes if len(m.faces) and m.box.overlaps(around)])
+    corners = mesh.triangles
+    low, high = triangle_bounds(corners)
+    keep = np.all((low <= around.high) & (high >= around.low), axis=1)
+    return np.asarray(front.local(corners[keep].reshape(-1, 3)).reshape(-1, 3, 3))
+
+
+def front_part(scene: Scene, moving_id: str, front: Front) -> Part:
+    """Returns the moving body's part that lies outermost over most of its front; handles do not count."""
+    ids = scene.moving_bodies[moving_id].members
+    parts = [scene.parts[m] for m in ids if m == moving_id or scene.parts[m].label is not PartLabel.HANDLE]
+    if len(parts) == 1:
+        return parts[0]
+    owner = np.repeat(np.arange(len(parts)), [len(p.mesh.faces) for p in parts])
+    triangles = np.concatenate([front.local(p.mesh.vertices)[p.mesh.faces] for p in parts])
+    x, y = (np.linspace(front.box.low[k], front.box.high[k], _MAP + 2)[1:-1] for k in (0, 1))
+    found = line_crossings(triangles, aside(x), aside(y))
+    first = np.unique(found.line, return_index=True)[1]
+    counts = np.bincount(owner[found.face[first]], minlength=len(parts))
+    return parts[int(counts.argmax())]

@@ -1,0 +1,190 @@
+"""Where a grip may sit: spots from the motion, best first, and whether a front bears one there. It carves nothing."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from grafu.additions.grip.config import GripConfig, GripKind, GripSize
+from grafu.additions.grip.ground import Grid, Ground, Site, Triangles, aside
+from grafu.additions.grip.outcome import GripRefusal
+from grafu.additions.grip.shape import Cut, Front
+from grafu.geometry.arrays import Mask, Scalars, Vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import triangle_bounds
+from grafu.geometry.raycast import line_crossings
+
+_SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
+_INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn
+_ALONG = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)  # shares of the gripped edge, from the best place
+_FINGERS = GripSize(0.02, 0.012)  # metres: one finger's width and thickness
+_SHALLOW = 0.003  # metres: a groove less deep is none
+_LINES = (21, 17)  # near enough for beads and narrow mouldings
+_REACH = 1.0  # metres above the floor: where tall doors are gripped (EN 12098 and joiners: 0.9 to 1.1)
+_TALL, _HIGH, _LOW = 0.5, 1.2, 0.25  # metres: doors are gripped off their middle; hung high; share of a door's height
+_EVEN = 0.25  # steps in the face where a groove is cut, as a share of its depth
+_STEP = 0.003  # metres: steps in the face where a hole is cut
+_STEEPEST = 0.35  # metres per metre: how much a bowed front may slope where it is carved
+_RIM = 0.12  # share of a front's sides that a margin takes at most
+_BLUNT = 0.0015  # metres: how far edges may be rounded, and be straight all the same
+_BEFORE = 0.012  # metres: a finger's thickness before the front
+_SHOWN = 0.8  # share of a hole behind which fingers must find room
+_AWAY = 0.06  # metres: what is attached and stands farther before the front leaves the hand room
+_CLEAR = 0.004  # metres between a grip and what is attached
+
+
+def spots(front: Front, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
+    """Yields grips to try, best first; their levels are not known yet (0). None: the front is too small.
+
+    `wish` is a point of the object frame near which the grip is wanted.
+    """
+    margin = _margin(front, config, scale)
+    wanted = config.wanted(kind)
+    length = min(wanted.length * scale, config.length_share * front.length)
+    width = min(wanted.width * scale, config.width_share * front.breadth)
+    if kind is GripKind.HOLE and wanted.length == wanted.width:
+        length = width = min(length, width)
+    edge = float(front.box.high[1])
+    for factor in _SIZES:
+        size = GripSize(factor * length, factor * width, wanted.depth * scale)
+        if _is_too_small(size, scale):
+            continue
+        rows = [edge] if kind is GripKind.EDGE else [edge - m * margin - size.width / 2 for m in _INWARDS]
+        ends = size.length / 2 + margin
+        low, high = float(front.box.low[0]) + ends, float(front.box.high[0]) - ends
+        if wish is not None:
+            x, y, _ = front.local(wish[None])[0]
+            inner = size.width / 2 + margin
+            y = edge if kind is GripKind.EDGE else np.clip(y, front.box.low[1] + inner, front.box.high[1] - inner)
+            yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
+        middle = best_along(front, scale)
+        columns = dict.fromkeys(float(np.clip(middle + s * front.length, low, high)) for s in _ALONG)
+        for y, x in product(rows, columns):
+            yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
+
+
+def _margin(front: Front, config: GripConfig, scale: float) -> float:
+    """Returns how much material stays between a grip and the edges, metres."""
+    return min(config.margin * scale, _RIM * front.length, _RIM * front.breadth)
+
+
+def _is_too_small(size: GripSize, scale: float) -> bool:
+    across, along = sorted((size.width, size.length))
+    return across < _FINGERS.width * scale - 1e-9 or along < _FINGERS.length * scale - 1e-9
+
+
+def best_along(front: Front, scale: float) -> float:
+    """Returns the X at which a front is best gripped: in its middle; tall and high doors where a hand reaches."""
+    low, high = float(front.box.low[0]), float(front.box.high[0])
+    up = float(front.rotation[2, 0])
+    if abs(up) < 0.9 or front.length < _TALL * scale:
+        return (low + high) / 2
+    bottom, top = sorted((low * up, high * up))
+    inset = _LOW * (top - bottom)
+    reach = bottom if bottom > _HIGH * scale else _REACH * scale
+    return min(max(reach, bottom + inset), top - inset) / up
+
+
+def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | GripRefusal:
+    """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
+    ring = _margin(site.front, config, site.scale) / 2
+    box = cut.box
+    over = -_BLUNT * site.scale if cut.kind is GripKind.EDGE else ring
+    xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])
+    ys = np.linspace(box.low[1] - ring, box.high[1] + over, _LINES[1])
+    ground = site.ground(xs, ys)
+    if not ground.is_covered or ground.is_mixed:
+        return GripRefusal.UNEVEN
+    if not ground.is_opaque.all():
+        return GripRefusal.GLASS
+    x, y = (grid.reshape(-1) for grid in np.meshgrid(xs, ys, indexing="ij"))
+    cut = replace(cut, is_hollow=ground.is_hollow, tilt=_tilt(x, y, np.asarray(ground.face)))
+    if max(abs(t) for t in cut.tilt) > _STEEPEST:
+        return GripRefusal.UNEVEN
+    ground = ground.lowered(cut.lift(x, y))
+    found = _groove(site, cut, ground, config) if cut.kind is GripKind.GROOVE else _through(site, cut, ground, config)
+    return found if isinstance(found, GripRefusal) else _unless_in_the_way(site, found, ground, (xs, ys), config)
+
+
+def _tilt(x: Scalars, y: Scalars, face: Scalars) -> tuple[float, float]:
+    """Returns how a front's face rises along x and y."""
+    columns = np.column_stack([x - x.mean(), y - y.mean(), np.ones(len(x))])
+    along, across, _ = np.linalg.lstsq(columns, face, rcond=None)[0]
+    return float(along), float(across)
+
+
+def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
+    """Returns a groove as deep as the front allows."""
+    if float(ground.thickness.min()) <= 1e-3 * site.scale:
+        return GripRefusal.NO_THICKNESS
+    face = float(np.median(ground.face))
+    room = float((face - ground.back).min())
+    depth = min(cut.size.depth, config.depth_share * room, room - config.wall * site.scale)
+    if depth < _SHALLOW * site.scale:
+        return GripRefusal.TOO_THIN
+    if float(np.ptp(ground.face)) > _EVEN * depth:
+        return GripRefusal.UNEVEN
+    top = float(ground.face.max()) + _EVEN * depth
+    return replace(cut, size=replace(cut.size, depth=depth), top=top, face=face, bottom=face - depth)
+
+
+def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
+    """Returns a hole or notch through the first layer."""
+    if float(np.ptp(ground.face)) > _STEP * site.scale:
+        return GripRefusal.UNEVEN
+    face, back = float(ground.face.max()), float(ground.back.min())
+    if face - back > min(config.thickest * site.scale, 1.5 * cut.size.length):
+        return GripRefusal.TOO_THICK
+    over = 0.4 * site.seam
+    bottom = back - over
+    if float(np.ptp(ground.back)) > 2 * _STEP * site.scale or np.any(ground.beneath > bottom):
+        return GripRefusal.UNEVEN
+    size = replace(cut.size, depth=max(face - back, 1e-6))
+    return replace(cut, size=size, top=face + over, face=face, bottom=bottom)
+
+
+def _unless_in_the_way(
+    site: Site, cut: Cut, ground: Ground, grid: tuple[Grid, Grid], config: GripConfig
+) -> Cut | GripRefusal:
+    """Returns the grip, unless something sits on it or leaves fingers no room; `ground` lies level."""
+    scale, near = site.scale, cut.box.grown(_CLEAR * site.scale)
+    low, high = (*near.low[:2], cut.bottom + site.seam), (*near.high[:2], cut.face + _AWAY * scale)
+    if _meets(site.attached, Box(np.array(low), np.array(high))):
+        return GripRefusal.TAKEN
+    x, y = (values.reshape(-1) for values in np.meshgrid(*grid, indexing="ij"))
+    inside, lift = _within(cut, x, y), cut.lift(x, y)
+    before = (cut.face, cut.face + _BEFORE * scale)
+    if _met([site.still], grid, before, lift)[inside].any():
+        return GripRefusal.NO_FINGER_ROOM
+    if cut.kind is GripKind.GROOVE:
+        return cut
+    room = (cut.bottom - config.finger_room * scale, cut.bottom)
+    met = _met([site.still, site.others, site.attached], grid, room, lift) | (ground.beneath > room[0])
+    return cut if (~met)[inside].mean() >= _SHOWN else GripRefusal.NO_FINGER_ROOM
+
+
+def _within(cut: Cut, x: Scalars, y: Scalars) -> Mask:
+    """Returns which points lie before the part of the grip where fingers reach in: a notch's inner half."""
+    box = cut.box
+    high = box.high[1] - (0.5 * cut.size.width if cut.kind is GripKind.EDGE else 0.0)
+    return np.asarray((x >= box.low[0]) & (x <= box.high[0]) & (y >= box.low[1]) & (y <= high))
+
+
+def _meets(triangles: Triangles, zone: Box) -> bool:
+    """Whether the box of some triangle meets a zone."""
+    low, high = triangle_bounds(triangles)
+    return bool(np.any(np.all((low <= zone.high) & (high >= zone.low), axis=1)))
+
+
+def _met(obstacles: list[Triangles], grid: tuple[Grid, Grid], span: tuple[float, float], lift: Scalars) -> Mask:
+    """Returns for each line of a grid whether it crosses an obstacle within a span of heights, which rise by `lift`."""
+    met = np.zeros(len(lift), dtype=bool)
+    xs, ys = (aside(values) for values in grid)
+    for triangles in obstacles:
+        low, high = triangle_bounds(triangles)
+        near = (low[:, 2] <= span[1] + lift.max()) & (high[:, 2] >= span[0] + lift.min())
+        found = line_crossings(triangles[near & (low[:, 0] <= xs[-1]) & (high[:, 0] >= xs[0])], xs, ys)
+        height = found.height - lift[found.line]
+        met[found.line[(height > span[0]) & (height < span[1])]] = True
+    return met

@@ -1,0 +1,264 @@
+"""The solids that are cut away: convex, in the front frame (X along the gripped edge, Y towards it, Z outwards).
+
+The front frame: a door or drawer front seen from before it, with the edge at which it is gripped on top.
+
+X runs along the gripped edge, Y across the front towards it, Z outwards, right-handed; the frame shares its origin with
+the object frame. A door is gripped opposite its hinge, a drawer at its upper edge, a sliding door at the edge that
+trails when it opens.
+"""
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import final
+
+import numpy as np
+from jaxtyping import Float
+
+from grafu.additions.grip.config import GripConfig, GripKind, GripProfile, GripSize
+from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, freeze_arrays, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.solids import ConvexSolid
+from grafu.joints.rail.search import slides_in_its_plane
+from grafu.scene.border import border_frame, part_axes
+from grafu.scene.scene import JointMotion
+from grafu.vocabulary import JointType
+
+_HAND = 0.1  # metres: on a front with a shorter side, all that fingers need shrinks with it
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Front(ArrayValue):
+    """See the module's docstring; `rotation` has X, Y, Z as columns in the object frame, `box` is in the frame."""
+
+    rotation: Mat3
+    box: Box
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self, "rotation")
+
+    @property
+    def length(self) -> float:
+        """The gripped edge's length."""
+        return float(self.box.size[0])
+
+    @property
+    def breadth(self) -> float:
+        """The front's side across the gripped edge."""
+        return float(self.box.size[1])
+
+    @property
+    def scale(self) -> float:
+        """What lengths that are made for hands are multiplied with: 1, less on fronts that are smaller than a hand."""
+        return min(1.0, min(self.length, self.breadth) / _HAND)
+
+    def local(self, points: Points) -> Points:
+        """Returns points of the object frame in the front frame."""
+        return points @ self.rotation
+
+    def in_object(self, points: Points) -> Points:
+        """Returns points of the front frame in the object frame."""
+        return points @ self.rotation.T
+
+
+def front_of(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) -> Front:
+    """Returns the front frame of a part that moves in a way."""
+    direction = np.asarray(joint_motion.axis.direction)
+    if joint_motion.type is JointType.REVOLUTE:
+        border = border_frame(mesh, joint_motion.axis)
+        along, towards, out = border.rotation[:, 2], border.rotation[:, 0], border.rotation[:, 1]
+    elif slides_in_its_plane(mesh, direction):
+        axes = part_axes(mesh)
+        out = axes[:, int(np.argmin(np.ptp(mesh.vertices @ axes, axis=0)))]
+        out = out * (-1.0 if _looks_back(out) else 1.0)
+        towards = -_across(direction, out)
+        along = np.cross(towards, out)
+    else:
+        axes = part_axes(mesh)
+        nearest = int(np.argmax(np.abs(axes.T @ direction)))
+        out = axes[:, nearest] * np.sign(float(axes[:, nearest] @ direction))
+        up = vec3(0.0, 0.0, 1.0) if abs(float(out[2])) < 0.5 else vec3(0.0, -1.0, 0.0)
+        towards = _across(up, out) * (1.0 if config.drawer_side == "top" else -1.0)
+        along = np.cross(towards, out)
+    rotation = np.column_stack([along, towards, out])
+    return Front(rotation, Box.around(mesh.vertices[np.unique(mesh.faces)] @ rotation))
+
+
+def _looks_back(out: Vec3) -> bool:
+    """Whether a sliding door's normal points to the object's back: its front is -Y, or else +X."""
+    return bool(out[1] > 0) if abs(float(out[1])) > 0.5 else bool(out[0] < 0)
+
+
+def _across(direction: Vec3, out: Vec3) -> Vec3:
+    """Returns the unit vector of a direction's part across another."""
+    flat = direction - out * float(direction @ out)
+    return np.asarray(flat / np.linalg.norm(flat))
+
+
+Outline = Float[np.ndarray, "n 2"]
+
+_QUARTER = 6  # straight pieces of a quarter turn
+_STEPS = 5  # levels of a rounded bottom
+_RIM = 3  # slices of an eased rim
+_BOTTOM = 0.7  # the radius of a groove's rounded bottom, as a share of its depth
+_FLAT = 1e-9  # metres
+_EASED = 0.15  # the radius of a hole's rounded rim, as a share of the front's thickness
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """One grip in the front frame: its middle (x, y), where an edge notch's y is the edge itself; its size; its levels.
+
+    It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face. `is_hollow` says
+    that there is nothing but sheets to cut, so that the cut needs a lining. Levels hold in the middle; elsewhere they
+    rise with the front's face, `tilt` along x and y.
+    """
+
+    kind: GripKind
+    profile: GripProfile
+    x: float
+    y: float
+    size: GripSize
+    top: float
+    face: float
+    bottom: float
+    is_hollow: bool = False
+    tilt: tuple[float, float] = (0.0, 0.0)
+
+    def lift(self, x: Scalars, y: Scalars) -> Scalars:
+        """Returns how much higher a tilted front lies at some points than in the grip's middle."""
+        return self.tilt[0] * (x - self.x) + self.tilt[1] * (y - self.y)
+
+    @property
+    def box(self) -> Box:
+        """The box around all that is cut, without what stands over the edge or the face."""
+        half, width = self.size.length / 2, self.size.width
+        low, high = (self.y - width, self.y) if self.kind is GripKind.EDGE else (self.y - width / 2, self.y + width / 2)
+        return Box(np.array([self.x - half, low, self.bottom]), np.array([self.x + half, high, self.face]))
+
+
+def tilted(cut: Cut, points: Points) -> Points:
+    """Returns points that were made for a level front as they lie on the tilted one."""
+    return points + np.column_stack([np.zeros((len(points), 2)), cut.lift(points[:, 0], points[:, 1])])
+
+
+def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
+    """Returns the solids of a grip, in the front frame, as they are on a level front."""
+    rounded = cut.profile == "rounded"
+    if cut.kind is GripKind.GROOVE:
+        outline = _oval(cut) if rounded else _rectangle(cut)
+        # sheets are cut by the outline alone, which is quick; what curves is their lining
+        solids = [_groove(cut) if rounded and not cut.is_hollow else _prism(outline, cut.bottom, cut.top)]
+    elif cut.kind is GripKind.EDGE:
+        solids = [_prism(_notch(cut, 0.25 * cut.size.width), cut.bottom, cut.top)]
+    else:
+        solids = _stages(cut) if _is_eased(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
+    return tuple(solid for solid in solids if solid is not None)
+
+
+def lining(cut: Cut) -> TriangleMesh:
+    """Returns the walls of a grip in a hollow board, in the front frame, as on a level front: they look into it."""
+    if cut.kind is GripKind.GROOVE:
+        (solid,) = cutters(replace(cut, top=cut.face, is_hollow=False))
+    else:
+        outline = _notch(cut, 0.0) if cut.kind is GripKind.EDGE else _oval(cut)
+        made = _prism(outline, cut.face - cut.size.depth, cut.face)
+        assert made is not None
+        solid = made
+    level = np.abs(solid.mesh.triangles[:, :, 2] - cut.face).max(axis=1) < _FLAT
+    if cut.kind is not GripKind.GROOVE:
+        level |= np.abs(solid.mesh.triangles[:, :, 2] - cut.face + cut.size.depth).max(axis=1) < _FLAT
+    if cut.kind is GripKind.EDGE:
+        level |= np.abs(solid.mesh.triangles[:, :, 1] - cut.y).max(axis=1) < _FLAT
+    walls = solid.mesh.with_faces(~level)
+    return TriangleMesh(walls.vertices, walls.faces[:, ::-1])
+
+
+def _prism(outline: Outline, bottom: float, top: float) -> ConvexSolid | None:
+    return ConvexSolid.around(np.vstack([_at(outline, bottom), _at(outline, top)]))
+
+
+def _at(outline: Outline, level: float) -> Points:
+    return np.column_stack([outline, np.full(len(outline), level)])
+
+
+def _rectangle(cut: Cut) -> Outline:
+    half = np.array([cut.size.length, cut.size.width]) / 2
+    return np.array([cut.x, cut.y]) + half * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+
+
+def _oval(cut: Cut, grown: float = 0.0) -> Outline:
+    """Returns a slot with round ends, a circle where it is as long as wide; grown or shrunk all round."""
+    size = np.array([cut.size.length, cut.size.width])
+    radius = float(size.min()) / 2
+    ends = size / 2 - radius
+    angles = _half_turn(4 * _QUARTER, 2 * np.pi)
+    circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.array([cut.x, cut.y]) + (radius + grown) * circle + ends * np.sign(np.round(circle, 9))
+
+
+def _groove(cut: Cut) -> ConvexSolid | None:
+    """Returns a hollow with round ends whose walls curve into its bottom."""
+    depth = cut.face - cut.bottom
+    radius = _BOTTOM * min(depth, 0.5 * min(cut.size.length, cut.size.width))
+    angles = np.linspace(0.0, np.pi / 2, _STEPS + 1)
+    levels = [(cut.bottom + radius * (1 - np.sin(a)), -radius * (1 - np.cos(a))) for a in angles]
+    points = [_at(_oval(cut, inset), level) for level, inset in levels]
+    return ConvexSolid.around(np.vstack([_at(_oval(cut), cut.top), *points]))
+
+
+def _notch(cut: Cut, over: float) -> Outline:
+    """Returns half an ellipse or a rectangle that goes `over` metres beyond the edge."""
+    half, width = cut.size.length / 2, cut.size.width
+    if cut.profile == "sharp":
+        inner = np.array([(-half, -width), (half, -width)])
+    else:
+        angles = np.linspace(-np.pi, 0.0, 4 * _QUARTER + 1)
+        inner = np.column_stack([half * np.cos(angles), width * np.sin(angles)])
+    return np.array([cut.x, cut.y]) + np.vstack([inner, [(half, over), (-half, over)]])
+
+
+def union(cut: Cut) -> TriangleMesh | None:
+    """Returns the closed surface around all of a grip's cutters, in the frame that they are in; None: there is one."""
+    if not _is_eased(cut):
+        return None
+    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
+    count, size = len(rings), len(rings[0])
+    points = np.vstack([*rings, rings[0].mean(axis=0), rings[-1].mean(axis=0)])
+    at = np.arange(size)
+    after = (at + 1) % size
+    faces = [np.column_stack([np.full(size, count * size), after, at])]
+    for k in range(0, (count - 1) * size, size):
+        faces.append(np.column_stack([k + at, k + after, k + size + after]))
+        faces.append(np.column_stack([k + at, k + size + after, k + size + at]))
+    last = (count - 1) * size
+    faces.append(np.column_stack([np.full(size, count * size + 1), last + at, last + after]))
+    return TriangleMesh(points, np.vstack(faces))
+
+
+def _is_eased(cut: Cut) -> bool:
+    return cut.kind is GripKind.HOLE and cut.profile == "rounded" and not cut.is_hollow
+
+
+def _hole_levels(cut: Cut) -> list[tuple[float, float]]:
+    """Returns by how much a hole with a rounded rim is wider, and at which level, upwards: a quarter turn outwards.
+
+    It ends a trace above the face: an edge in the very face would leave slivers.
+    """
+    radius = _EASED * (cut.face - cut.bottom)
+    angles = np.linspace(np.pi / 2, 0.0, _RIM + 1)
+    rim = [(float(radius * (1 - np.sin(a))), float(cut.face - radius * (0.95 - np.cos(a)))) for a in angles]
+    return [(0.0, cut.bottom), *rim, (radius, cut.top)]
+
+
+def _stages(cut: Cut) -> list[ConvexSolid | None]:
+    """Returns the convex slices of a hole with a rounded rim."""
+    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
+    return [ConvexSolid.around(np.vstack(pair)) for pair in pairwise(rings)]
+
+
+def _half_turn(pieces: int, turn: float) -> Scalars:
+    """Returns the angles of the corners of a turn in straight pieces, none of them straight ahead."""
+    return np.arange(pieces) * turn / pieces + turn / pieces / 2

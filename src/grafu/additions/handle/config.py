@@ -1,0 +1,115 @@
+"""Room for fingers, and the sizes and places of handles. Lengths are metres on furniture of a common size."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.joints.config import require_not_negative, require_positive, require_shares
+
+_COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
+
+
+@final
+@dataclass(frozen=True)
+class GraspConfig:
+    """What counts as room for fingers; see `at_scale` for models of another size.
+
+    Raises:
+        ValueError: if a length is not above 0, or `lever` is no share.
+    """
+
+    gap: float = 0.012
+    """Narrowest gap that fingers enter, and the least room behind what they pull at; a fingertip is 12 to 20 mm."""
+    reach: float = 0.02
+    """How deep fingers go in behind the face that they pull at, its own thickness counted in."""
+    hook: float = 0.006
+    """How far fingertips reach behind an edge, sideways, to pull at it: the lips of finger pulls are 6 to 10 mm."""
+    length: float = 0.06
+    """Width of three fingers: the shortest edge that is pulled at."""
+    knob: float = 0.012
+    """The smallest thing that stands out and is taken between two fingers: knobs are 13 to 40 mm wide."""
+    stub: float = 0.009
+    """How far a small thing must stand out at least to be taken between two fingers."""
+    lip: float = 0.025
+    """The widest lip along a front's border; ledges that are wider are mouldings."""
+    hole: float = 0.018
+    """The narrowest finger hole."""
+    thickest: float = 0.06
+    """The thickest edge that fingers reach round."""
+    hollow: float = 0.008
+    """The shallowest channel along an edge; inside the face, where frames have sunk panels, it is `deep_hollow`."""
+    deep_hollow: float = 0.013
+    """The shallowest hollow inside a face."""
+    widest_hollow: float = 0.05
+    """The widest channel or hollow: wider ones are sunk panels."""
+    notch: float = 0.004
+    """The shallowest notch in a border that was drawn as a grip, though no finger finds room in it."""
+    longest_notch: float = 0.16
+    """The longest such notch: longer ones are profiles or rebates."""
+    pinch: float = 0.045
+    """The thickest thing that is taken between thumb and fingers."""
+    lever: float = 0.5
+    """Share of the way from the hinge to the free edge beyond which a door can be pulled open."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_shares(self, "lever")
+
+
+@final
+@dataclass(frozen=True)
+class HandleConfig:
+    """Which handles are added, how large, and where; see `size_factor` for models of another scale.
+
+    Raises:
+        ValueError: if a length or share is out of its range, or there are fewer than two poses.
+    """
+
+    style: str = ""
+    """Id of a handle template; empty: like the model's other handles, or `default` where it has none."""
+    default: str = "bar-round"
+    """Style where nothing else is said: the commonest on bought furniture."""
+    finish: str = ""
+    """Name of a metal finish; empty: that of the model's other handles, or brushed steel."""
+    length: float = 0.0
+    """Length of bars; 0: by the size of the fronts, the same all over one piece of furniture."""
+    inset: float = 0.045
+    """From the free edge to the handle's middle, at most a fifth of the front: half a stile of a framed door."""
+    reach_height: float = 1.0
+    """Above the floor, where hands find the handles of tall doors."""
+    tall: float = 1.2
+    """Doors at least this high are tall."""
+    short: float = 0.45
+    """Doors up to this height have their handle at half height."""
+    wide: float = 0.9
+    """Drawers wider than this take two handles."""
+    high: float = 0.25
+    """Drawer fronts higher than this have their handle in the upper part."""
+    most: float = 0.5
+    """Largest share of the front's side that a handle takes along it."""
+    margin: float = 0.006
+    """What a handle keeps from the border of its front."""
+    weak: float = 0.65
+    """Confidence below which an edge does for a handle only where no other front of the model has or gets one."""
+    poses: int = 25
+    """Poses from closed to wide open in which a handle must be clear."""
+    count: int = 0
+    """How many handles a front gets, at equal parts of its longer side; 0: one, or two on wide drawers."""
+    offset: tuple[float, float] = (0.0, 0.0)
+    """By how much handles are moved from their usual places, metres: to the front's right, and up."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "inset", "reach_height", "tall", "short", "wide", "high", "most")
+        require_not_negative(self, "length", "margin", "weak")
+        if not 0 <= self.count <= 4:
+            raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")
+        if self.poses < 2:
+            raise ValueError(f"`HandleConfig.poses` must be at least 2: got {self.poses}")
+
+
+def size_factor(unit: float) -> float:
+    """Returns by how much hands and handles are scaled for an object whose largest side is `unit` metres.
+
+    It is 1 for furniture between half a metre and four metres; what is smaller or larger was modelled in another scale.
+    """
+    low, high = _COMMON
+    return min(unit / low, 1.0) if unit < high else unit / high

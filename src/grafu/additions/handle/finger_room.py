@@ -1,0 +1,226 @@
+"""Where fingers find something to pull at on a front: edges that they reach round, hollows, things to pinch.
+
+It measures on the relief of a front and decides nothing about the front as a whole.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from grafu.additions.handle.config import GraspConfig
+from grafu.additions.handle.relief import Grid, Relief
+from grafu.geometry.arrays import Mask, Points, Vec3, vec3
+
+Cells = Bool[np.ndarray, "n m"]
+Step = tuple[int, int]
+
+_WAYS: tuple[tuple[Step, Step], ...] = (((-1, 0), (1, 0)), ((0, -1), (0, 1)))
+STEPS: tuple[Step, ...] = ((1, 0), (-1, 0), (0, 1), (0, -1))
+_LEVEL = 0.004  # metres between the depths at which a finger is tried
+_EDGE = 0.001  # metres before an edge at which it counts as met
+_THROUGH = 0.06  # metres behind the front's plane: what sees farther looks through a hole
+_STEEP = 0.014  # metres across within which the wall of a hollow rises
+_FLAT = 0.003  # metres by which the floor of a hollow varies
+_NEAR = 1.7  # cells within which an edge lies before the cell that looks at it
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Hooks:
+    """Cells from which fingers reach round an edge towards `step`; all arrays have one row per cell.
+
+    `lip` is the depth of the edge's face, `behind` where the room behind it begins, metres from the foremost plane.
+    """
+
+    step: Step
+    cells: Int[np.ndarray, "k 2"]
+    lip: Float[np.ndarray, " k"]
+    behind: Float[np.ndarray, " k"]
+
+
+def find_hooks(relief: Relief, config: GraspConfig, where: Cells) -> list[Hooks]:
+    """Returns the cells from which fingers reach round an edge of the moving body, one of the four ways at a time."""
+    return [_hooks_towards(relief, config, where, step) for step in STEPS]
+
+
+def _hooks_towards(relief: Relief, config: GraspConfig, where: Cells, step: Step) -> Hooks:
+    s = relief.factor
+    lip = _shifted(relief.face, step)
+    seen = lip <= _shifted(relief.first, step) + 1e-6
+    able = where & np.isfinite(lip) & seen & (relief.first - lip >= s * config.reach)
+    cells = np.argwhere(able)
+    lip = lip[able]
+    if not len(cells):
+        return Hooks(step, cells, lip, lip)
+    direction = vec3(float(step[0]), 0.0, float(step[1]))
+    depths = lip[:, None] + s * (_EDGE + _LEVEL * np.arange(int((config.thickest + config.gap) / _LEVEL) + 2))
+    reached = _reaches(relief, cells, depths, direction)
+    reached[depths > relief.first[able][:, None] - s * _EDGE] = 0.0
+    edge = np.where(reached < _NEAR * relief.cell, reached, np.inf)
+    edge[depths - lip[:, None] > s * config.thickest] = np.inf
+    edge = np.where(reached <= 0, np.inf, edge).min(axis=1)
+    free = reached >= edge[:, None] + s * config.hook
+    first, found = _first_run(free, int(np.ceil(config.gap / _LEVEL)) + 1)
+    rows = np.flatnonzero(found & np.isfinite(edge))
+    start = depths[rows, first[rows]]
+    good = _pulls(relief, cells[rows], start, edge[rows], direction, s * config.hook, lip[rows])
+    back = _reaches(relief, cells[rows], depths[rows], -direction)
+    back[np.arange(depths.shape[1]) > first[rows][:, None]] = np.inf
+    good &= back.min(axis=1) + edge[rows] >= s * config.gap
+    kept = rows[good]
+    return Hooks(step, cells[kept], lip[kept], start[good])
+
+
+def _reaches(relief: Relief, cells: Int[np.ndarray, "k 2"], depths: Float[np.ndarray, "k d"], way: Vec3) -> np.ndarray:
+    """Returns how far each cell sees along the front at each depth before it meets anything."""
+    points = np.stack([*np.broadcast_arrays(relief.u[cells[:, :1]], depths, relief.v[cells[:, 1:]])], axis=-1)
+    moving, others = relief.cast(points.reshape(-1, 3), way)
+    return np.minimum(moving, others).reshape(depths.shape)
+
+
+def _pulls(
+    relief: Relief,
+    cells: Int[np.ndarray, "k 2"],
+    start: Float[np.ndarray, " k"],
+    edge: Float[np.ndarray, " k"],
+    way: Vec3,
+    hook: float,
+    lip: Float[np.ndarray, " k"],
+) -> Mask:
+    """Whether a fingertip behind the edge meets the moving body, and nothing else, when it is pulled back."""
+    tips = _points(relief, cells, start) + (edge + 0.8 * hook)[:, None] * way
+    moving, others = relief.cast(tips, vec3(0.0, -1.0, 0.0))
+    return (moving <= others) & (moving <= start - lip + 0.015 * relief.factor)
+
+
+def _points(relief: Relief, cells: Int[np.ndarray, "k 2"], depth: Float[np.ndarray, " k"]) -> Points:
+    return np.column_stack([relief.u[cells[:, 0]], depth, relief.v[cells[:, 1]]])
+
+
+def _first_run(free: Bool[np.ndarray, "k d"], length: int) -> tuple[Int[np.ndarray, " k"], Mask]:
+    """Returns for each row where its first run of so many true values begins, and whether it has one."""
+    sums = np.cumsum(np.pad(free, ((0, 0), (1, 0))), axis=1)
+    if sums.shape[1] <= length:
+        return np.zeros(len(free), np.int64), np.zeros(len(free), bool)
+    full = sums[:, length:] - sums[:, :-length] == length
+    return np.argmax(full, axis=1), full.any(axis=1)
+
+
+def _shifted(grid: Grid, step: Step, fill: float = np.inf) -> Grid:
+    """Returns for each cell the value of its neighbour towards `step`."""
+    n, m = grid.shape
+    di, dj = step
+    out = np.full_like(grid, fill)
+    i, j = slice(max(-di, 0), n - max(di, 0)), slice(max(-dj, 0), m - max(dj, 0))
+    out[i, j] = grid[max(di, 0) : n + min(di, 0), max(dj, 0) : m + min(dj, 0)]
+    return out
+
+
+def find_hollows(relief: Relief, deep: float, narrow: float, wide: float, where: Cells) -> Cells:
+    """Returns the cells of hollows in the face between steep walls, at least `deep` metres deep.
+
+    They are between `narrow` and `wide` metres across.
+    """
+    return _walled(relief, (deep, narrow, wide), where, at_border=False)
+
+
+def find_channels(relief: Relief, deep: float, narrow: float, wide: float, where: Cells) -> Cells:
+    """Returns the cells of hollows between one steep wall and the border of the outline; see `find_hollows`."""
+    return _walled(relief, (deep, narrow, wide), where, at_border=True)
+
+
+def _walled(relief: Relief, sizes: tuple[float, float, float], where: Cells, at_border: bool) -> Cells:
+    inside, found = _inside(relief), np.zeros(relief.face.shape, bool)
+    shown = (relief.face <= relief.first + 1e-6) & np.isfinite(relief.face)
+    seen = np.where(shown & inside, relief.face, np.nan)
+    # What is seen through a hole or past a cut-out is its floor; beyond a finger's reach all is equally deep.
+    past = inside & (relief.first >= relief.plane + sizes[0])
+    seen = np.where(past, np.minimum(relief.first, relief.plane + _THROUGH * relief.factor), seen)
+    deep, least, most = sizes[0], *(max(round(width / relief.cell), 1) for width in sizes[1:])
+    for ways in _WAYS:
+        wall = [_distance_to_wall(relief, seen, way, most, deep) for way in ways]
+        pairs = [(wall[0], wall[1])]
+        if at_border:
+            border = [_distance_to_border(inside, way, most) for way in ways]
+            pairs = [(wall[0], border[1]), (border[0], wall[1])]
+        for a, b in pairs:
+            found |= (a + b - 1 >= least) & (a + b - 1 <= most) & (a <= most) & (b <= most)
+    return found & where & np.isfinite(seen)
+
+
+def _inside(relief: Relief) -> Cells:
+    box = relief.outline
+    across = (relief.u > box.low[0]) & (relief.u < box.high[0])
+    return across[:, None] & ((relief.v > box.low[2]) & (relief.v < box.high[2]))[None, :]
+
+
+def _distance_to_wall(relief: Relief, seen: Grid, way: Step, most: int, rise: float) -> Int[np.ndarray, "n m"]:
+    """Returns for each cell how many cells on a steep wall rises from its level; `most` + 1: none within reach."""
+    s = relief.factor
+    run = max(round(s * _STEEP / relief.cell), 1)
+    steep = seen - _shifted(seen, (run * way[0], run * way[1]), np.nan) >= rise
+    foot = np.where(steep, seen, np.nan)
+    distance = np.full(seen.shape, most + 1)
+    for k in range(most, -1, -1):
+        level = _shifted(foot, (k * way[0], k * way[1]), np.nan)
+        distance[np.abs(seen - level) <= s * _FLAT] = max(k, 1)
+    return distance
+
+
+def _distance_to_border(inside: Cells, way: Step, most: int) -> Int[np.ndarray, "n m"]:
+    """Returns for each cell how many cells on the outline ends; `most` + 1: farther."""
+    distance = np.full(inside.shape, most + 1)
+    grid = inside.astype(np.float64)
+    for k in range(most, 0, -1):
+        distance[_shifted(grid, (k * way[0], k * way[1]), 0.0) == 0.0] = k
+    return distance
+
+
+def find_ridges(relief: Relief, drop: float, wide: float, gap: float, where: Cells) -> Cells:
+    """Returns the foremost cells that fingers can pinch: thin along an axis, and free on both sides.
+
+    Free means that all lies `drop` metres lower for `gap` metres; `wide` is the most that lies between both sides.
+    """
+    seen = np.where(relief.face <= relief.first + 1e-6, relief.face, np.inf)
+    counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
+    for ways in _WAYS:
+        ends = [_distance_to_drop(relief.first, seen, way, counts, drop) for way in ways]
+        found |= ends[0] + ends[1] - 1 <= counts[0]
+    return found & where & np.isfinite(seen)
+
+
+def find_lips(relief: Relief, drop: float, wide: float, gap: float, where: Cells) -> Cells:
+    """Returns the cells of narrow ledges that stand out along the border of the outline; see `find_ridges`."""
+    inside = _inside(relief)
+    seen = np.where((relief.face <= relief.first + 1e-6) & inside, relief.face, np.inf)
+    beside = np.where(np.isfinite(seen), seen, -np.inf)
+    counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
+    for ways in _WAYS:
+        free = [_distance_to_drop(beside, seen, way, counts, drop) for way in ways]
+        border = [_distance_to_border(inside, way, counts[0]) for way in ways]
+        found |= (free[0] + border[1] - 1 <= counts[0]) | (border[0] + free[1] - 1 <= counts[0])
+    return found & where & np.isfinite(seen)
+
+
+def _counts(relief: Relief, wide: float, gap: float) -> tuple[int, int]:
+    return max(int(wide / relief.cell), 1), max(round(gap / relief.cell), 1)
+
+
+def _distance_to_drop(
+    first: Grid, seen: Grid, way: Step, counts: tuple[int, int], drop: float
+) -> Int[np.ndarray, "n m"]:
+    """Returns for each cell how many cells on all lies lower by `drop`, for some cells; one more than the most: not so.
+
+    `counts` are the most cells to look at, and how many must be free.
+    """
+    most, clear = counts
+    low = first
+    for k in range(1, clear):
+        low = np.minimum(low, _shifted(first, (k * way[0], k * way[1])))
+    distance = np.full(seen.shape, most + 1)
+    finite = np.where(np.isfinite(seen), seen, 0.0)
+    for k in range(most, 0, -1):
+        distance[_shifted(low, (k * way[0], k * way[1])) - finite >= drop] = k
+    return distance

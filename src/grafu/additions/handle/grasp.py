@@ -1,0 +1,112 @@
+"""How a door or drawer can be grasped as it is: by a handle, a recess, an edge, or not at all. It adds nothing."""
+
+from dataclasses import dataclass
+from typing import Literal, final
+
+import numpy as np
+
+from grafu.additions.handle.config import GraspConfig
+from grafu.additions.handle.grips import STANDS_OUT, grips_on
+from grafu.additions.handle.relief import Relief, Reliefs
+from grafu.asset.part import Part
+from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
+from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
+
+GraspKind = Literal["handle", "recess", "edge", "none"]
+
+_SMALL = 0.3  # of the front's two sides multiplied: an unlabelled part that is larger is no handle
+_SITS = 0.006  # metres: how far a handle that is not attached may be from the front that it sits on
+_NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
+_LABELLED, _UNLABELLED, _UNATTACHED = 1.0, 0.8, 0.6
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Grasp(ArrayValue):
+    """How a moving body can be grasped. `confidence` is in [0, 1]; of "none" it is 1.
+
+    `part` is the id of the handle (empty: it is geometry of the moving body itself), `center` the middle of the grip in
+    the object frame (None: there is none), `length` metres of it that fingers can use, and `why` says what was found.
+    """
+
+    moving: str
+    kind: GraspKind
+    confidence: float
+    why: str
+    center: Vec3 | None = None
+    length: float = 0.0
+    part: str = ""
+
+    def __post_init__(self) -> None:
+        if self.center is not None:
+            freeze_arrays(self, "center", dtype=np.float64)
+
+
+def find_grasp(
+    scene: Scene, moving_id: str, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None
+) -> Grasp:
+    """Returns how a moving body of the scene can be grasped at rest.
+
+    Handles come first; then what fingers can reach round, get into or pinch, wherever it opens the moving body: on
+    doors beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, if they exist already.
+
+    Raises:
+        KeyError: if the scene knows no such moving body, or not how it moves.
+    """
+    handle = held_by_label(scene, moving_id)
+    return handle or _without_label(scene, moving_id, (reliefs or Reliefs(scene)).of(moving_id), config)
+
+
+def find_grasps(scene: Scene, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None) -> dict[str, Grasp]:
+    """Returns the grasp of every moving body of the scene."""
+    reliefs = reliefs or Reliefs(scene)
+    return {moving: find_grasp(scene, moving, config, reliefs) for moving in scene.moving_bodies}
+
+
+def held_by_label(scene: Scene, moving_id: str) -> Grasp | None:
+    """Returns how a moving body is grasped by a part on it that is called a handle; None where there is none."""
+    members = (scene.parts[m] for m in scene.moving_bodies[moving_id].members if m != moving_id)
+    handle = next((part for part in members if part.label is PartLabel.HANDLE), None)
+    return None if handle is None else _held_by(handle, moving_id, _LABELLED, "a handle rides on it")
+
+
+def _without_label(scene: Scene, moving_id: str, relief: Relief, config: GraspConfig) -> Grasp:
+    """Returns how a moving body can be grasped on which no part rides that is called a handle."""
+    for member in scene.moving_bodies[moving_id].members:
+        part = scene.parts[member]
+        if member != moving_id and part.label in _NAMELESS and _sticks_out(part, relief):
+            return _held_by(part, moving_id, _UNLABELLED, "a small part sticks out of its front")
+    for part in scene.static_parts:
+        if part.label is PartLabel.HANDLE and _sits_on(part, relief):
+            return _held_by(part, moving_id, _UNATTACHED, "a handle sits on it that nothing attaches to it")
+    best = max(grips_on(relief, config), key=lambda g: (g.confidence, g.length), default=None)
+    if best is None:
+        return Grasp(moving_id, "none", 1.0, "no handle, and no edge, hollow or gap with room for fingers")
+    return Grasp(moving_id, best.kind, best.confidence, best.why, best.center, best.length)
+
+
+def _held_by(part: Part, moving_id: str, confidence: float, why: str) -> Grasp:
+    length = float(part.box.size.max())
+    return Grasp(moving_id, "handle", confidence, why, part.box.center, length, part.id)
+
+
+def _sticks_out(part: Part, relief: Relief) -> bool:
+    """Whether a part that rides on a moving body is small and stands out before its face."""
+    if not len(part.mesh.faces):
+        return False
+    box, front = relief.front.box_of(part.mesh.vertices), relief.front
+    small = float(box.size[0] * box.size[2]) < _SMALL * front.width * front.height
+    out = relief.factor * STANDS_OUT
+    return small and float(box.low[1]) <= relief.plane - out and float(box.size[1]) >= out
+
+
+def _sits_on(part: Part, relief: Relief) -> bool:
+    """Whether a part that moves with nothing sits on the face of a moving body."""
+    if not len(part.mesh.faces):
+        return False
+    box, outline = relief.front.box_of(part.mesh.vertices), relief.outline
+    u, _, v = box.center
+    within = outline.low[0] < u < outline.high[0] and outline.low[2] < v < outline.high[2]
+    near = relief.factor * _SITS
+    return bool(within and box.low[1] < relief.plane and box.high[1] > relief.plane - near)

@@ -1,0 +1,251 @@
+"""Grips that are geometry of a door or drawer itself: what stands out, holes, channels, notches, free edges.
+
+It weighs what `finger_room` finds and states the confidence of each; it knows no handle parts.
+
+Cells that lie together on a relief, and their extents.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal, final
+
+import numpy as np
+from jaxtyping import Int
+
+from grafu.additions.handle.config import GraspConfig
+from grafu.additions.handle.finger_room import (
+    STEPS,
+    Cells,
+    Step,
+    find_channels,
+    find_hollows,
+    find_hooks,
+    find_lips,
+    find_ridges,
+)
+from grafu.additions.handle.front import Side
+from grafu.additions.handle.relief import Relief
+from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays
+
+CellRows = Int[np.ndarray, "k 2"]
+
+_REACH = 2  # cells across which two count as together
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Cluster:
+    """Cells that lie together: their indices, and the row numbers that they had among those asked for."""
+
+    cells: CellRows
+    rows: Indices
+
+    def extent(self, relief: Relief, axis: int) -> float:
+        """Returns the metres that the cells span along u (0) or v (1)."""
+        return relief.cell * (float(np.ptp(self.cells[:, axis])) + 1.0)
+
+    def longest_run(self, relief: Relief, axis: int) -> float:
+        """Returns the metres of the longest gapless run of cells along u (0) or v (1), steps aside allowed."""
+        at = np.unique(self.cells[:, axis])
+        runs = np.split(at, np.flatnonzero(np.diff(at) > _REACH) + 1)
+        return relief.cell * max((float(run[-1] - run[0]) + 1.0 for run in runs), default=0.0)
+
+
+def clusters_of(cells: CellRows) -> list[Cluster]:
+    """Returns the groups of cells that lie within two cells of one another, largest first; cells may repeat."""
+    numbers: dict[tuple[int, int], list[int]] = {}
+    for row, (i, j) in enumerate(cells.tolist()):
+        numbers.setdefault((i, j), []).append(row)
+    left = set(numbers)
+    groups: list[list[tuple[int, int]]] = []
+    while left:
+        found = [left.pop()]
+        for i, j in found:
+            near = [(a, b) for a in range(i - _REACH, i + _REACH + 1) for b in range(j - _REACH, j + _REACH + 1)]
+            found.extend(cell for cell in near if cell in left)
+            left.difference_update(near)
+        groups.append(found)
+    return [_cluster(cells, numbers, group) for group in sorted(groups, key=len, reverse=True)]
+
+
+def _cluster(cells: CellRows, numbers: dict[tuple[int, int], list[int]], group: Sequence[tuple[int, int]]) -> Cluster:
+    rows = np.array(sorted(row for cell in group for row in numbers[cell]), dtype=np.int64)
+    return Cluster(cells[rows], rows)
+
+
+STANDS_OUT = 0.008  # metres before the front's plane from which on something is a grip of its own
+_SHORT = 0.6  # of a front's side: an edge as long as this is long enough, however small the front
+_LOCAL = 0.5  # of a front's side: what is longer is a profile, a moulding or a rebate, made for looks
+_SMALLEST_HOLE = 0.007  # metres: a drawn finger hole; screws and shelf pins are not modelled as holes
+_HELD = 0.02  # metres behind the front's plane where fingers hold what they look through
+_MOST_HOLES = 2  # of a front: more small holes are a lattice or louvres
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Grip(ArrayValue):
+    """Where and how fingers hold a front; `center` in the object frame, `length` in metres, `confidence` in [0, 1]."""
+
+    kind: Literal["recess", "edge"]
+    confidence: float
+    why: str
+    center: Vec3
+    length: float
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self, "center", dtype=np.float64)
+
+
+def grips_on(relief: Relief, config: GraspConfig) -> list[Grip]:
+    """Returns all grips on a front that can open it: on doors, those far enough from the hinge."""
+    where = _beyond_lever(relief, config)
+    return [*_hooked(relief, config, where), *_standing_out(relief, config, where), *_sunk(relief, config, where)]
+
+
+def _beyond_lever(relief: Relief, config: GraspConfig) -> Cells:
+    """Returns the cells where a pull opens the moving body: all of a drawer's, those far from the hinge of a door's."""
+    u, v = relief.u[:, None] / relief.front.width, relief.v[None, :] / relief.front.height
+    away = {"left": u, "right": 1 - u, "bottom": v, "top": 1 - v}.get(relief.front.hinge or "", np.ones((1, 1)))
+    return np.broadcast_to(away >= config.lever, relief.face.shape).copy()
+
+
+def _hooked(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
+    """Yields what fingers reach round."""
+    hooks = find_hooks(relief, config, where)
+    ways = np.repeat(np.arange(len(STEPS)), [len(h.cells) for h in hooks])
+    lips = np.concatenate([h.lip for h in hooks])
+    for cluster in clusters_of(np.vstack([h.cells for h in hooks])):
+        grip = _hook(relief, config, cluster, ways[cluster.rows], float(np.median(lips[cluster.rows])))
+        if grip is not None:
+            yield grip
+
+
+def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarray, lip: float) -> Grip | None:
+    s, center = relief.factor, _center(relief, cluster, lip)
+    runs = {int(way): _run_along(relief, cluster, ways == way, int(way)) for way in np.unique(ways)}
+    way, length = max(runs.items(), key=lambda item: item[1])
+    if lip < relief.plane - s * STANDS_OUT:
+        out = length + relief.cell >= s * config.knob
+        return Grip("edge", 0.95, "a grip of its own mesh stands out of it", center, length) if out else None
+    within = _share_within(relief, cluster)
+    narrow = min(cluster.extent(relief, 0), cluster.extent(relief, 1)) + relief.cell
+    if within > 0.9 and any(way ^ 1 in runs for way in runs) and narrow >= s * config.hole:
+        return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
+    if length < min(s * config.length, _SHORT * relief.front.width, _SHORT * relief.front.height):
+        return None
+    if within > 0.5 and not _open_to_border(relief, cluster.cells[ways == way], STEPS[way], lip + s * config.hollow):
+        return None  # behind slats or mouldings
+    if within > 0.5:
+        return Grip("recess", 0.85, "fingers reach round the edge of a cut-out", center, length)
+    return Grip(
+        "edge", _sureness(relief.front.held, STEPS[way]), "fingers reach round a free edge of it", center, length
+    )
+
+
+def _sureness(held: Side | None, step: Step) -> float:
+    """Returns the confidence that a free edge, reached round towards `step`, is what a front is opened at.
+
+    The edge that a door is held at and the upper edge of a drawer are; others serve where there is nothing else.
+    """
+    usual = {"left": (1, 0), "right": (-1, 0), "bottom": (0, 1), "top": (0, -1)}[held or "top"]
+    return 0.75 if step == usual else 0.6
+
+
+def _run_along(relief: Relief, cluster: Cluster, rows: np.ndarray, way: int) -> float:
+    side = Cluster(cluster.cells[rows], cluster.rows[rows])
+    return side.longest_run(relief, 1 if STEPS[way][0] else 0)
+
+
+def _standing_out(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
+    """Yields what fingers pinch, and lips along a border."""
+    s, front = relief.factor, relief.front
+    for cluster in _clusters(find_ridges(relief, s * config.stub, s * config.pinch, s * config.gap, where)):
+        depth, length = _depth(relief, cluster), _length(relief, cluster)
+        out = depth < relief.plane - s * STANDS_OUT
+        local = all(cluster.extent(relief, k) <= _LOCAL * (front.width, front.height)[k] for k in (0, 1))
+        if out and local and length + relief.cell >= s * config.knob:
+            yield Grip("edge", 0.9, "a grip of its own mesh stands out of it", _center(relief, cluster, depth), length)
+    for cluster in _clusters(find_ridges(relief, s * config.reach, s * config.pinch, s * config.gap, where)):
+        if (length := _length(relief, cluster)) >= s * config.length:
+            center = _center(relief, cluster, _depth(relief, cluster))
+            yield Grip("edge", 0.7, "it has a thin edge that is free on both sides", center, length)
+    for cluster in _clusters(find_lips(relief, s * config.stub, s * config.lip, s * config.gap, where)):
+        if (length := _length(relief, cluster)) >= s * config.length:
+            center = _center(relief, cluster, _depth(relief, cluster))
+            yield Grip("edge", 0.7, "a lip stands out along its border", center, length)
+
+
+def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
+    """Yields hollows, channels and notches that fingers do not reach round."""
+    s = relief.factor
+    widest, length = s * config.widest_hollow, s * config.length
+    small = []
+    for cluster in _clusters(find_hollows(relief, s * config.deep_hollow, s * _SMALLEST_HOLE, widest, where)):
+        u, v = cluster.extent(relief, 0), cluster.extent(relief, 1)
+        narrow, wide = min(u, v) + relief.cell, max(u, v)
+        center = _center(relief, cluster, _depth(relief, cluster))
+        if narrow >= s * config.hole and (wide >= length or wide <= widest):
+            yield Grip("recess", 0.8, "a hollow takes fingers", center, wide)
+        elif wide <= widest:
+            small.append(Grip("recess", 0.5, "a hole drawn for a finger", center, wide))
+    yield from small if len(small) <= _MOST_HOLES else ()
+    for cluster in _clusters(find_channels(relief, s * config.hollow, s * config.gap, widest, where)):
+        if (wide := _length(relief, cluster)) >= length:
+            yield Grip(
+                "recess", 0.7, "a channel takes fingers", _center(relief, cluster, _depth(relief, cluster)), wide
+            )
+    for cluster in _clusters(find_channels(relief, s * config.notch, s * _SMALLEST_HOLE, widest, where)):
+        u, v = cluster.extent(relief, 0), cluster.extent(relief, 1)
+        local = u <= _LOCAL * relief.front.width and v <= _LOCAL * relief.front.height
+        wide = max(u, v)
+        if local and 0.5 * length <= wide <= s * config.longest_notch and _meets_border(relief, cluster):
+            center = _center(relief, cluster, _depth(relief, cluster))
+            yield Grip("recess", 0.5, "a notch drawn for fingers", center, wide)
+
+
+def _clusters(cells: Cells) -> list[Cluster]:
+    return clusters_of(np.argwhere(cells))
+
+
+def _length(relief: Relief, cluster: Cluster) -> float:
+    return max(cluster.longest_run(relief, 0), cluster.longest_run(relief, 1))
+
+
+def _depth(relief: Relief, cluster: Cluster) -> float:
+    """Returns how deep a cluster lies, a finger's reach behind the front's plane at most."""
+    seen = relief.face[cluster.cells[:, 0], cluster.cells[:, 1]]
+    return float(np.median(np.minimum(seen, relief.plane + _HELD * relief.factor)))
+
+
+def _center(relief: Relief, cluster: Cluster, depth: float) -> Vec3:
+    i, j = cluster.cells.T
+    return relief.front.to_object(np.array([[relief.u[i].mean(), depth, relief.v[j].mean()]]))[0]
+
+
+def _open_to_border(relief: Relief, cells: np.ndarray, step: Step, depth: float) -> bool:
+    """Whether most cells see free space `depth` deep all the way to the outline's border, away from `step`."""
+    (i, j), box = np.array(step), relief.outline
+    free = relief.first >= depth
+    free |= ((relief.u < box.low[0]) | (relief.u > box.high[0]))[:, None]
+    free |= ((relief.v < box.low[2]) | (relief.v > box.high[2]))[None, :]
+    clear = []
+    for a, b in cells.tolist():
+        line = free[:, b] if i else free[a, :]
+        at, forwards = (a, i < 0) if i else (b, j < 0)
+        clear.append(bool(line[at:].all() if forwards else line[: at + 1].all()))
+    return float(np.mean(clear)) > 0.5
+
+
+def _meets_border(relief: Relief, cluster: Cluster) -> bool:
+    """Whether a cell of the cluster lies on the border of the front's outline."""
+    box, (i, j) = relief.outline, cluster.cells.T
+    u, v = relief.u[i], relief.v[j]
+    ends = np.minimum(np.minimum(u - box.low[0], box.high[0] - u), np.minimum(v - box.low[2], box.high[2] - v))
+    return bool((ends <= 1.2 * relief.cell).any())
+
+
+def _share_within(relief: Relief, cluster: Cluster) -> float:
+    """Returns the share of a cluster's cells that lie in the front's outline."""
+    box, (i, j) = relief.outline, cluster.cells.T
+    u, v = relief.u[i], relief.v[j]
+    return float(np.mean((u > box.low[0]) & (u < box.high[0]) & (v > box.low[2]) & (v < box.high[2])))

@@ -1,0 +1,217 @@
+"""Adds handles to doors and drawers that cannot be grasped: chosen, sized, set flush, clear through all motions.
+
+A handle that finds no place is refused with a reason from a closed list; nothing that can be grasped gets another one.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import final
+
+from grafu.additions.addition import Addition, added_part, free_ids
+from grafu.additions.handle.config import HandleConfig
+from grafu.additions.handle.fit import Shape, Surroundings, fitted, ground_of, surroundings_of
+from grafu.additions.handle.grasp import Grasp
+from grafu.additions.handle.relief import Relief, Reliefs
+from grafu.additions.handle.spots import Extent, Spot, spots_on
+from grafu.additions.handle.style import Sibling, Style, choose_style, named_template, siblings_of
+from grafu.additions.likeness import surface_like
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Mat4, Vec3
+from grafu.geometry.mesh import TriangleMesh
+from grafu.scene.scene import MovingBody, Scene
+from grafu.templates.template import HandleTemplate
+from grafu.vocabulary import PartLabel
+
+_LEAST = 0.012  # metres: a handle that is smaller is nothing to hold
+_SMALLER = (1.0, 0.65, 0.4)  # of the length: what is tried where a handle does not fit
+_FLATTER = (1.0, 0.7)  # of the protrusion: between a drawer and the door before it there is little room
+_SPARE = (("knob-round", 1.0, 1.0), ("bar-strip", 0.6, 0.75), ("knob-flat", 0.75, 0.7), ("cup-slim", 0.7, 0.8))
+_LOOKED_AT = 60  # spots for one size before the next size is tried
+_BLOCKED = 150  # places in which something was in the way, before a front is given up
+
+
+class NoHandle(StrEnum):
+    """Why a moving body gets no handle."""
+
+    TOO_SMALL = "too small"  # no handle fits the front, however small
+    NO_GROUND = "no ground"  # nowhere does the front offer a foot an even, solid surface
+    BLOCKED = "blocked"  # wherever it sits, something is in its way or it is in something's way
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A moving body that gets no handle, and why, in a word and in words."""
+
+    moving: str
+    reason: NoHandle
+    why: str
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Handles:
+    """The handles that were added, the moving bodies that got none, and the scene with the handles attached."""
+
+    additions: tuple[Addition, ...]
+    refused: tuple[Refused, ...]
+    scene: Scene
+
+
+def add_handles(
+    scene: Scene,
+    grasps: Mapping[str, Grasp],
+    config: HandleConfig = HandleConfig(),
+    hints: Mapping[str, Vec3] | None = None,
+    own: Mapping[str, HandleTemplate] | None = None,
+    reliefs: Reliefs | None = None,
+) -> Handles:
+    """Returns handles for the moving bodies of a scene that cannot be grasped.
+
+    Args:
+        scene: the final scene, with the motion of every moving body.
+        grasps: how each moving body can be grasped; those left out are not looked at.
+        config: style, sizes, places.
+        hints: by moving body, where a handle was predicted (object frame): taken where it is clear and sensible.
+        own: the user's handle templates by id, see `grafu.templates.user`.
+        reliefs: those of the scene, if they exist already.
+
+    Raises:
+        TemplateError: if the config names a style that there is not.
+    """
+    wanting = bodies_without(scene, grasps, config)
+    if not wanting:
+        return Handles((), (), scene)
+    siblings = siblings_of(scene)
+    reliefs = reliefs or Reliefs(scene)
+    style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.unit, config, own or {})
+    task = _Task(style, siblings, config, hints or {}, reliefs)
+    around = surroundings_of(scene)
+    additions: list[Addition] = []
+    refused: list[Refused] = []
+    for moving in wanting:
+        found = _handles_for(scene, moving, around, task)
+        if isinstance(found, Refused):
+            refused.append(found)
+            continue
+        additions += found
+        for addition in found:
+            around = around.with_handle(moving, addition.part.mesh)
+        scene = _with_parts(scene, moving, found)
+    return Handles(tuple(additions), tuple(refused), scene)
+
+
+def bodies_without(scene: Scene, grasps: Mapping[str, Grasp], config: HandleConfig = HandleConfig()) -> tuple[str, ...]:
+    """Returns the moving bodies that need a handle: without a grasp, or with only an edge while others have handles."""
+    shown = [g for moving, g in grasps.items() if moving in scene.moving_bodies]
+    has_handles = any(g.kind in ("handle", "none") for g in shown)
+    weak = {g.moving for g in shown if g.kind == "edge" and g.confidence < config.weak and has_handles}
+    return tuple(g.moving for g in shown if g.kind == "none" or g.moving in weak)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """What all handles of one model have in common."""
+
+    style: Style
+    siblings: tuple[Sibling, ...]
+    config: HandleConfig
+    hints: Mapping[str, Vec3]
+    reliefs: Reliefs
+
+
+def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refused:
+    """Returns the handle of one moving body, two on a wide drawer, or why there is none."""
+    relief = task.reliefs.of(moving)
+    ground = ground_of(scene, moving, relief)
+    met, tried, blocked = "", False, 0
+    for template, length, protrusion in _sizes(task.style, relief, task.config):
+        shape = Shape(template.build(length, protrusion))
+        spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(moving), task.config)
+        for spot in _few(spots):
+            tried = True
+            poses = [fitted(ground, shape, spot, place) for place in spot.places]
+            if any(pose is None for pose in poses):
+                continue
+            placed = [shape.mesh.transformed(pose) for pose in poses if pose is not None]
+            met = next((b for mesh in placed if (b := around.blocker(moving, mesh, task.config.poses))), "")
+            if not met:
+                kept = [pose for pose in poses if pose is not None]
+                return _additions(scene, moving, template, shape, kept, spot, task)
+            blocked += 1
+            if blocked >= _BLOCKED:
+                return _blocked(moving, met)
+    if not tried:
+        return Refused(moving, NoHandle.TOO_SMALL, "its front is smaller than the smallest handle")
+    if not met:
+        return Refused(moving, NoHandle.NO_GROUND, "its front has no even, solid place for a handle's foot")
+    return _blocked(moving, met)
+
+
+def _blocked(moving: str, met: str) -> Refused:
+    return Refused(moving, NoHandle.BLOCKED, f"wherever a handle sits, {met} is in the way")
+
+
+def _few(spots: Iterable[Spot]) -> Iterator[Spot]:
+    seen: set[tuple[object, ...]] = set()
+    for spot in spots:
+        key = (spot.above, tuple((round(u, 4), round(v, 4)) for u, v in spot.places))
+        if key in seen:
+            continue
+        if len(seen) >= _LOOKED_AT:
+            return
+        seen.add(key)
+        yield spot
+
+
+def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple[HandleTemplate, float, float]]:
+    """Yields templates with lengths and protrusions to try, metres, best first."""
+    s, box = relief.factor, relief.outline
+    held = relief.front.held
+    side = float(box.size[2] if held in ("left", "right") and style.template.turns else box.size[0])
+    most = config.most * side
+    seen = set()
+    for flat in _FLATTER:
+        for share in _SMALLER:
+            length = min(share * style.length, most)
+            scale = length / style.length if style.template.family == "knob" else 1.0
+            size = (style.template, length, flat * scale * style.protrusion)
+            if length >= s * _LEAST and size[1:] not in seen:
+                seen.add(size[1:])
+                yield size
+    for name, share, out in _SPARE:
+        template = named_template(name, {})
+        length = min(share * s * template.natural.length, most)
+        if length >= s * _LEAST:
+            yield template, length, out * s * template.natural.protrusion
+
+
+def _extent(template: HandleTemplate, shape: Shape) -> Extent:
+    size = shape.mesh.box.size
+    return Extent(float(size[0]), float(size[2]), template.turns, template.id == "bar-profile")
+
+
+def _additions(
+    scene: Scene, moving: str, template: HandleTemplate, shape: Shape, poses: list[Mat4], spot: Spot, task: _Task
+) -> tuple[Addition, ...]:
+    names = free_ids(f"handle_{moving}", len(poses), scene.parts)
+    found = []
+    for name, pose in zip(names, poses, strict=True):
+        surfaces = [_surface(mesh.transformed(pose), task.style) for mesh in shape.meshes]
+        part = added_part(name, PartLabel.HANDLE, surfaces, moving)
+        found.append(Addition(part, f"it could not be grasped: {spot.why}", template.id))
+    return tuple(found)
+
+
+def _surface(mesh: TriangleMesh, style: Style) -> Surface:
+    return surface_like(mesh, style.alike, style.finish)
+
+
+def _with_parts(scene: Scene, moving_id: str, added: Iterable[Addition]) -> Scene:
+    """Returns the scene in which a moving body carries some more parts."""
+    parts = [addition.part for addition in added]
+    moving = scene.moving_bodies[moving_id]
+    moving_bodies = {**scene.moving_bodies, moving_id: MovingBody(moving.id, (*moving.members, *(p.id for p in parts)))}
+    return replace(scene, parts={**scene.parts, **{p.id: p for p in parts}}, moving_bodies=moving_bodies)

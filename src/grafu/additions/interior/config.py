@@ -1,0 +1,89 @@
+"""What an interior is made of, and how small a compartment may be.
+
+Lengths are metres, held between shares of the object: so a model that is drawn ten times too large or too small gets
+panels in its own scale.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.joints.config import require_not_negative, require_positive
+
+
+@final
+@dataclass(frozen=True)
+class InteriorConfig:
+    """The sizes of panels, and of compartments worth furnishing.
+
+    Raises:
+        ValueError: if a length is not positive, or a share is not in 0..1.
+    """
+
+    thickness: float = 0.018
+    """Of shelves and dividers; the commonest board, and the authors' (official.md 7.7)."""
+    inset: float = 0.02
+    """From the front of the compartment (the inner face of its doors): room for what doors carry inside."""
+    deepest_inset: float = 0.4
+    """Share of a compartment's depth up to which a panel is set back to clear a door's swing or a hinge."""
+    least_side: float = 0.1
+    """Smallest width, height and depth of a compartment worth furnishing; smaller holds nothing that needs a shelf."""
+    least_pitch: float = 0.09
+    """Smallest clear distance between two panels: a flat hand and a stack of plates."""
+    shelf_pitch: float = 0.34
+    """Clear height that `auto` aims at between shelves; real ones stand 0.25 to 0.4 apart."""
+    divider_pitch: float = 0.55
+    """Clear width that `auto` aims at between dividers in low, wide compartments."""
+    hanging_height: float = 1.05
+    """Free height that shirts on hangers need; wardrobes keep it."""
+    most_panels: int = 8
+    """Most panels that `auto` puts into one compartment."""
+    touch: float = 0.0015
+    """Farthest that a wall may lie from a panel's edge and still carry it."""
+    carried: float = 0.35
+    """Share of each half of a panel's end that must touch the wall: pins at front and back hold a shelf."""
+    wall_share: float = 0.5
+    """Share of a compartment's side that must be wall (rails and posts of open frames are less)."""
+    cells: int = 110
+    """Cells along the object's longest side in which compartments are looked for."""
+
+    def __post_init__(self) -> None:
+        lengths = ("thickness", "least_side", "least_pitch", "shelf_pitch", "divider_pitch", "hanging_height", "touch")
+        require_positive(self, *lengths, "most_panels", "cells")
+        require_not_negative(self, "inset")
+        for name in ("deepest_inset", "carried", "wall_share"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise ValueError(f"`InteriorConfig.{name}` must be in 0..1: got {getattr(self, name)}")
+
+    def sizes(self, unit: float) -> "Sizes":
+        """Returns the lengths for an object whose largest side is `unit` metres."""
+        return Sizes(
+            thickness=_held(self.thickness, unit, 0.006, 0.03),
+            inset=_held(self.inset, unit, 0.008, 0.03),
+            least_side=_held(self.least_side, unit, 0.04, 0.12),
+            least_pitch=_held(self.least_pitch, unit, 0.03, 0.12),
+            shelf_pitch=_held(self.shelf_pitch, unit, 0.12, 0.42),
+            divider_pitch=_held(self.divider_pitch, unit, 0.2, 0.5),
+            hanging_height=_held(self.hanging_height, unit, 0.4, 1.2),
+            touch=_held(self.touch, unit, 0.0008, 0.002),
+            cell=unit / self.cells,
+        )
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """The lengths of `InteriorConfig` in metres for one object; `cell` is the side of a cell."""
+
+    thickness: float
+    inset: float
+    least_side: float
+    least_pitch: float
+    shelf_pitch: float
+    divider_pitch: float
+    hanging_height: float
+    touch: float
+    cell: float
+
+
+def _held(metres: float, unit: float, least: float, most: float) -> float:
+    return min(max(metres, least * unit), most * unit)

@@ -1,0 +1,294 @@
+"""`furnish`: shelves and dividers for compartments, each cut to its walls and proved free of everything that moves.
+
+A panel that finds no place is refused with the reason; what stands is never changed. It finds no compartments.
+"""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.additions.addition import Addition, added_part, free_ids
+from grafu.additions.interior.arrangement import (
+    Arrangement,
+    by_size,
+    most_that_fit,
+    placed_hints,
+    rowed,
+    shared_out,
+    spaced,
+    stacked,
+)
+from grafu.additions.interior.compartments import Compartment
+from grafu.additions.interior.config import InteriorConfig, Sizes
+from grafu.additions.interior.occupied import is_drawer
+from grafu.additions.interior.panels import BEYOND, Clearing, Place, Walls, clearing_of, cut_panel, moved_to
+from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest, PanelHint
+from grafu.additions.likeness import surface_like
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
+
+_NUDGES = (0.0, 0.12, -0.12, 0.25, -0.25)  # of the space to the next panel: out of the way of a hinge
+_INSETS = 5  # depths at which a panel is tried
+
+
+@final
+@dataclass(frozen=True)
+class RefusedInterior:
+    """Something that was asked for and not built: the compartment's number (None: the whole object), and why."""
+
+    compartment: int | None
+    label: PartLabel | None
+    why: str
+
+
+@final
+@dataclass(frozen=True)
+class Furnished:
+    """The panels that were added, and what was not, and why."""
+
+    additions: tuple[Addition, ...] = ()
+    refused: tuple[RefusedInterior, ...] = ()
+
+
+@final
+@dataclass(frozen=True)
+class _Panel:
+    compartment: int
+    label: PartLabel
+    mesh: TriangleMesh
+    place: Place
+
+
+def furnish(
+    compartments: Sequence[Compartment],
+    request: InteriorRequest,
+    scene: Scene,
+    config: InteriorConfig = InteriorConfig(),
+    hints: Sequence[PanelHint] = (),
+    chosen: Mapping[int, CompartmentChoice] = NO_CHOICES,
+) -> Furnished:
+    """Returns shelves and dividers for the compartments of a scene whose joints are built.
+
+    `hints` are what the completed graph expects; only `predicted` requests use them. `chosen` holds by number (from 0)
+    the compartments that get something of their own instead.
+    """
+    if request.kind is InteriorKind.NONE and not chosen:
+        return Furnished()
+    if not compartments:
+        return Furnished((), (RefusedInterior(None, None, why_inapplicable(scene)),))
+    sizes = config.sizes(scene.unit)
+    wanted, refused = _arranged(compartments, request, sizes, config, hints)
+    wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
+    beyond = [k for k in chosen if k >= len(compartments)]
+    refused += [RefusedInterior(k, None, f"there is no such compartment, only {len(compartments)}") for k in beyond]
+    chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
+    if all(arrangement == Arrangement() for arrangement in wanted):
+        return Furnished((), tuple(refused))
+    clearing, walls = clearing_of(scene), _walls(compartments, scene, sizes)
+    panels: list[_Panel] = []
+    for number, arrangement in enumerate(wanted):
+        own = _own_sizes(chosen.get(number), sizes)
+        maker = _Maker(number, compartments[number], walls, clearing, own, config)
+        for outcome in maker.panels(arrangement):
+            if isinstance(outcome, _Panel):
+                panels.append(outcome)
+            else:
+                refused.append(outcome)
+    refused += _fewer_than_chosen(panels, chosen, {(one.compartment, one.label) for one in refused})
+    return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+
+
+def _fewer_than_chosen(
+    panels: Sequence[_Panel],
+    chosen: Mapping[int, CompartmentChoice],
+    told: Collection[tuple[int | None, PartLabel | None]],
+) -> list[RefusedInterior]:
+    """Returns the compartments that took fewer panels than were chosen for them, unless that was told."""
+    found = []
+    for number, choice in chosen.items():
+        made = {label: sum(p.compartment == number and p.label is label for p in panels) for label in PartLabel}
+        cells = made[PartLabel.DIVIDER] + 1
+        wanted = {PartLabel.DIVIDER: choice.dividers, PartLabel.SHELF: choice.shelves * cells}
+        found += [
+            RefusedInterior(number, label, f"there is room for {made[label]} only")
+            for label, count in wanted.items()
+            if made[label] < count and (number, label) not in told
+        ]
+    return found
+
+
+def _own(choice: CompartmentChoice | None, arrangement: Arrangement) -> Arrangement:
+    return arrangement if choice is None else Arrangement(choice.shelves, choice.dividers)
+
+
+def _own_sizes(choice: CompartmentChoice | None, sizes: Sizes) -> Sizes:
+    if choice is None:
+        return sizes
+    thickness = sizes.thickness if choice.thickness is None else choice.thickness
+    return replace(sizes, thickness=thickness, inset=sizes.inset if choice.inset is None else choice.inset)
+
+
+def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> Walls:
+    """Returns the still meshes in and around some compartments."""
+    whole = Box.enclosing(compartment.box for compartment in compartments)
+    return Walls((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
+
+
+def why_inapplicable(scene: Scene) -> str:
+    """Returns why a scene without compartments has none, in words."""
+    if any(is_drawer(scene, moving) for moving in scene.moving_bodies.values()):
+        return "no compartment: drawers take all the room between walls"
+    return "no compartment: no room large enough lies between walls"
+
+
+def _arranged(
+    compartments: Sequence[Compartment],
+    request: InteriorRequest,
+    sizes: Sizes,
+    config: InteriorConfig,
+    hints: Sequence[PanelHint],
+) -> tuple[list[Arrangement], list[RefusedInterior]]:
+    """Returns what each compartment is to get, and what none can."""
+    if request.kind is InteriorKind.NONE:
+        return [Arrangement()] * len(compartments), []
+    if request.kind is InteriorKind.AUTO:
+        return [by_size(compartment, sizes, config.most_panels) for compartment in compartments], []
+    if request.kind is InteriorKind.PREDICTED:
+        placed, lost = placed_hints(compartments, hints, sizes)
+        return placed, [RefusedInterior(None, hint.label, f"`{hint.id}` {why}") for hint, why in lost]
+    return _counted(compartments, request, sizes)
+
+
+def _counted(
+    compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes
+) -> tuple[list[Arrangement], list[RefusedInterior]]:
+    refused: list[RefusedInterior] = []
+    shelves, dividers = [0] * len(compartments), [0] * len(compartments)
+    for label, groups, counts, wanted in (
+        (PartLabel.SHELF, stacked(compartments, sizes), shelves, request.shelves),
+        (PartLabel.DIVIDER, rowed(compartments, sizes), dividers, request.dividers),
+    ):
+        for group in groups:
+            able = [k for k in group if label is PartLabel.DIVIDER or not compartments[k].is_chest]
+            if not able and wanted:
+                refused.append(RefusedInterior(group[0], label, "a chest that opens upwards takes no shelves"))
+                continue
+            axes = [2 if label is PartLabel.SHELF else compartments[k].side_axis for k in able]
+            lengths = [float(compartments[k].box.size[a]) for k, a in zip(able, axes, strict=True)]
+            given = shared_out(lengths, len(able) - 1, wanted, sizes.thickness, sizes.least_pitch)
+            for k, count in zip(able, given, strict=True):
+                counts[k] = count
+            if able and sum(given) < wanted - (len(able) - 1):
+                why = f"there is room for {sum(given) + len(able) - 1} only, with {sizes.least_pitch:.2f} m between"
+                refused.append(RefusedInterior(able[0], label, why))
+    return [Arrangement(s, d) for s, d in zip(shelves, dividers, strict=True)], refused
+
+
+@final
+class _Maker:
+    """Cuts the panels of one compartment, one after another; not a value."""
+
+    def __init__(
+        self,
+        number: int,
+        compartment: Compartment,
+        walls: Walls,
+        clearing: Clearing,
+        sizes: Sizes,
+        config: InteriorConfig,
+    ) -> None:
+        self._number = number
+        self._whole = compartment
+        self._clearing = clearing
+        self._sizes = sizes
+        self._config = config
+        self._walls = walls
+
+    def panels(self, wanted: Arrangement) -> Iterator[_Panel | RefusedInterior]:
+        """Yields the dividers, then the shelves between them, or why one is missing."""
+        dividers = []
+        for outcome in self._row(self._whole, PartLabel.DIVIDER, wanted.dividers, wanted.divider_at):
+            if isinstance(outcome, _Panel):
+                dividers.append(outcome)
+            yield outcome
+        for panel in dividers:
+            self._walls = self._walls.and_also(panel.mesh)
+        for cell in _between(self._whole, [panel.mesh.box for panel in dividers]):
+            yield from self._row(cell, PartLabel.SHELF, wanted.shelves, wanted.shelf_at)
+
+    def _row(
+        self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float]
+    ) -> Iterator[_Panel | RefusedInterior]:
+        """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
+        if not (count or at):
+            return
+        axis = Place(compartment, label, 0.0, 0.0).stack
+        low, high = float(compartment.box.low[axis]), float(compartment.box.high[axis])
+        count = min(count, most_that_fit(high - low, self._sizes.thickness, self._sizes.least_pitch))
+        middles = list(at) or spaced(low, high, count, self._sizes.thickness)
+        room = min(np.diff([low, *middles, high])) if middles else 0.0
+        for middle in middles:
+            made = self._tried(Place(compartment, label, middle, self._sizes.inset), float(room))
+            if isinstance(made, str):
+                yield RefusedInterior(self._number, label, made)
+            else:
+                self._clearing.add(f"{label.value}", made.mesh)
+                yield made
+
+    def _tried(self, place: Place, room: float) -> _Panel | str:
+        """Returns the panel at the place or near it, or why there is none near it."""
+        depth = float(place.compartment.box.size[place.compartment.depth_axis])
+        deepest = max(self._config.deepest_inset * depth, self._sizes.inset)
+        first = ""
+        for inset in np.linspace(self._sizes.inset, deepest, _INSETS):
+            for nudge in _NUDGES:
+                tried = moved_to(place, place.at + nudge * room, float(inset))
+                mesh = cut_panel(tried, self._walls, self._sizes, self._config)
+                if isinstance(mesh, str):
+                    first = first or mesh
+                    continue
+                blocker = self._clearing.blocker(mesh)
+                if not blocker:
+                    return _Panel(self._number, place.label, mesh, tried)
+                first = first or f"`{blocker}` is in its way"
+        return first
+
+
+def _between(compartment: Compartment, dividers: list[Box]) -> list[Compartment]:
+    """Returns the parts of a compartment that dividers leave (the whole, without any)."""
+    axis = compartment.side_axis
+    found = []
+    low = compartment.box.low.copy()
+    for divider in sorted(dividers, key=lambda box: float(box.low[axis])):
+        high = compartment.box.high.copy()
+        high[axis] = divider.low[axis]
+        found.append(replace(compartment, box=Box(low, high)))
+        low = low.copy()
+        low[axis] = divider.high[axis]
+    return [*found, replace(compartment, box=Box(low, compartment.box.high))]
+
+
+def _additions(
+    panels: list[_Panel], compartments: Sequence[Compartment], request: InteriorRequest, scene: Scene
+) -> tuple[Addition, ...]:
+    """Returns the panels as parts with ids of their own that look like the walls around them."""
+    found: list[Addition] = []
+    for label in (PartLabel.SHELF, PartLabel.DIVIDER):
+        own = [panel for panel in panels if panel.label is label]
+        for name, panel in zip(free_ids(label.value, len(own), scene.parts), own, strict=True):
+            compartment = compartments[panel.compartment]
+            walls = [scene.parts[wall] for wall in dict.fromkeys(w for face in compartment.walls for w in face)]
+            part = added_part(name, label, [surface_like(panel.mesh, walls)])
+            found.append(Addition(part, _why(compartment, request), f"panel {panel.label.value}"))
+    return tuple(found)
+
+
+def _why(compartment: Compartment, request: InteriorRequest) -> str:
+    width, depth, height = compartment.box.size
+    where = f"behind {', '.join(compartment.behind)}" if compartment.behind else "open in front"
+    return f"interior {request}: a compartment of {width:.2f} x {depth:.2f} x {height:.2f} m, {where}"

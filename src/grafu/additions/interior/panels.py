@@ -1,0 +1,236 @@
+"""One shelf or divider cut to a compartment: its edges lie where rays meet the walls.
+
+A panel is a prism. Its ends follow walls that are straight, also where they run askew; other walls carry no panel.
+
+Whether a panel stands free: at rest of all parts and hardware, and of everything that moves along its whole path.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from grafu.additions.interior.compartments import Compartment
+from grafu.additions.interior.config import InteriorConfig, Sizes
+from grafu.geometry.arrays import Points, Scalars, Vec3
+from grafu.geometry.box import Box
+from grafu.geometry.free_space import SomePoints
+from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.joints.config import RealizationConfig
+from grafu.joints.limits import in_the_way, opening_values, pose_function, swept_box
+from grafu.scene.border import part_axes
+from grafu.scene.scene import Obstacle, Scene
+from grafu.vocabulary import PartLabel
+
+_POSES = 41
+
+
+@final
+class Clearing:
+    """A scene prepared for trying panels in it; not a value."""
+
+    def __init__(self, scene: Scene, depth: float) -> None:
+        self._scene = scene
+        self._depth = depth
+        self._panels: list[Obstacle] = []
+
+    def add(self, name: str, mesh: TriangleMesh) -> None:
+        """Makes a panel stand in the way of those that follow."""
+        self._panels.append(Obstacle(name, MeshCollider(mesh)))
+
+    def blocker(self, mesh: TriangleMesh) -> str:
+        """Returns the id of something that a panel would cut into or stop along its path; empty: it stands free."""
+        for other in self._panels:  # alike and in one place, two panels would not cut each other's surface
+            if (mesh.box.axis_gaps(other.collider.box) < -self._depth).all():
+                return other.id
+        body = SweptBody(mesh, self._depth)
+        body.place(np.eye(4))
+        still = [*self._scene.static_obstacles, *self._panels, *self._hardware, *self._at_rest]
+        near = in_the_way(still, mesh.box)
+        met = body.penetrated([obstacle.collider for obstacle in near])
+        if met:
+            return near[met[0]].id
+        panel = MeshCollider(mesh)
+        return next((moving for moving in self._scene.joint_motions if self._stops(panel, body, moving)), "")
+
+    @cached_property
+    def _hardware(self) -> list[Obstacle]:
+        return [Obstacle(v.name, MeshCollider(v.mesh)) for _, v in self._scene.hardware if len(v.mesh.faces)]
+
+    @cached_property
+    def _at_rest(self) -> list[Obstacle]:
+        return [Obstacle(moving, MeshCollider(self._scene.moving_mesh(moving))) for moving in self._scene.moving_bodies]
+
+    def _stops(self, panel: MeshCollider, body: SweptBody, moving: str) -> bool:
+        """Whether a panel stands in the way of a moving body or of the hardware that it carries."""
+        joint_motion = self._scene.joint_motions[moving]
+        motion = pose_function(joint_motion.axis, joint_motion.type)
+        values = opening_values(joint_motion.upper, _POSES)
+        mesh = self._scene.moving_mesh(moving)
+        if swept_box(mesh.box, motion, joint_motion.upper).overlaps(panel.box):
+            swept = self._scene.swept_body(moving, self._depth, part_axes(self._scene.parts[moving].mesh))
+            for value in values:
+                swept.place(motion(value))
+                if swept.penetrates(panel):
+                    return True
+        for visual in self._scene.hardware_of(moving):
+            if not swept_box(visual.mesh.box, motion, joint_motion.upper).overlaps(panel.box):
+                continue
+            collider = MeshCollider(visual.mesh)
+            for value in values:
+                collider.place(motion(value))
+                if body.penetrates(collider):
+                    return True
+        return False
+
+
+def clearing_of(scene: Scene) -> Clearing:
+    """Returns the scene prepared, with the depth of realization's own sweeps."""
+    return Clearing(scene, RealizationConfig().depth * scene.unit)
+
+
+_ALONG = 16  # rays along an edge
+_BACK = 0.3  # share of the rays towards the back that make it a wall
+BEYOND = (
+    12.0  # cells beyond a compartment's side at which its wall may be met: brackets stand before it, or it is askew
+)
+_LEVELS = (-0.98, 0.0, 0.98)  # of half a panel's thickness, at which its edges are looked for
+
+
+@final
+@dataclass(frozen=True)
+class Place:
+    """Where a panel is to be.
+
+    `at` is its middle along the axis that panels are stacked on, `inset` how far its front edge stands back from the
+    opening, metres.
+    """
+
+    compartment: Compartment
+    label: PartLabel
+    at: float
+    inset: float
+
+    @property
+    def stack(self) -> int:
+        """The axis across the panel."""
+        return 2 if self.label is PartLabel.SHELF else self.compartment.side_axis
+
+    @property
+    def reach(self) -> int:
+        """The axis along which the panel spans from wall to wall."""
+        return 3 - self.stack - self.compartment.depth_axis
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Walls:
+    """The meshes that panels may rest on, prepared for rays; not a value."""
+
+    casters: tuple[RayCaster, ...]
+
+    def along(self, origins: Points, direction: Vec3) -> Scalars:
+        """Returns the distances of many origins along one unit direction to the first face hit; infinity: none."""
+        nearest = [caster.along(origins, direction) for caster in self.casters]
+        return np.minimum.reduce(nearest)
+
+    def and_also(self, mesh: TriangleMesh) -> "Walls":
+        """Returns these walls and one more mesh."""
+        return Walls((*self.casters, RayCaster(mesh)))
+
+
+def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | str:
+    """Returns a panel that touches the walls at both ends, or why there is none. `walls` are the still meshes."""
+    box, depth = place.compartment.box, place.compartment.depth_axis
+    inward = -1.0 if place.compartment.opening % 2 else 1.0
+    front = float(box.high[depth] if inward < 0 else box.low[depth]) + inward * place.inset
+    back = _back(place, walls, sizes, inward)
+    if inward * (back - front) < sizes.least_side / 2:
+        return "it is too shallow"
+    margin = 0.02 * abs(back - front)
+    along = np.linspace(front + inward * margin, back - inward * margin, _ALONG)
+    ends = []
+    for sense in (-1.0, 1.0):
+        found = _distances(place, walls, sizes, along, sense)
+        edge = _edge(along, found, sizes, config)
+        if edge is None:
+            return "its walls are open or uneven there" if np.isfinite(found).any() else "it has no wall to rest on"
+        middle = float(box.center[place.reach])
+        at_front, at_back = (middle + sense * float(np.polyval(edge, end)) for end in (front, back))
+        ends.append((at_front, at_back))
+    return _prism(place, sizes.thickness, (front, back), ends[0], ends[1])
+
+
+def _back(place: Place, walls: Walls, sizes: Sizes, inward: float) -> float:
+    """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
+    box, depth = place.compartment.box, place.compartment.depth_axis
+    end = float(box.low[depth] if inward < 0 else box.high[depth])
+    across = box.center[place.reach] + box.half[place.reach] * np.linspace(-0.96, 0.96, _ALONG)
+    origins = _origins(place, sizes.thickness, place.reach, across)
+    direction = np.zeros(3)
+    direction[depth] = inward
+    found = walls.along(origins, direction)
+    hit = found <= abs(end - origins[0, depth]) + BEYOND * sizes.cell
+    if hit.mean() < _BACK:
+        return end
+    return float(origins[0, depth] + inward * found[hit].min())
+
+
+def _distances(place: Place, walls: Walls, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
+    """Returns how far the wall is from the compartment's middle along a panel's end; infinity where there is none."""
+    origins = _origins(place, sizes.thickness, place.compartment.depth_axis, along)
+    direction = np.zeros(3)
+    direction[place.reach] = sense
+    found = walls.along(origins, direction).reshape(len(along), len(_LEVELS)).min(axis=1)
+    limit = place.compartment.box.half[place.reach] + BEYOND * sizes.cell
+    return np.where(found <= limit, found, np.inf)
+
+
+def _origins(place: Place, thickness: float, axis: int, values: Scalars) -> SomePoints:
+    """Returns points in the middle of a compartment at a panel's levels, spread over values along an axis."""
+    levels = place.at + thickness / 2 * np.array(_LEVELS)
+    grid = np.stack(np.meshgrid(values, levels, indexing="ij"), axis=-1).reshape(-1, 2)
+    points = np.tile(place.compartment.box.center, (len(grid), 1))
+    points[:, axis], points[:, place.stack] = grid[:, 0], grid[:, 1]
+    return points
+
+
+def _edge(along: Scalars, found: Scalars, sizes: Sizes, config: InteriorConfig) -> tuple[float, float] | None:
+    """Returns the straight edge (as of `polyval`) that touches a wall at front and back and is never beyond it."""
+    met = np.isfinite(found)
+    if met.sum() < 2:
+        return None
+    slope = float(np.polyfit(along[met], found[met], 1)[0])
+    for tilt in (0.0, slope):
+        edge = tilt, float((found[met] - tilt * along[met]).min())
+        close = met & (found - np.polyval(edge, along) <= sizes.touch)
+        half = len(along) // 2
+        if min(close[:half].mean(), close[half:].mean()) >= config.carried:
+            return edge
+    return None
+
+
+def _prism(
+    place: Place, thickness: float, depth: tuple[float, float], low: tuple[float, float], high: tuple[float, float]
+) -> TriangleMesh:
+    """Returns the closed panel; `low` and `high` are its ends at the front and at the back edge (`depth`)."""
+    reach, axis = place.reach, place.compartment.depth_axis
+    corner = np.zeros((2, 3))
+    corner[:, axis] = sorted(depth)
+    corner[:, place.stack] = place.at - thickness / 2, place.at + thickness / 2
+    corner[:, reach] = 0.0, 1.0
+    mesh = TriangleMesh.box_mesh(Box(corner[0], corner[1]))
+    vertices = mesh.vertices.copy()
+    at_back = np.abs(vertices[:, axis] - depth[1]) < np.abs(vertices[:, axis] - depth[0])
+    is_high = vertices[:, reach] > 0.5
+    ends = np.array([[low[0], low[1]], [high[0], high[1]]])
+    vertices[:, reach] = ends[is_high.astype(int), at_back.astype(int)]
+    return TriangleMesh(vertices, mesh.faces)
+
+
+def moved_to(place: Place, at: float, inset: float) -> Place:
+    """Returns the same panel at another place along its stack, set back by another inset."""
+    return replace(place, at=at, inset=inset)

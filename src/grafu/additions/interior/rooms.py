@@ -1,0 +1,186 @@
+"""Disjoint boxes of free cells that lie between walls: where compartments may be, to the cell.
+
+Of all maximal empty boxes the largest that has a wall on both sides is taken, then the largest of what is left: so a
+vase in a cabinet does not cost it the room above the vase. What is left in front of a vase, open to a room that was
+taken, is no room of its own.
+
+Which free cells lie inside storage furniture, by what closes them along the six directions.
+
+A cell is inside when walls stand on both sides, and what is below and above closes it as far as its kind of opening
+needs. So the space under a table is not inside (no floor, no door), nor that between legs (no walls).
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple, final
+
+import numpy as np
+
+from grafu.additions.interior.config import Sizes
+from grafu.additions.interior.occupied import Taken
+from grafu.geometry.box import Box
+from grafu.geometry.free_space import Bounds, Grid, OneBox, cell_boxes, maximal_empty_boxes, without
+
+# Faces as in `Box.face_center`: -X, +X, -Y, +Y, -Z, +Z.
+FRONTS = (2, 3, 0, 1)  # openings that shelves and dividers may face, the usual one first
+LID = 5
+
+
+class _Closed(NamedTuple):
+    """For each of the six directions the cells from which something is met that way."""
+
+    still: tuple[Grid, ...]
+    moving: tuple[Grid, ...]
+
+
+def enclosed_cells(taken: Taken) -> dict[str, Grid]:
+    """Returns the cells inside furniture that opens upwards under a lid, along y, and along x."""
+    still = tuple(_met(taken.walls, face) for face in range(6))
+    if not taken.doors.any():  # nothing but a door opens a lid or a side
+        return {"y": taken.free & _opens_along(_Closed(still, (taken.doors,) * 6), 1)}
+    moving = tuple(_met(taken.doors, face) for face in range(6))
+    closed = _Closed(still, moving)
+    return {
+        "z": taken.free & _opens_up(closed),
+        "y": taken.free & _opens_along(closed, 1),
+        "x": taken.free & _opens_along(closed, 0),
+    }
+
+
+def _opens_along(closed: _Closed, axis: int) -> Grid:
+    """Returns the cells with walls to both sides of an opening along a level axis, and closed below and above.
+
+    Either floor or ceiling may be missing where there is a wall behind and something in front: then it is a cabinet
+    that lacks its top or bottom.
+    """
+    side, front, back = 2 * (1 - axis), 2 * axis, 2 * axis + 1
+    between = closed.still[side] & closed.still[side + 1]
+    below, above = closed.still[4], closed.still[5]
+    fronted = _backed(closed, front, back) | _backed(closed, back, front)
+    if axis == 0:  # nothing but a door makes a side of furniture its front
+        between = between & (closed.moving[front] | closed.moving[back])
+    return between & ((below & above) | ((below | above) & fronted))
+
+
+def _backed(closed: _Closed, front: int, back: int) -> Grid:
+    return closed.still[back] & (closed.moving[front] | closed.still[front])
+
+
+def _opens_up(closed: _Closed) -> Grid:
+    around = closed.still[0] & closed.still[1] & closed.still[2] & closed.still[3]
+    return around & closed.still[4] & closed.moving[LID]
+
+
+def _met(cells: Grid, face: int) -> Grid:
+    """Returns the cells from which some cell is met in the direction of a face."""
+    axis, is_high = divmod(face, 2)
+    ordered = np.flip(cells, axis) if is_high else cells
+    met = np.logical_or.accumulate(ordered, axis=axis)
+    return np.flip(met, axis) if is_high else met
+
+
+def opened(cells: Grid, least: tuple[int, int, int]) -> Grid:
+    """Returns the cells that some box of `least` cells holds, all of it true: slits and corners go."""
+    low = cells
+    for axis, length in enumerate(least):
+        low = _windows(low, axis, length) == length
+    for axis, length in enumerate(least):
+        pad = [(0, 0)] * 3
+        pad[axis] = (length - 1, length - 1)
+        low = _windows(np.pad(low, pad), axis, length) > 0
+    return low
+
+
+def _windows(cells: Grid, axis: int, length: int) -> np.ndarray:
+    """Returns how many of each `length` cells in a row along an axis are true, by the first of them."""
+    pad = [(0, 0)] * 3
+    pad[axis] = (1, 0)
+    total = np.pad(np.cumsum(cells, axis=axis, dtype=np.int32), pad)
+    count = max(cells.shape[axis] - length + 1, 0)
+    later = np.take(total, np.arange(length, length + count), axis=axis) if count else total.take([], axis=axis)
+    return later - np.take(total, np.arange(count), axis=axis)
+
+
+_NEAR = 10  # cells beyond a side within which its wall must be: brackets stand before it, or it runs askew
+_WALLED = 0.4  # of a side: less than what rays ask for later, since cells see less
+_OPEN = 0.5  # of a face open to a room that was taken: no room of its own
+_SIDES = {"z": (0, 1), "y": (0,), "x": (1,)}  # the axes along which walls must stand on both sides
+
+_FRONTS = {"z": ((2, True),), "y": ((1, False), (1, True)), "x": ((0, False), (0, True))}
+_CLOSED = 0.65  # of a face that walls cover for it to be no opening
+
+
+@final
+@dataclass
+class _Search:
+    """What is taken, and the cells of the rooms found so far; it changes as rooms are found."""
+
+    taken: Taken
+    steps: int
+    used: Grid = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.used = np.zeros_like(self.taken.still)
+
+
+def find_rooms(taken: Taken, sizes: Sizes) -> list[tuple[str, Box]]:
+    """Returns disjoint boxes of enclosed free cells (metres), each with the axis along which it opens."""
+    search = _Search(taken, max(int(sizes.least_side / sizes.cell), 2))
+    found: list[tuple[str, Box]] = []
+    for opens, cells in enclosed_cells(taken).items():
+        for box in _rooms_in(cells & ~search.used, opens, search):
+            low, high = taken.origin + box * taken.cell
+            found.append((opens, Box(low, high)))
+    return found
+
+
+def _rooms_in(cells: Grid, opens: str, search: _Search) -> Iterator[OneBox]:
+    """Yields boxes of cells, no side shorter than the least, one connected space after the other."""
+    if not cells.any():
+        return
+    from scipy.ndimage import find_objects, label  # local: most commands need no interiors
+
+    least = np.full(3, float(search.steps))
+    names, _ = label(opened(cells, (search.steps,) * 3))
+    for number, region in enumerate(find_objects(names), start=1):
+        own = names[region] == number
+        start = np.array([s.start for s in region], dtype=np.float64)
+        whole = np.stack([np.zeros(3), np.array(own.shape, dtype=np.float64)])
+        empty = maximal_empty_boxes(whole, cell_boxes(~own).astype(np.float64), least)
+        while (box := _largest_room(empty, start, opens, search)) is not None:
+            placed = box + start
+            search.used[_slices(placed)] = True
+            yield placed
+            empty = without(empty, box, least)
+
+
+def _largest_room(empty: Bounds, start: np.ndarray, opens: str, search: _Search) -> OneBox | None:
+    """Returns the largest of some boxes that is a room."""
+    order = np.argsort(-np.prod(empty[:, 1] - empty[:, 0], axis=1), kind="stable")
+    return next((empty[k] for k in order if _is_room(empty[k] + start, opens, search)), None)
+
+
+def _is_room(box: OneBox, opens: str, search: _Search) -> bool:
+    walls = search.taken.walls
+    for axis in _SIDES[opens]:
+        for is_high in (False, True):
+            beyond = walls[_beyond(box, axis, is_high, _NEAR)]
+            if not beyond.size or beyond.any(axis=axis).mean() < _WALLED:
+                return False
+    fronts = (search.taken.still[_beyond(box, axis, is_high, _NEAR)].any(axis=axis) for axis, is_high in _FRONTS[opens])
+    if all(front.size and front.mean() >= _CLOSED for front in fronts):
+        return False
+    layers = (search.used[_beyond(box, axis, is_high, 1)] for axis in range(3) for is_high in (False, True))
+    return all(not layer.size or layer.mean() < _OPEN for layer in layers)
+
+
+def _beyond(box: OneBox, axis: int, is_high: bool, depth: int) -> tuple[slice, ...]:
+    """Returns the cells in so many layers outside one face of a box of cells."""
+    found = list(_slices(box))
+    low, high = found[axis].start, found[axis].stop
+    found[axis] = slice(high, high + depth) if is_high else slice(max(low - depth, 0), low)
+    return tuple(found)
+
+
+def _slices(box: OneBox) -> tuple[slice, ...]:
+    return tuple(slice(int(a), int(b)) for a, b in box.T)

@@ -1,0 +1,223 @@
+"""Whether furniture lacks a top, and the top that it is given: one slab, once, where the coverage test says so.
+
+It asks no network; a predicted top's box may settle a close call. It changes no part and builds no joint.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import shapely
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+
+from grafu.additions.addition import Addition, added_part, free_ids
+from grafu.additions.likeness import surface_like
+from grafu.additions.top.config import DEFAULT_TOP, TopConfig, metre_of
+from grafu.additions.top.coverage import Coverage, coverage_of
+from grafu.additions.top.cutouts import cutouts_of, thick_enough
+from grafu.additions.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
+from grafu.additions.top.outline import (
+    let_in,
+    one_piece,
+    over_the_base,
+    overhanging,
+    rim_of,
+    under_what_stands,
+    what_pierces,
+    with_fronts,
+)
+from grafu.additions.top.roles import Roles, roles_of
+from grafu.additions.top.section import (
+    EMPTY,
+    closed_up,
+    offset,
+    section,
+    slab_mesh,
+    with_corners,
+    without_block,
+    without_slivers,
+)
+from grafu.additions.top.views import Views, outer_body, views_of
+from grafu.asset.part import Part
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.plan import JointRequest
+from grafu.vocabulary import PartLabel
+
+_BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
+_CLEAN = 0.001  # metres beyond a slab's edges, so that grooves run out of it
+_MOST = 3  # tops of one piece: a desk, its pedestal, its hutch
+_STEP = 0.05  # of a top's height
+_CALLED = 0.5  # of what covers at the rim: bars around so much that is called a top are its frame
+
+
+@final
+@dataclass(frozen=True)
+class TopVerdict:
+    """Whether there is a top, by what share, and why; and the top to add where there is none.
+
+    `coverage` holds the paper's two occupancy maps (None: nothing has a face). `addition` is None where a top is there,
+    and where none can be put: `why` says which. `close_call` says that the maps alone did not decide. `others` are the
+    tops of what stands higher or lower and lacks one, too.
+    """
+
+    covered: bool
+    ratio: float
+    why: str
+    coverage: Coverage | None = None
+    addition: Addition | None = None
+    close_call: bool = False
+    others: tuple[Addition, ...] = ()
+
+    @property
+    def additions(self) -> tuple[Addition, ...]:
+        """All tops to add, the largest first."""
+        return (self.addition, *self.others) if self.addition is not None else ()
+
+    @property
+    def missing(self) -> bool:
+        """Whether furniture lacks a top."""
+        return not self.covered
+
+
+def missing_tops(
+    parts: Sequence[Part],
+    moving_bodies: Iterable[JointRequest] = (),
+    config: TopConfig = DEFAULT_TOP,
+    hint: Box | None = None,
+) -> TopVerdict:
+    """Returns what `missing_top` does, and further tops: of a desk below its hutch, of a base beside a tower.
+
+    Each is judged with those before it in place; a further one must lie clearly higher or lower than all of them.
+    """
+    moving_bodies, parts = tuple(moving_bodies), list(parts)
+    first = missing_top(parts, moving_bodies, config, hint)
+    found = list(first.additions)
+    while 0 < len(found) < _MOST:
+        parts.append(found[-1].part)
+        further = missing_top(parts, moving_bodies, config)
+        if further.addition is None or not _is_apart(further.addition, found):
+            break
+        found.append(further.addition)
+    return replace(first, others=tuple(found[1:]))
+
+
+def _is_apart(top: Addition, others: Sequence[Addition]) -> bool:
+    """Whether a top lies higher or lower than others by more than steps within one surface."""
+    box = top.part.box
+    return all(abs(float(box.high[2] - o.part.box.high[2])) > _STEP * float(box.high[2]) for o in others)
+
+
+def missing_top(
+    parts: Sequence[Part],
+    moving_bodies: Iterable[JointRequest] = (),
+    config: TopConfig = DEFAULT_TOP,
+    hint: Box | None = None,
+) -> TopVerdict:
+    """Returns whether parts lack a top, and the slab for them.
+
+    `moving_bodies` are the joints asked for: lids cover, drawers do not, and the slab lets all of them move. `hint` is
+    the box of a top that a network predicts, in the object frame; it settles close calls and nothing else.
+    """
+    roles = roles_of(parts, moving_bodies)
+    if roles is None:
+        return TopVerdict(True, 1.0, "nothing has a surface")
+    metre = metre_of(float(Box.enclosing(p.box for p in parts).size.max()))
+    views, coverage, basins = _seen(roles, config, metre)
+    verdict = _judged(roles, views, coverage, config, metre, hint)
+    if verdict.covered:
+        return verdict
+    made = _slab(roles, views, coverage, basins, config, metre)
+    if made is None:
+        return replace(verdict, why=f"{verdict.why}; nothing carries a slab there")
+    mesh, outline = made
+    (part_id,) = free_ids("top_panel", 1, {p.id for p in parts})
+    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles))])
+    style = config.shape if _is_rectangle(outline) else f"outline, {config.shape}"
+    return replace(verdict, addition=Addition(part, verdict.why, style))
+
+
+def _seen(roles: Roles, config: TopConfig, metre: float) -> tuple[Views, Coverage, tuple[Part, ...]]:
+    """Returns furniture from above, its two maps, and the basins in it: their rims are none that a top closes."""
+    bowls = bowls_of(roles, metre)
+    if 0 < len(bowls) < len(roles.still):  # what is all bowl is no piece with a basin in it
+        views = views_of(_without(bowls, roles), metre)
+        basins = basins_of(bowls, views, coverage_of(views, config, metre), metre)
+        if basins:
+            views = views_of(_without(basins, roles), metre)
+            return views, coverage_of(views, config, metre, cells_of(basins, views)), basins
+    views = views_of(roles, metre)
+    return views, coverage_of(views, config, metre), ()
+
+
+def _without(some: tuple[Part, ...], roles: Roles) -> Roles:
+    return replace(roles, still=tuple(p for p in roles.still if p not in some))
+
+
+def _judged(
+    roles: Roles, views: Views, coverage: Coverage, config: TopConfig, metre: float, hint: Box | None
+) -> TopVerdict:
+    """Returns the verdict of the maps, and in close calls of what else speaks."""
+    level = coverage.level
+    if level is None:
+        return TopVerdict(True, coverage.ratio, "nothing is open at the top", coverage)
+    named = named_cells(roles, views, coverage, metre)
+    near_top = coverage.near_top | (named & coverage.everything)
+    coverage = replace(coverage, near_top=near_top)
+    ratio = coverage.ratio
+    seen = f"{ratio:.0%} of what stands at {level:.2f} m is covered"
+    if abs(ratio - config.coverage) > config.doubt:
+        return TopVerdict(ratio >= config.coverage, ratio, seen, coverage)
+    covered, told = ratio >= config.coverage, ""
+    if (plate := plate_in(roles, views, coverage, config, metre)) is not None:
+        covered, told = True, f", `{plate.id}` is a top with a cut-out"
+    elif hint is not None and abs(float(hint.high[2]) - level) <= 0.1 * metre:
+        covered, told = False, ", and a top was predicted there"
+    elif named.sum() < _CALLED * near_top.sum() and speaks_for_bars(roles, coverage, config, metre):
+        covered, told = False, " by bars"
+    return TopVerdict(covered, ratio, seen + told, coverage, close_call=True)
+
+
+def _slab(
+    roles: Roles, views: Views, coverage: Coverage, basins: tuple[Part, ...], config: TopConfig, metre: float
+) -> tuple[TriangleMesh, Polygon] | None:
+    """Returns the slab and its outline from above; None where nothing carries one."""
+    rim = rim_of(_without(basins, roles), views, coverage, metre)
+    if rim is None:
+        return None
+    unit = float(views.grid.cell) * max(views.grid.shape)
+    thickness = min(config.thickness * metre, 0.2 * (rim.seat - views.floor))
+    if thickness <= 0:
+        return None
+    gap = config.gap * metre
+    thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, gap, metre)
+    thickness = under_what_stands(roles, rim, thickness, gap, metre)
+    plan = with_fronts(rim, roles.moving, metre)
+    plan = overhanging(plan, *over_the_base(plan, roles, rim.seat, config, metre))
+    plan = with_corners(plan, config.shape, metre)
+    free = cutouts_of(roles.moving, plan, rim.seat, thickness, gap, metre)
+    standing = what_pierces(roles, rim, thickness, config.seat * unit, metre)
+    left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, metre))
+    outline = one_piece(left, coverage, metre)
+    if outline is None:
+        return None
+    mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape)
+    for region, height in free.grooves:
+        below = region.intersection(offset(outline, _CLEAN * metre)).difference(rim.walls)
+        groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
+        mesh = without_block(mesh, groove, rim.seat - thickness, height)
+    for region, height in let_in(roles, rim, config.seat * unit, metre):
+        mesh = without_block(mesh, region, rim.seat - thickness, height)
+    return mesh, outline
+
+
+def _cut_outs(basins: tuple[Part, ...], metre: float) -> BaseGeometry:
+    """Returns the plans of basins below their flanges."""
+    walls = (section(p.mesh.triangles, [float(p.box.high[2]) - _BELOW_FLANGE * metre], metre) for p in basins)
+    cut = [closed_up(wall, 0.03 * metre) for wall in walls]
+    return shapely.union_all(cut) if cut else EMPTY
+
+
+def _is_rectangle(outline: Polygon) -> bool:
+    return bool(outline.area >= 0.97 * outline.minimum_rotated_rectangle.area)

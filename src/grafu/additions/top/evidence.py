@@ -1,0 +1,107 @@
+"""What parts say beyond the two maps: basins that hang at the rim, tops by name, plates with cut-outs, bars.
+
+The maps alone cannot tell a worktop with a hole for a sink from a frame of bars, nor a basin from a cabinet.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from grafu.additions.top.config import TopConfig
+from grafu.additions.top.coverage import Coverage
+from grafu.additions.top.height_map import CellMask, heights_of
+from grafu.additions.top.roles import Roles
+from grafu.additions.top.views import Views
+from grafu.asset.part import Part
+from grafu.geometry.box import Box
+from grafu.vocabulary import PartLabel
+
+_NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
+_STRIPS = (PartLabel.BAR, PartLabel.FACE_FRAME, PartLabel.LEG, PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL)
+_BASIN_DEPTH = (0.06, 0.4)  # metres: of sinks and wash basins
+_BASIN_RIM = (0.03, 0.12)  # metres that a basin's rim may lie below the cabinet's, or stand above it
+_MARGIN = 0.008  # metres of cabinet around a basin
+_BASIN_AREA = 0.05  # of what stands at the rim
+_LET_IN = 0.2  # metres below a rim at which a part that is called top panel still is one
+_FLAT = 0.09  # metres: thicker than a worktop
+_SPANS = 0.85  # of what stands at the rim
+_PLATE = 0.5  # of its own box: a frame of bars covers less, a plate with a sink's hole more
+_NAMED_PLATE = 0.35
+
+
+def bowls_of(roles: Roles, metre: float) -> tuple[Part, ...]:
+    """Returns the still, nameless parts that are as deep as basins."""
+    low, high = (depth * metre for depth in _BASIN_DEPTH)
+    return tuple(p for p in roles.still if p.label in _NAMELESS and low <= p.box.size[2] <= high)
+
+
+def basins_of(bowls: Iterable[Part], views: Views, coverage: Coverage, metre: float) -> tuple[Part, ...]:
+    """Returns the bowls that hang at a rim, well within what stands there; views and coverage are without them."""
+    return tuple(p for p in bowls if _is_basin(p, views, coverage, metre))
+
+
+def cells_of(parts: Iterable[Part], views: Views) -> CellMask:
+    """Returns the cells that parts cover, however high."""
+    mask = np.zeros(views.grid.shape, dtype=bool)
+    for part in parts:
+        mask |= np.isfinite(heights_of(part.mesh.triangles, views.grid))
+    return mask
+
+
+def named_cells(roles: Roles, views: Views, coverage: Coverage, metre: float) -> CellMask:
+    """Returns the cells covered by parts that are called top panels and lie not too far below the rim."""
+    assert coverage.level is not None
+    high = coverage.level - _LET_IN * metre
+    named = [p for p in roles.still if p.label is PartLabel.TOP_PANEL and p.box.high[2] >= high]
+    mask = np.zeros(views.grid.shape, dtype=bool)
+    for part in named:
+        mask |= heights_of(part.mesh.triangles, views.grid) >= high
+    return mask
+
+
+def plate_in(roles: Roles, views: Views, coverage: Coverage, config: TopConfig, metre: float) -> Part | None:
+    """Returns a still, flat part that spans what stands at the rim, holes or not; None where only bars do."""
+    assert coverage.level is not None
+    low, high = coverage.level - config.recess * metre, coverage.level + _FLAT * metre
+    for part in roles.still:
+        if part.label in _STRIPS or not low <= part.box.high[2] <= high or part.box.size[2] > _FLAT * metre:
+            continue
+        own = np.isfinite(heights_of(part.mesh.triangles, views.grid))
+        spanned = _within(part.box, views)
+        share = float(own.sum()) / max(int(spanned.sum()), 1)
+        least = _NAMED_PLATE if part.label is PartLabel.TOP_PANEL else _PLATE
+        if share >= least and (spanned & coverage.everything).sum() >= _SPANS * coverage.everything.sum():
+            return part
+    return None
+
+
+def speaks_for_bars(roles: Roles, coverage: Coverage, config: TopConfig, metre: float) -> bool:
+    """Whether most flat parts at the rim are bars by name."""
+    assert coverage.level is not None
+    low, high = coverage.level - config.recess * metre, coverage.level + _FLAT * metre
+    flat = [p for p in roles.still if low <= p.box.high[2] <= high and p.box.size[2] <= _FLAT * metre]
+    bars = sum(p.label in (PartLabel.BAR, PartLabel.FACE_FRAME) for p in flat)
+    return len(flat) > 0 and 2 * bars > len(flat)
+
+
+def _is_basin(part: Part, views: Views, coverage: Coverage, metre: float) -> bool:
+    box, level = part.box, coverage.level
+    if level is None or not level - _BASIN_RIM[0] * metre <= box.high[2] <= level + _BASIN_RIM[1] * metre:
+        return False
+    at = coverage.grid.centers(coverage.everything)
+    around = Box.around(np.column_stack([at, np.zeros(len(at))])).grown(-_MARGIN * metre)
+    inside = bool(np.all(box.low[:2] >= around.low[:2]) and np.all(box.high[:2] <= around.high[:2]))
+    own = heights_of(part.mesh.triangles, views.grid)
+    held = np.isfinite(own)
+    hollow = held & (own <= box.high[2] - _BASIN_DEPTH[0] * metre)
+    large = held.sum() >= _BASIN_AREA * coverage.everything.sum()
+    full = held.sum() >= 0.7 * _within(box, views).sum()
+    return inside and bool(large and full and hollow.sum() >= 0.4 * held.sum())
+
+
+def _within(box: Box, views: Views) -> CellMask:
+    """Returns the cells whose middles lie in the plan of a box."""
+    grid = views.grid
+    x = grid.low[0] + (np.arange(grid.columns) + 0.5) * grid.cell
+    y = grid.low[1] + (np.arange(grid.rows) + 0.5) * grid.cell
+    return np.outer((x >= box.low[0]) & (x <= box.high[0]), (y >= box.low[1]) & (y <= box.high[1]))

@@ -1,0 +1,98 @@
+"""What stands, what turns, what slides, each as it is when closed: the three things that a top means something else to.
+
+It asks the plan, and the labels where the plan is silent.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import final
+
+import numpy as np
+from jaxtyping import Float
+
+from grafu.asset.part import Part
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.joints.limits import pose_function
+from grafu.joints.plan import JointRequest
+from grafu.vocabulary import JointType, PartLabel
+
+_UPRIGHT = 0.7  # of a unit direction: what moves mostly up and down
+_COVERS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Closed:
+    """A moving part with all that rides on it but handles, closed.
+
+    `request` is None where only its label says that it moves.
+    """
+
+    id: str
+    bodies: tuple[TriangleMesh, ...]
+    slides: bool
+    request: JointRequest | None = None
+
+    @cached_property
+    def mesh(self) -> TriangleMesh:
+        """All of it as one mesh."""
+        return merge_meshes(self.bodies)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Roles:
+    """The parts of one piece of furniture by role; handles have none."""
+
+    still: tuple[Part, ...]
+    turning: tuple[Closed, ...]
+    sliding: tuple[Closed, ...]
+
+    @property
+    def moving(self) -> tuple[Closed, ...]:
+        """All that moves."""
+        return (*self.turning, *self.sliding)
+
+    @cached_property
+    def box(self) -> Box:
+        """The box around what stands (around everything, where nothing does)."""
+        meshes = [p.mesh for p in self.still] or [m.mesh for m in self.moving]
+        return Box.enclosing(mesh.box for mesh in meshes)
+
+
+def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest] = ()) -> Roles | None:
+    """Returns the parts by role, moving bodies closed; None where nothing but handles has a face."""
+    known = {part.id: part for part in parts if len(part.mesh.faces)}
+    asked = {joint.moving: joint for joint in joints if joint.moving in known}
+    carried = {part for joint in asked.values() for part in joint.attached} - asked.keys()
+    moving_bodies = [_closed(joint, known) for joint in asked.values()]
+    rest = [p for p in known.values() if p.id not in asked and p.id not in carried and p.rides_on is None]
+    moving_bodies += [_labelled(p) for p in rest if p.label.is_movable]
+    still = tuple(p for p in rest if not p.label.is_movable and p.label is not PartLabel.HANDLE)
+    turning = tuple(m for m in moving_bodies if not m.slides)
+    return Roles(still, turning, tuple(m for m in moving_bodies if m.slides)) if still or moving_bodies else None
+
+
+def triangles_of(meshes: Iterable[TriangleMesh]) -> Float[np.ndarray, "n 3 3"]:
+    """Returns all triangles of some meshes."""
+    found = [mesh.triangles for mesh in meshes]
+    return np.concatenate(found) if found else np.zeros((0, 3, 3))
+
+
+def _labelled(part: Part) -> Closed:
+    return Closed(part.id, (part.mesh,), part.label is PartLabel.DRAWER)
+
+
+def _closed(joint: JointRequest, known: dict[str, Part]) -> Closed:
+    """Returns what a joint moves, moved back to where it is closed."""
+    members = [known[m] for m in (joint.moving, *joint.attached) if m in known]
+    bodies = [p.mesh for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
+    if joint.drawn_at:
+        T = pose_function(joint.axis, joint.type)(-joint.drawn_at)
+        bodies = [mesh.transformed(T) for mesh in bodies]
+    level = abs(float(joint.axis.direction[2])) < _UPRIGHT
+    covers = any(p.label in _COVERS for p in members)
+    slides = joint.type is JointType.PRISMATIC and level and not covers
+    return Closed(joint.moving, tuple(bodies), slides, joint)

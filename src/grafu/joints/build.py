@@ -1,0 +1,143 @@
+"""Builds one joint on a scene: clearance where it is needed, then hinges or rails, then the outcome.
+
+A part that keeps cutting into its neighbours at rest, because clearance is not allowed or would cost too much, still
+gets its joint; what it cuts into is left out of account, and the report says in how many poses it collides.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import final
+
+from grafu.geometry.axis import Axis
+from grafu.joints.clearance.carve import Path
+from grafu.joints.clearance.make import make_clearance
+from grafu.joints.clearance.trim import trim
+from grafu.joints.config import RealizationConfig
+from grafu.joints.hinge.place import place_hinges
+from grafu.joints.hinge.search import DoorSearch, door_search
+from grafu.joints.limits import pose_function
+from grafu.joints.placement import Placement
+from grafu.joints.plan import JointRequest
+from grafu.joints.rail.place import place_rails
+from grafu.joints.rail.search import DrawerSearch, drawer_search
+from grafu.joints.report import Clearance, Skipped, SkipReason
+from grafu.scene.border import part_axes
+from grafu.scene.scene import JointMotion, Scene
+from grafu.templates.template import Gallery
+from grafu.vocabulary import JointType
+
+_Found = tuple[Placement, Scene, tuple[Clearance, ...]]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Built:
+    """One joint with its hardware, and the scene that holds it; `wanted` is the opening that was asked for."""
+
+    request: JointRequest
+    placement: Placement
+    scene: Scene
+    clearances: tuple[Clearance, ...]
+    wanted: float
+
+
+def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
+    """Returns the joint as built, or why it could not be; a chosen opening may be wider than doors have by default."""
+    opening = request.choice.opening
+    if opening is not None:
+        config = replace(config, door_opening=max(config.door_opening, opening))
+    return _BUILDERS[request.type](request, scene, gallery, config)
+
+
+def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
+    search = door_search(request, scene, config)
+    if not search.has_pins:
+        return Skipped(request.moving, SkipReason.NO_ROOM, f"what stands around it allows no {request.choice}")
+    clearances: tuple[Clearance, ...] = ()
+    share = search.best().free / search.wanted
+    if share < 1.0:
+        path = _path(request, scene, search.to_clear().axis, search.wanted)
+        cleared = make_clearance(scene, path, config)
+        again = door_search(request, cleared.scene, config)
+        if again.best().free / again.wanted > share:
+            search, scene, clearances = again, cleared.scene, cleared.clearances
+    placement = place_hinges(search, gallery) or _despite_doors(search, gallery)
+    if placement is None:
+        return _skipped(request, search.best().free / search.wanted, scene, config)
+    return _built(request, (placement, scene, clearances), search.wanted)
+
+
+def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
+    """Returns a placement that leaves out of account what the door cuts into at rest."""
+    met = search.met_at_rest()
+    return place_hinges(door_search(search.request, search.scene, search.config, met), gallery) if met else None
+
+
+def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
+    search = drawer_search(request, scene, config)
+    if search is None:
+        return Skipped(request.moving, SkipReason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
+    clearances: tuple[Clearance, ...] = ()
+    share = search.free_share()
+    if share < 1.0:
+        cleared = make_clearance(scene, _path(request, scene, search.axis, search.reach), config)
+        again = drawer_search(request, cleared.scene, config)
+        if again is not None and again.free_share() > share:
+            search, scene, clearances = again, cleared.scene, cleared.clearances
+    placement = place_rails(search, gallery)
+    found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
+    if found is None:
+        return _skipped(request, search.free_share(), scene, config)
+    return _built(request, found, request.reference or search.wanted)
+
+
+def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearance, ...]) -> _Found | None:
+    """Returns rails for a drawer trimmed where it touches its walls, else ones that leave out what it cuts into."""
+    request, scene, config = search.request, search.scene, search.config
+    if config.trim:
+        walls = [o.id for o in scene.static_obstacles if o.collider.box.overlaps(search.mesh.box, 1e-3)]
+        path = _path(request, scene, search.axis, search.reach)
+        eased, trimmed = trim(scene, path, walls, config, touching=True)
+        again = drawer_search(request, eased, config) if trimmed else None
+        placement = place_rails(again, gallery) if again else None
+        if placement is not None:
+            return placement, eased, (*clearances, *trimmed)
+    met = search.met_at_rest()
+    despite = drawer_search(request, scene, config, met) if met else None
+    placement = place_rails(despite, gallery) if despite else None
+    return (placement, scene, clearances) if placement else None
+
+
+_BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationConfig], Built | Skipped]] = {
+    JointType.REVOLUTE: _build_door,
+    JointType.PRISMATIC: _build_drawer,
+}
+
+
+def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path:
+    axes = part_axes(scene.parts[request.moving].mesh)
+    return Path(request.moving, pose_function(axis, request.type), reach, axes, request.type is JointType.REVOLUTE)
+
+
+def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Skipped:
+    """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
+    box = scene.parts[request.moving].box
+    what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
+    if not any(o.collider.box.overlaps(box, config.contact * scene.unit) for o in scene.static_obstacles):
+        detail = f"no static part is near enough to carry a {what}"
+        return Skipped(request.moving, SkipReason.NO_FACING_SURFACES, detail)
+    if free < 0.3:
+        detail = "it cannot move freely about any candidate axis, not even with the clearance allowed"
+        return Skipped(request.moving, SkipReason.BLOCKED, detail)
+    detail = f"no {what} finds a hold on both sides without cutting into parts"
+    return Skipped(request.moving, SkipReason.NO_ROOM, detail)
+
+
+def _built(request: JointRequest, found: _Found, wanted: float) -> Built:
+    placement, scene, clearances = found
+    most = request.choice.opening
+    if most is not None:
+        placement, wanted = replace(placement, upper=min(placement.upper, most)), min(wanted, most)
+    joint_motion = JointMotion(placement.axis, request.type, placement.upper)
+    with_joint = scene.with_joint(request.moving, joint_motion, placement.dynamic, placement.static)
+    return Built(request, placement, with_joint, clearances, wanted)

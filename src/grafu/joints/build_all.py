@@ -1,0 +1,121 @@
+"""All joints of a plan, one after the other, each within its share of the time: doors first, then drawers.
+
+One part that cannot be built, or takes more than its share, does not cost the others theirs.
+
+How moving bodies may be expected to move before their joints are built, so that hardware keeps out of their way.
+
+A door is expected to turn about the first pin of a hinge class that leaves it free, else about the axis that was asked
+for; a drawer slides. What is built later may differ.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+from grafu.geometry.budget import present_budget, within
+from grafu.joints.build import Built, build_joint
+from grafu.joints.config import RealizationConfig
+from grafu.joints.hinge.search import door_search
+from grafu.joints.plan import JointRequest
+from grafu.joints.rail.search import drawer_search
+from grafu.joints.report import Skipped, SkipReason
+from grafu.processes.cache import Cache
+from grafu.scene.scene import JointMotion, Scene
+from grafu.templates.template import Gallery
+from grafu.vocabulary import JointType
+
+
+def expected_motions(
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+) -> dict[str, JointMotion]:
+    """Returns the expected motion of each requested joint, by moving body; none for drawers that no rails can carry."""
+    return dict(_motions(requests, scene, config))
+
+
+def _motions(
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+) -> Iterator[tuple[str, JointMotion]]:
+    for request in requests:
+        if request.type is JointType.REVOLUTE:
+            door = door_search(request, scene, config)
+            yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
+            continue
+        drawer = drawer_search(request, scene, config)
+        if drawer is not None:
+            yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
+
+
+_EXPECTING = 0.15  # of the time: what joints that are not built yet may be expected to do
+_TRY = 0.8  # of the time: all joints, and all of them once more where that is needed
+_TIMES_EVEN = 8  # a hard joint may take so many times an even part of the time that is left,
+_MOST = 0.5  # and at most so much of it,
+_LEAST = 0.05  # and in any case so much: of very many joints some are built, rather than none
+
+Outcomes = tuple[list[Built], list[Skipped], Scene]
+
+
+def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
+    """Returns one request per part (the first), doors before drawers, attached parts never on their own."""
+    first: dict[str, JointRequest] = {}
+    for request in joints:
+        first.setdefault(request.moving, request)
+    ridden = {part for request in first.values() for part in request.attached}
+    kept = [request for request in first.values() if request.moving not in ridden]
+    return sorted(kept, key=lambda r: r.type is not JointType.REVOLUTE)
+
+
+def build_fairly(
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
+) -> Outcomes:
+    """Returns the outcomes of all requests, each joint keeping out of the expected motions of those built after it.
+
+    Doors for which that left no place are given the way that was asked for, and all is built again; the first try
+    stands unless the second builds more.
+    """
+    find = partial(cache.value, "ways", expected_motions, tuple(requests), scene, config)
+    joint_motions: Mapping[str, JointMotion] = within(_EXPECTING, find, lambda _: {})
+    budget = present_budget().share(_TRY)
+    with budget.in_force():
+        first = _build_all(requests, replace(scene, joint_motions=joint_motions), gallery, config, cache)
+        left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & joint_motions.keys()
+        asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
+        if not asked or not first[0] or budget.left == 0:
+            return first
+        wider = {r.moving: replace(joint_motions[r.moving], axis=r.axis) for r in asked}
+        second = _build_all(requests, replace(scene, joint_motions={**joint_motions, **wider}), gallery, config, cache)
+    return second if len(second[1]) < len(first[1]) else first
+
+
+def _build_all(
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
+) -> Outcomes:
+    """Returns the joints built, those that were not, and the scene with all hardware."""
+    built: list[Built] = []
+    skipped: list[Skipped] = []
+    for k, request in enumerate(requests):
+        outcome = _build(request, len(requests) - k, scene, gallery, config, cache)
+        if isinstance(outcome, Skipped):
+            skipped.append(outcome)
+            scene = replace(
+                scene,
+                joint_motions={
+                    name: joint_motion for name, joint_motion in scene.joint_motions.items() if name != request.moving
+                },
+            )
+            continue
+        scene = outcome.scene
+        built.append(outcome)
+    return built, skipped, scene
+
+
+def _build(
+    request: JointRequest, left: int, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
+) -> Built | Skipped:
+    """Returns one joint of those `left` to build, or why it could not be built."""
+    work = partial(cache.value, "joint", build_joint, request, scene, gallery, config)
+    return within(joint_share(left), work, partial(Skipped, request.moving, SkipReason.TOO_COMPLEX))
+
+
+def joint_share(left: int) -> float:
+    """Returns the part (0..1) of the time left that the first of `left` joints may take."""
+    return 1.0 if left <= 1 else min(_MOST, max(_LEAST, _TIMES_EVEN / left))

@@ -1,0 +1,102 @@
+"""Makes a path free, step by step, only as far as needed (design, section 5).
+
+What lies enclosed in the moving part moves with it; the moving part is trimmed; a static part that fits without play is
+eased; a static part that intrudes into the path is carved. A step stays only if it helps.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.geometry.box import Box
+from grafu.geometry.transform import from_rotation
+from grafu.joints.clearance.carve import Path, carve, obstruction
+from grafu.joints.clearance.trim import trim
+from grafu.joints.config import RealizationConfig
+from grafu.joints.limits import SweepVerdict
+from grafu.joints.report import Clearance
+from grafu.scene.scene import MovingBody, Scene
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """The scene after clearance, what was done to it, and what still blocks the path."""
+
+    scene: Scene
+    clearances: tuple[Clearance, ...]
+    blockers: tuple[str, ...]
+
+
+_Step = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, list[Clearance]]]
+
+
+def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Cleared:
+    """Returns the scene in which the path is free, or as free as the limits allow."""
+    done: list[Clearance] = []
+    left = obstruction(scene, path, config)
+    for step in _STEPS if config.trim else (adopt,):
+        if not left.blockers:
+            break
+        tried, clearances = step(scene, path, left.blockers, config)
+        if not clearances:
+            continue
+        remaining = obstruction(tried, path, config)
+        if _is_better(remaining, left):
+            scene, left = tried, remaining
+            done += clearances
+    return Cleared(scene, tuple(done), left.blockers)
+
+
+def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
+    """Whether a step helped: fewer blockers, or as many in fewer poses."""
+    return (len(after.blockers), after.share) < (len(before.blockers), before.share)
+
+
+def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
+    """Lets static parts that lie enclosed in the moving part move with it: the drawer's own half of its old rails."""
+    box = scene.parts[path.moving].box.grown(2 * config.depth * scene.unit)
+    inside = [name for name in ids if bool(box.contains(scene.parts[name].box.corners()).all())]
+    if not inside:
+        return scene, []
+    moving = scene.moving_bodies[path.moving]
+    moving_bodies = {**scene.moving_bodies, path.moving: MovingBody(moving.id, (*moving.members, *inside))}
+    why = f"lies enclosed in {path.moving} and moves with it"
+    return replace(scene, moving_bodies=moving_bodies), [Clearance(part, "joined", 0.0, 0.0, why) for part in inside]
+
+
+def ease(
+    plays: float, scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
+) -> tuple[Scene, list[Clearance]]:
+    """Makes static parts that fit without play smaller all round by `plays` times the tolerated penetration."""
+    play = plays * config.depth * scene.unit
+    eased: list[Part] = []
+    done: list[Clearance] = []
+    for name in ids:
+        part = scene.parts[name]
+        size = np.maximum(part.box.size, 1e-12)
+        lost = float(1.0 - np.prod(np.maximum(size - 2 * play, 0.0) / size))
+        if lost < config.max_carve:
+            eased.append(_shrunk(part, play))
+            why = f"{path.moving} ran in it without play"
+            done.append(Clearance(name, "eased", play, lost, why, volume_share=lost))
+    return scene.replaced(eased), done
+
+
+def _shrunk(part: Part, play: float) -> Part:
+    """Returns the part with every side of its box moved in by `play`."""
+    source, target = part.box, part.box.grown(-play)
+    factor = np.where(source.size > 1e-12, target.size / np.maximum(source.size, 1e-12), 1.0)
+    T = from_rotation(np.diag(factor), _center(target) - factor * _center(source))
+    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
+
+
+def _center(box: Box) -> np.ndarray:
+    return np.asarray(box.center)
+
+
+_STEPS: tuple[_Step, ...] = (adopt, trim, partial(ease, 1.0), carve, partial(ease, 1.6), trim, carve)

@@ -1,0 +1,103 @@
+"""Takes a trace off the moving part: pieces pressed back to their neighbours' faces, by at most 2 % of its side."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.components import part_numbers
+from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.clearance.carve import Path, box_in, piece_boxes
+from grafu.joints.config import RealizationConfig
+from grafu.joints.report import Clearance
+from grafu.scene.scene import Scene
+
+_KEPT = 0.4  # a trimmed piece keeps at least this share of its own thickness
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Press:
+    """Presses a piece's vertices back to a plane: along `axis`, everything beyond `limit` on `side` (0 low, 1 high)."""
+
+    axis: int
+    side: int
+    limit: float
+    depth: float
+
+
+def trim(
+    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig, touching: bool = False
+) -> tuple[Scene, list[Clearance]]:
+    """Returns the scene with the moving part's pieces pressed back where they cut into static pieces.
+
+    With `touching`, also where they merely touch: a drawer without any play leaves no room for rails.
+    """
+    part = scene.parts[path.moving]
+    most = config.max_trim * box_in(path.axes, part.mesh).size
+    play = 2.5 * config.depth * scene.unit
+    theirs = [box for name in ids for box in piece_boxes(path.axes, scene.parts[name].mesh)]
+    depth = 0.0
+    surfaces = []
+    for surface in part.surfaces:
+        pressed, deepest = _pressed(surface, theirs, path, most, (play, 0.9 * play if touching else 0.0))
+        surfaces.append(pressed)
+        depth = max(depth, deepest)
+    if depth == 0.0:
+        return scene, []
+    trimmed: Part = replace(part, surfaces=tuple(surfaces))
+    share = depth / float(most.max() / config.max_trim)
+    why = f"{'touched' if touching else 'cut into'} {', '.join(ids)}"
+    return scene.replaced([trimmed]), [Clearance(path.moving, "trimmed", depth, share, why)]
+
+
+def _pressed(
+    surface: Surface, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]
+) -> tuple[Surface, float]:
+    """Returns the surface with its pieces pressed back, and by how much at most (`play`: see `_presses`)."""
+    numbers = part_numbers(surface.mesh)
+    local = surface.mesh.vertices @ path.axes
+    deepest = 0.0
+    for k in range(int(numbers.max()) + 1 if len(numbers) else 0):
+        used = np.unique(surface.mesh.faces[numbers == k])
+        box = Box.around(local[used])
+        for press in _presses(box, theirs, path, most, play):
+            column = local[used, press.axis]
+            limit = np.maximum(column, press.limit) if press.side == 0 else np.minimum(column, press.limit)
+            local[used, press.axis] = limit
+            deepest = max(deepest, press.depth)
+    if deepest == 0.0:
+        return surface, 0.0
+    mesh = TriangleMesh(local @ path.axes.T, surface.mesh.faces)
+    return replace(surface, mesh=mesh), deepest
+
+
+def _presses(box: Box, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]) -> list[_Press]:
+    """Returns how a piece must be pressed so that it clears the static pieces that it cuts into a little.
+
+    `play` is what it gets, and up to which gap it counts as cutting in.
+    """
+    way = _swept(box, path)
+    found: list[_Press] = []
+    for other in theirs:
+        depths = np.stack([other.high - way.low, way.high - other.low])
+        if (depths <= -play[1]).any():
+            continue
+        side, axis = (int(i) for i in np.unravel_index(int(np.argmin(depths)), depths.shape))
+        depth = float(depths[side, axis]) + play[0]
+        if depth <= most[axis] and depth <= (1 - _KEPT) * box.size[axis]:
+            limit = float(way.low[axis] + depth) if side == 0 else float(way.high[axis] - depth)
+            found.append(_Press(axis, side, limit, depth))
+    return found
+
+
+def _swept(box: Box, path: Path) -> Box:
+    """Returns the box of a sliding piece's whole way (of a turning piece: its rest box)."""
+    if path.is_turn:
+        return box
+    shift = (path.motion(path.reach)[:3, 3]) @ path.axes
+    return box.union(Box(box.low + shift, box.high + shift))

@@ -1,0 +1,238 @@
+"""Where a door may turn: hinge class by hinge class, the pins that the surroundings allow.
+
+Each class is a row of `_RULES` (paper, figure Hinge Configurations). `roll` turns the template about its pin: 0 mounts
+it from the door's front, 90 degrees from the side (the seam behind an overlay door).
+
+Fits hinges of one template to one pin: size, count, heights, and the hardware in the object frame.
+
+It builds; whether the hardware is in anything's way is judged by `place`.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import ceil, pi
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.intersection import share_shape
+from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.joints.hinge.survey import Surroundings
+from grafu.scene.border import BorderFrame
+from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
+from grafu.vocabulary import MechanismClass, PartLabel
+
+_INSIDE = 0.1  # an axis nearer to a side than this share of the part runs along its border
+MAKESHIFT = 5  # the preference of what is no hinge class: after C, F, P, what is let in, and pivots
+_CHUNKY = 0.45  # a part thicker than this share of its width is no door panel
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PinCandidate:
+    """A pin at (x, y) of the border frame with the class that would carry it.
+
+    `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that
+    of the barrel, for which the pin's place is right; `preference`
+    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `let_in` says that the static leaf
+    is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the door.
+    """
+
+    mechanism: MechanismClass
+    roll: float
+    x: float
+    y: float
+    leaf_room: float
+    radius: float
+    preference: int
+    let_in: bool = False
+    is_pivot: bool = False
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """Metres: widest seam that counts as contact, largest step that counts as flush, barrel radius of the hinge."""
+
+    contact: float
+    flush: float
+    radius: float
+
+
+_Rule = Callable[[BorderFrame, Surroundings, Tolerances], PinCandidate | None]
+
+
+def _contact_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """C beside an inset door: the leaves lie in the seam, the barrel in front of it."""
+    if not (s.side_gap <= tol.contact and s.side_top <= 0.6 * tol.radius):
+        return None
+    depth = min(frame.board, s.side_depth) if s.side_depth > 0 else frame.board
+    room = tol.radius + 0.95 * depth
+    return PinCandidate(MechanismClass.C, 0.0, -max(s.side_gap, 0.0) / 2, tol.radius, room, tol.radius, 0)
+
+
+def _contact_behind(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """C behind an overlay door: the leaves lie between its back and the carcass, the barrel beside both."""
+    strip = max(0.0, -s.side_face)
+    if not (s.back_gap <= tol.contact and strip <= 3 * tol.contact):
+        return None
+    room = tol.radius + strip + max(0.95 * s.back_width, 2 * tol.radius)
+    y = -frame.thickness - max(s.back_gap, 0.0) / 2
+    return PinCandidate(MechanismClass.C, pi / 2, -strip - tol.radius, y, room, tol.radius, 0)
+
+
+def _flush_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """F across the seam of an inset door: both leaves on the fronts."""
+    if not (s.side_gap <= tol.contact and abs(s.side_top) <= tol.flush):
+        return None
+    y = max(0.0, s.side_top) + tol.radius
+    return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, 0.3 * frame.width, tol.radius, 1)
+
+
+def _flush_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """F across the seam behind an overlay door: both leaves on the outer sides."""
+    if not (s.back_gap <= tol.contact and abs(s.side_face) <= tol.flush):
+        return None
+    x = min(0.0, s.side_face) - tol.radius
+    y = -frame.thickness - max(s.back_gap, 0.0) / 2
+    return PinCandidate(MechanismClass.F, pi / 2, x, y, max(0.95 * frame.board, 2 * tol.radius), tol.radius, 1)
+
+
+def _corner_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """P in the corner between an inset door's front and a side that stands out beyond it."""
+    if not (s.side_gap <= tol.contact and s.side_top >= 2 * tol.radius):
+        return None
+    room = min(s.side_top, 0.3 * frame.width)
+    return PinCandidate(MechanismClass.P, 0.0, tol.radius - max(s.side_gap, 0.0), tol.radius, room, tol.radius, 2)
+
+
+def _corner_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """P in the corner between an overlay door's edge and the frame that it lies on."""
+    strip = -s.side_face
+    if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= 3 * tol.radius):
+        return None
+    y = -frame.thickness - max(s.back_gap, 0.0) + tol.radius
+    room = min(strip - tol.radius, frame.board)
+    return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), tol.radius, 2)
+
+
+def _let_in_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+    """C at a door's front edge, its static leaf let into what stands behind: for doors that meet over one divider."""
+    if not np.isfinite(s.back_gap):
+        return None
+    room = tol.radius + 0.95 * frame.board
+    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, 3, let_in=True)
+
+
+_RULES: tuple[_Rule, ...] = (
+    _contact_front,
+    _contact_behind,
+    _flush_front,
+    _flush_side,
+    _corner_front,
+    _corner_side,
+    _let_in_front,
+)
+
+
+def ruled_pins(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list[PinCandidate]:
+    """Returns a pin for every hinge class that the surroundings allow."""
+    return [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
+
+
+def turns_about_itself(frame: BorderFrame, axis: Axis) -> bool:
+    """Whether a part is no board and its axis runs through it: a tap, a revolving shelf; not a deep lid."""
+    if frame.thickness <= _CHUNKY * frame.width:
+        return False
+    x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
+    shares = (float(x) / max(frame.width, 1e-9), -float(y) / max(frame.thickness, 1e-9))
+    return all(_INSIDE < share < 1 - _INSIDE for share in shares)
+
+
+def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances) -> list[PinCandidate]:
+    """Returns the pins that discs at the door's ends could carry: the initial axis itself, then the border's corner."""
+    radius = max(tol.radius, 0.06 * min(frame.thickness, frame.width))
+    x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
+    spots = [(float(x), float(y))]
+    if not turns_about_itself(frame, axis):
+        spots.append((1.2 * radius, -1.2 * radius))
+    return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, 4, is_pivot=True) for x, y in spots]
+
+
+def makeshift_pins(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate]:
+    """Yields pins at the corners of the border and around them; support blocks will have to reach the body."""
+    step = max(tol.radius, 0.25 * frame.board)
+    room = max(4 * tol.radius, min(0.1 * frame.width, 8 * tol.radius))
+    for x in (0.0, step, -step, 2 * step, 4 * step, -2 * step):
+        for y in (tol.radius, step + tol.radius, 2 * step + tol.radius):
+            yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, MAKESHIFT)
+    for x in (-tol.radius, -step - tol.radius):
+        for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
+            yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, MAKESHIFT + 1)
+
+
+# A hinge never exceeds this share of its door (official 7.3: 12 % of the door's axial length per hinge).
+_LENGTH_SHARE = 0.12
+_RADIUS_SHARE = 0.22
+_RADIUS = 0.0036  # of a common 60 mm butt hinge
+SMALLEST = 0.001
+
+
+@final
+@dataclass(frozen=True)
+class FittedHinge:
+    """One hinge in the object frame: the template as built, its pose, and the two ends as visuals."""
+
+    template: HingeTemplate
+    T_object_template: Mat4
+    static: Visual
+    dynamic: Visual
+
+
+def barrel_radius(frame: BorderFrame) -> float:
+    """Returns the barrel radius that suits a door, metres; a door drawn without thickness counts as a thin board."""
+    return max(SMALLEST, min(_RADIUS, _RADIUS_SHARE * frame.board))
+
+
+def hinge_count(length: float) -> int:
+    """Returns how many hinges a border of this length takes: two, and one more per 0.6 m beyond the first 0.9.
+
+    Cabinet makers put 2 up to 0.9 m, 3 up to 1.5, 4 up to 2.1.
+    """
+    return 2 + max(0, ceil((length - 0.9) / 0.6 - 1e-9))
+
+
+def hinge_heights(length: float, count: int) -> np.ndarray:
+    """Returns the z of each hinge: the i-th of N at i / (N + 1) of the height (supplement, Search and Snap)."""
+    return (np.arange(1, count + 1) / (count + 1) - 0.5) * length
+
+
+def hinge_size(
+    model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int, scale: float = 1.0
+) -> HingeSize | None:
+    """Returns the size at which a model fits a pin; None where its leaves would be no wider than its barrel.
+
+    `scale` multiplies what suits the door; the pin's radius has it already, and hinges still must find room.
+    """
+    radius = pin.radius
+    wanted = scale * min(model.natural.length, _LENGTH_SHARE * frame.length)
+    length = min(wanted, 0.8 * frame.length / (count + 1))
+    leaf = min(scale * model.natural.leaf, pin.leaf_room)
+    thickness = min(scale * model.natural.thickness, 0.6 * radius)
+    if leaf < 1.5 * radius + 2e-4 or length < 2 * radius:
+        return None
+    return HingeSize(length, leaf, thickness, radius)
+
+
+def fit_hinge(model: HingeModel, size: HingeSize, frame: BorderFrame, pin: PinCandidate, z: float) -> FittedHinge:
+    """Returns one hinge of `model` at height z of a pin; names are given by `named`."""
+    template = model.build(size)
+    T = frame.T_object_border @ from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), pin.roll), vec3(pin.x, pin.y, z))
+    static = Visual("hinge_static", template.static.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
+    dynamic = Visual("hinge_dynamic", template.dynamic.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
+    share_shape(static.mesh, template.static.mesh, T)
+    share_shape(dynamic.mesh, template.dynamic.mesh, T)
+    return FittedHinge(template, T, static, dynamic)

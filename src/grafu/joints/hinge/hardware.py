@@ -1,0 +1,250 @@
+"""Is a fitted hinge in anything's way, and does it hold on to both of its parts.
+
+What cuts into parts is no hinge at all; one that another door or drawer would run into is returned with their names.
+
+The other moving bodies around a joint: what they are at rest, and whether they run into hardware along their path.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual
+from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
+from grafu.joints.limits import PoseFunction, in_the_way, is_free, pose_function, swept_box
+from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
+from grafu.scene.border import BorderFrame, part_axes
+from grafu.scene.scene import JointMotion, Obstacle, Scene
+from grafu.templates.template import SnapPlane
+
+_POSES_OF_OTHERS = 19
+
+
+@final
+class Neighbour:
+    """Another moving body with what rides on it and its hardware, prepared for queries; not a value.
+
+    `joint_motion` is None where its motion is unknown; `depth` is the tolerated penetration in metres.
+    """
+
+    def __init__(self, moving_id: str, scene: Scene, depth: float) -> None:
+        self.id = moving_id
+        self.joint_motion: JointMotion | None = scene.joint_motions.get(moving_id)
+        self.mesh: TriangleMesh = scene.equipped_mesh(moving_id)
+        self.at_rest = MeshCollider(self.mesh)
+        self._part, self._depth, self._scene = scene.parts[moving_id].mesh, depth, scene
+
+    def runs_into(self, *standing: TriangleMesh) -> bool:
+        """Whether it cuts into standing meshes, taken together, anywhere along its path."""
+        if self.joint_motion is None:
+            return False
+        near = [Obstacle(self.id, MeshCollider(mesh)) for mesh in standing if self._swept.overlaps(mesh.box)]
+        return bool(near) and not is_free(self._body, self._motion, self.joint_motion.upper, near, _POSES_OF_OTHERS)
+
+    @cached_property
+    def _motion(self) -> PoseFunction:
+        assert self.joint_motion is not None
+        return pose_function(self.joint_motion.axis, self.joint_motion.type)
+
+    @cached_property
+    def _swept(self) -> Box:
+        assert self.joint_motion is not None
+        motion, upper = self._motion, self.joint_motion.upper
+        return self._scene.path_box(
+            self.id, self.mesh, self.joint_motion, lambda: swept_box(self.mesh.box, motion, upper)
+        )
+
+    @cached_property
+    def _body(self) -> SweptBody:
+        return SweptBody(self.mesh, self._depth, np.asarray(part_axes(self._part)))
+
+
+def neighbours_of(moving_id: str, scene: Scene, depth: float) -> tuple[Neighbour, ...]:
+    """Returns all other moving bodies; `depth` is the tolerated penetration in metres."""
+    return tuple(Neighbour(other, scene, depth) for other in scene.moving_bodies if other != moving_id)
+
+
+_POSES = 11
+_TONGUE = 0.02  # how deep a tongue is let into what stands behind the door, metres
+_LAP = 0.002  # how far it laps over the leaf that it carries on
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Site:
+    """What hinge hardware is tested against: the door, static parts, the other moving bodies and their motions.
+
+    `mount` is the one part that may carry it (empty: any).
+    """
+
+    moving: str
+    frame: BorderFrame
+    door: TriangleMesh
+    door_body: SweptBody
+    scene: Scene
+    static_rays: RayCaster
+    door_rays: RayCaster
+    obstacles: tuple[Obstacle, ...]
+    neighbours: tuple[Neighbour, ...]
+    motion: PoseFunction
+    upper: float
+    depth: float
+    anchor: float
+    reach: float
+    mount: str = ""
+
+
+@final
+@dataclass(frozen=True)
+class InstalledHinge:
+    """One hinge with its support blocks, found to hold on both sides and to cut into no part.
+
+    `struck_by` names the other moving bodies that would run into it along their path, and its own where its ends cut
+    into one another.
+    """
+
+    static: tuple[Visual, ...]
+    dynamic: tuple[Visual, ...]
+    struck_by: tuple[str, ...] = ()
+
+    @property
+    def static_meshes(self) -> list[TriangleMesh]:
+        """The meshes of the static end."""
+        return [visual.mesh for visual in self.static]
+
+    @property
+    def dynamic_meshes(self) -> list[TriangleMesh]:
+        """The meshes of the moving end."""
+        return [visual.mesh for visual in self.dynamic]
+
+
+def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge | None:
+    """Returns the hinge anchored on both sides; None where it finds no hold or gets in the way."""
+    dynamic = _anchored_dynamic(hinge, site)
+    static = _anchored_static(hinge, pin, site) if dynamic else None
+    if static is None or dynamic is None:
+        return None
+    return judged_hinge(InstalledHinge(static, dynamic), site)
+
+
+def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
+    """Returns the hinge and the bodies that would hit it; None if an end cuts into the other side or a body at rest."""
+    static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
+    if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
+        return None
+    struck_by = [n.id for n in site.neighbours if n.runs_into(*static) or _strikes_closed(n, dynamic, site)]
+    if _blocks_itself(hinge, site):
+        struck_by.append(site.moving)
+    return replace(hinge, struck_by=tuple(struck_by))
+
+
+def _blocks_itself(hinge: InstalledHinge, site: Site) -> bool:
+    """Whether a support block of one end cuts into the other end; without blocks the template keeps them apart."""
+    static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
+    pairs = [(static, dynamic[1:]), (static[1:], dynamic[:1])]
+    return any(
+        not is_free(_body(moving, site), site.motion, site.upper, _standing(still), _POSES)
+        for still, moving in pairs
+        if still and moving
+    )
+
+
+def _body(meshes: list[TriangleMesh], site: Site) -> SweptBody:
+    return SweptBody(merge_meshes(meshes), site.depth, pieces=meshes)
+
+
+def _standing(meshes: list[TriangleMesh]) -> list[Obstacle]:
+    return [Obstacle("hinge", MeshCollider(mesh)) for mesh in meshes]
+
+
+def _strikes_closed(neighbour: Neighbour, dynamic: list[TriangleMesh], site: Site) -> bool:
+    """Whether a neighbour runs into the moving end while the door is closed, though not into the door itself."""
+    return neighbour.runs_into(*dynamic) and not neighbour.runs_into(site.door)
+
+
+def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
+    """Whether the door, another moving body at rest, or other hardware cuts into the static hardware."""
+    if not is_free(site.door_body, site.motion, site.upper, _standing(static), 2 * _POSES):
+        return True
+    body = _body(static, site)
+    body.place(np.eye(4))
+    others = (*(n.at_rest for n in site.neighbours), *(o.collider for o in site.scene.static_hardware))
+    return any(body.penetrates(other) for other in others)
+
+
+def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
+    """Whether the moving hardware cuts into static parts somewhere, or into other moving bodies at rest."""
+    body = _body(dynamic, site)
+    box = Box.enclosing(mesh.box for mesh in dynamic)
+    near = in_the_way(site.obstacles, swept_box(box, site.motion, site.upper))
+    if not is_free(body, site.motion, site.upper, near, _POSES):
+        return True
+    body.place(np.eye(4))
+    return any(body.penetrates(n.at_rest) for n in site.neighbours)
+
+
+def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
+    """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
+    if pin.let_in:
+        tongue = _tongue(hinge, pin, site.frame)
+        held = site.scene.is_near_static(tongue.mesh, site.anchor, site.mount)
+        return (hinge.static, tongue) if held else None
+    if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.mount):
+        return (hinge.static,)
+    snap = hinge.template.static.snap.transformed(hinge.T_object_template)
+    return _bridged(hinge.static, snap, site.static_rays, site)
+
+
+def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | None:
+    """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
+    if MeshCollider(hinge.dynamic.mesh).is_within(site.anchor, MeshCollider(site.door)):
+        return (hinge.dynamic,)
+    snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
+    return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=min(0.5 * site.frame.width, site.reach)))
+
+
+def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:
+    """Returns an end with the shortest support block that reaches the target."""
+    bridge = shortest_bridge(_footings(end, snap, site.frame), target, site.reach)
+    if bridge is None:
+        return None
+    footing, length = bridge
+    return (end, block("support_hinge", footing, length, METAL))
+
+
+def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame) -> Iterator[Footing]:
+    """Yields the snap rectangle looking along its normal, then the leaf's own sides looking inwards and sideways."""
+    yield Footing(np.asarray(snap.center), np.asarray(snap.normal), 0.9 * snap.u, 0.9 * snap.v)
+    local = frame.to_border(end.mesh.vertices)
+    low, high = local.min(axis=0), local.max(axis=0)
+    half = (high - low) / 2 * 0.8
+    center = (low + high) / 2
+    for direction in (vec3(0.0, -1.0, 0.0), vec3(-1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -1.0)):
+        k = int(np.argmax(np.abs(direction)))
+        i, j = [a for a in range(3) if a != k]
+        start = frame.to_object((center + direction * half[k])[None])[0]
+        yield Footing(start, frame.rotation @ direction, _extent(frame, i, half), _extent(frame, j, half))
+
+
+def _extent(frame: BorderFrame, axis: int, half: np.ndarray) -> Vec3:
+    return frame.rotation[:, axis] * max(float(half[axis]), 5e-4)
+
+
+def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame) -> Visual:
+    """Returns the strip that carries a let-in leaf on through the seam into what stands behind the door."""
+    size = hinge.template.size
+    leaf = frame.to_border(hinge.static.mesh.vertices)
+    start, end = float(leaf[:, 1].min()) + _LAP, -frame.thickness - _TONGUE
+    z = float(leaf[:, 2].min() + leaf[:, 2].max()) / 2
+    u = frame.direction(0.0, 0.0, 0.4 * size.length)
+    v = frame.direction(0.4 * size.thickness, 0.0, 0.0)
+    center = frame.to_object(vec3(pin.x - size.thickness / 2, start, z)[None])[0]
+    return block("support_hinge", Footing(center, frame.direction(0.0, -1.0, 0.0), u, v), max(start - end, _LAP), METAL)

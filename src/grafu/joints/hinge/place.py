@@ -1,0 +1,236 @@
+"""Places the hinges of one door: a search over pins, classes and templates, judged by sweeping real meshes.
+
+The best by (free through the wanted opening, out of its neighbours' way, class preference C > F > P, nearness to the
+initial axis) is taken, and its pin becomes the rectified axis. Hardware that another moving body would run into on its
+way is left out as long as something else holds the door; the placement notes it.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import final
+
+from grafu.articulation.articulated_object import Visual
+from grafu.geometry.mesh import merge_meshes
+from grafu.joints.hinge.candidates import PinCandidate, fit_hinge, hinge_heights, hinge_size
+from grafu.joints.hinge.hardware import InstalledHinge, Site, install, judged_hinge
+from grafu.joints.hinge.pivot import pivot_ends
+from grafu.joints.hinge.search import DoorSearch, JudgedPin
+from grafu.joints.limits import in_the_way, pose_function
+from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
+from grafu.joints.plan import PIVOT
+from grafu.templates.template import Gallery, HingeModel
+from grafu.vocabulary import JointType
+
+_HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
+_LEAST_SHARE = 0.3  # an opening below this share of the wanted one is no motion
+_ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
+_STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
+
+
+@final
+@dataclass(frozen=True)
+class _Try:
+    """A placement as far as the first hinge that others would run into, and what returns all of it.
+
+    The rest of its hinges is tried only where nothing better is found; None where one of them finds no place.
+    """
+
+    placement: Placement
+    whole: Callable[[], Placement | None]
+
+
+def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
+    """Returns the best placement that works; None where no pin can be given hardware.
+
+    Where others would run into every placement, it is the first of those that spare the joints that stand already.
+    """
+    left_out: list[_Try] = []
+    for one in _tries(search, gallery):
+        found = one.placement
+        is_wide = found.upper >= search.config.restricted * search.wanted
+        if not found.struck_by and (is_wide or all(other.whole() is None for other in left_out)):
+            return _noted(found, [other.placement for other in left_out], search.request.moving)
+        left_out.append(one)
+    return _least_struck(left_out, search)
+
+
+def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None:
+    """Returns the first whole placement that the fewest joints that stand would run into."""
+    least: Placement | None = None
+    for one in tries:
+        placement = one.whole()
+        if placement is None:
+            continue
+        hit = _built_ones(placement.struck_by, search)
+        if least is None or len(hit) < len(_built_ones(least.struck_by, search)):
+            least = placement
+        if not hit:
+            break
+    if least is None:
+        return None
+    hits = (f"{name} runs into its hardware" for name in _built_ones(least.struck_by, search))
+    return replace(least, notes=tuple(hits))
+
+
+def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
+    """Returns those moving bodies whose joints stand."""
+    joint_motions = search.scene.joint_motions
+    return [name for name in moving_bodies if name in joint_motions and joint_motions[name].is_built]
+
+
+def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> Placement:
+    """Returns the placement with notes on what was left out because others, or its own ends, would run into it."""
+    templates: dict[tuple[str, ...], list[str]] = {}
+    for other in left_out:
+        name = f"{other.template} at another pin" if other.template == placement.template else other.template
+        if other.struck_by and name not in templates.setdefault(other.struck_by, []):
+            templates[other.struck_by].append(name)
+    notes = []
+    for struck_by, which in templates.items():
+        others = ["its own door" if name == moving else name for name in struck_by]
+        notes.append(f"{' or '.join(which)} would stand in the way of {', '.join(others)}")
+    return replace(placement, notes=tuple(notes))
+
+
+def _tries(search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
+    """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
+    tried = 0
+    for judged in search.in_order():
+        if judged.free < _LEAST_SHARE * search.wanted or tried > _ENOUGH:
+            return
+        tried += judged.pin.preference > 3
+        install_at = _with_pivots if judged.pin.is_pivot else _with_hardware
+        yield from install_at(judged, search, gallery)
+
+
+def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
+    """Yields the placements of the templates of the pin's class whose hinges all fit."""
+    count, choice = search.count, search.request.choice
+    for model in gallery.hinges_of(judged.pin.mechanism):
+        size = hinge_size(model, search.frame, judged.pin, count, choice.scale)
+        if size is None or not choice.takes(model.id):
+            continue
+        upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
+        if upper < _LEAST_SHARE * search.wanted:
+            return
+        attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
+        placement = attempt(is_whole=False)
+        if placement is not None:
+            yield _Try(placement, partial(attempt, is_whole=True))
+
+
+def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[_Try]:
+    """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
+    upper = search.widest(judged.axis, search.config.door_opening)
+    if upper < _LEAST_SHARE * search.wanted:
+        return
+    site = _site(judged, upper, search)
+    door = search.scene.parts[search.request.moving].mesh
+    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, 0.2 * search.frame.length)
+    judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
+    held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
+    free = [hinge for hinge in held if not hinge.struck_by]
+    if held:
+        placement = _placement(judged, PIVOT, upper, free or held, search)
+        yield _Try(placement, lambda: placement)
+
+
+def _is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
+    """Whether the static end sits on the mount that was chosen, if any."""
+    static = merge_meshes(hinge.static_meshes)
+    return not site.mount or site.scene.is_near_static(static, site.anchor, site.mount)
+
+
+def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
+    box = search.scene.parts[search.request.moving].box
+    unit, mount = search.scene.unit, search.request.choice.mount
+    return Site(
+        moving=search.request.moving,
+        frame=search.frame,
+        door=search.scene.moving_mesh(search.request.moving),
+        door_body=search.body,
+        scene=search.scene,
+        static_rays=search.static_rays,
+        door_rays=search.door_rays,
+        obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
+        neighbours=search.bodies_around,
+        motion=cache(pose_function(judged.axis, JointType.REVOLUTE)),
+        upper=upper,
+        depth=search.depth,
+        anchor=search.config.anchor * unit,
+        reach=(CHOSEN_REACH if mount else search.config.bridge) * unit,
+        mount=mount,
+    )
+
+
+def _attempted(
+    model: HingeModel, judged: JudgedPin, site: Site, count: int, search: DoorSearch, is_whole: bool
+) -> Placement | None:
+    """Returns a placement of one model at one pin; unless `is_whole`, it ends with the first hinge that is struck."""
+    hinges: list[InstalledHinge] = []
+    for hinge in _installed(model, judged.pin, site, count, search):
+        if hinge is None:
+            return None
+        hinges.append(hinge)
+        if hinge.struck_by and not is_whole:
+            break
+    return _placement(judged, model.id, site.upper, hinges, search) if hinges else None
+
+
+def _installed(
+    model: HingeModel, pin: PinCandidate, site: Site, count: int, search: DoorSearch
+) -> Iterator[InstalledHinge | None]:
+    """Yields one hinge per height, each shifted along the pin where its place is taken; None where it finds none."""
+    size = hinge_size(model, search.frame, pin, count, search.request.choice.scale)
+    if size is None:
+        return
+    taken: list[float] = []
+    for z in hinge_heights(search.frame.length, count):
+        levels = [float(z) + share * search.frame.length for share in _HEIGHT_SHIFTS]
+        free = (level for level in levels if all(abs(level - other) > size.length for other in taken))
+        tries = ((level, install(fit_hinge(model, size, search.frame, pin, level), pin, site)) for level in free)
+        found = _first_unstruck((level, hinge) for level, hinge in tries if hinge is not None)
+        if found is None:
+            yield None
+            return
+        taken.append(found[0])
+        yield found[1]
+
+
+def _first_unstruck(hinges: Iterator[tuple[float, InstalledHinge]]) -> tuple[float, InstalledHinge] | None:
+    """Returns the first of a few hinges, each with its height, that no neighbour runs into; else the first of all."""
+    few: list[tuple[float, InstalledHinge]] = []
+    for level, hinge in hinges:
+        few.append((level, hinge))
+        if not hinge.struck_by:
+            return level, hinge
+        if len(few) == _STRUCK:
+            break
+    return few[0] if few else None
+
+
+def _placement(
+    judged: JudgedPin, template: str, upper: float, hinges: list[InstalledHinge], search: DoorSearch
+) -> Placement:
+    part = search.request.moving
+    static = [_named(v, part, k) for k, hinge in enumerate(hinges) for v in hinge.static]
+    dynamic = [_named(v, part, k) for k, hinge in enumerate(hinges) for v in hinge.dynamic]
+    return Placement(
+        axis=judged.axis,
+        upper=upper,
+        mechanism=judged.pin.mechanism,
+        template=template,
+        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request.mounts),
+        count=len(hinges),
+        dynamic=tuple(dynamic),
+        static=tuple(static),
+        in_way=judged.neighbours,
+        struck_by=tuple(sorted({name for hinge in hinges for name in hinge.struck_by})),
+    )
+
+
+def _named(visual: Visual, part: str, index: int) -> Visual:
+    """Returns the visual under a name that is unique in the object: kind, part, index, end."""
+    kind, _, end = visual.name.partition("_")
+    return replace(visual, name=f"{kind}_{part}_{index}_{end}")

@@ -1,0 +1,251 @@
+"""One door's search: which pins there are, and what a sweep of the bare door says of each. It installs nothing."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import radians
+from typing import final
+
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import SweptBody
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.joints.config import RealizationConfig
+from grafu.joints.hinge.candidates import (
+    MAKESHIFT,
+    SMALLEST,
+    PinCandidate,
+    Tolerances,
+    barrel_radius,
+    hinge_count,
+    makeshift_pins,
+    pivot_pins,
+    ruled_pins,
+    turns_about_itself,
+)
+from grafu.joints.hinge.hardware import Neighbour, neighbours_of
+from grafu.joints.hinge.survey import survey
+from grafu.joints.limits import (
+    all_blockers,
+    free_opening,
+    in_the_way,
+    pose_function,
+    sweep,
+    swept_box,
+    widest_free,
+)
+from grafu.joints.plan import PIVOT, JointRequest
+from grafu.scene.border import BorderFrame, border_frame, part_axes
+from grafu.scene.scene import Obstacle, Scene
+from grafu.vocabulary import JointType
+
+_SLIM = 0.5  # barrel radius of a slim hinge, a share of what suits the door
+_LOOSER = 4.0  # seams and steps for a class that is forced: support blocks bridge what remains
+_NEARLY = 0.05  # a pin that leaves this share of the wanted opening blocked is still as good as free
+
+
+@final
+@dataclass(frozen=True)
+class JudgedPin:
+    """A pin with what the sweep of the bare door says of it; lower ranks are better.
+
+    `free` is the opening before the door runs into the static body; `neighbours` are the moving bodies that it meets at
+    rest.
+    """
+
+    pin: PinCandidate
+    axis: Axis
+    free: float
+    neighbours: tuple[str, ...]
+    rank: tuple[float, int, int, float]
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether the door opens about it as wanted, or nearly so, past everything."""
+        return self.rank[0] <= _NEARLY and not self.neighbours
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class DoorSearch:
+    """What one door may hit, and how far it is wanted to open (radians)."""
+
+    request: JointRequest
+    scene: Scene
+    config: RealizationConfig
+    frame: BorderFrame
+    body: SweptBody
+    obstacles: tuple[Obstacle, ...]
+    neighbours: tuple[Obstacle, ...]
+    wanted: float
+
+    @property
+    def depth(self) -> float:
+        """The tolerated penetration in metres."""
+        return self.config.depth * self.scene.unit
+
+    @property
+    def box(self) -> Box:
+        """The box of the door and all that rides on it, at rest."""
+        return self.scene.moving_mesh(self.request.moving).box
+
+    @cached_property
+    def static_rays(self) -> RayCaster:
+        """The static body around the door, of which what must carry it where that was chosen, prepared for rays."""
+        return RayCaster(self.carriers)
+
+    @cached_property
+    def carriers(self) -> TriangleMesh:
+        """The static body around the door that may carry it: all of it, or the mount that was chosen."""
+        box = self.scene.parts[self.request.moving].box
+        return self.scene.static_mesh_near(box, 0.25 * float(box.size.max()), self.request.choice.mount)
+
+    @cached_property
+    def door_rays(self) -> RayCaster:
+        """The door and all that rides on it, prepared for rays."""
+        return RayCaster(self.scene.moving_mesh(self.request.moving))
+
+    @cached_property
+    def bodies_around(self) -> tuple[Neighbour, ...]:
+        """The other moving bodies, with and their motions, as built or as expected."""
+        return neighbours_of(self.request.moving, self.scene, self.depth)
+
+    @cached_property
+    def ruled(self) -> list[JudgedPin]:
+        """The pins of the hinge classes that the surroundings allow, best first."""
+        if turns_about_itself(self.frame, self.request.axis):
+            return []
+        return self._judged(self._allowed)
+
+    @cached_property
+    def others(self) -> list[JudgedPin]:
+        """Pivots and makeshift pins, best first."""
+        tol = self._tolerances
+        return self._judged([*pivot_pins(self.frame, self.request.axis, tol), *makeshift_pins(self.frame, tol)])
+
+    @cached_property
+    def slim(self) -> list[JudgedPin]:
+        """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams.
+
+        One that is let in holds by a tongue of half a millimetre: it comes after the pivots.
+        """
+        if turns_about_itself(self.frame, self.request.axis):
+            return []
+        tol = replace(self._tolerances, radius=max(_SLIM * self._tolerances.radius, SMALLEST))
+        pins = self._ruled_pins(tol)
+        return self._judged([replace(pin, preference=MAKESHIFT) if pin.let_in else pin for pin in pins])
+
+    @property
+    def expected_axis(self) -> Axis:
+        """The axis of the first hinge class about which the bare door is free; else the one that was asked for."""
+        if turns_about_itself(self.frame, self.request.axis):
+            return self.request.axis
+        judged = (self._judge(pin) for pin in self._allowed)
+        return next((j.axis for j in judged if j.is_clear), self.request.axis)
+
+    @property
+    def count(self) -> int:
+        """How many hinges the door is to have."""
+        return self.request.choice.count or hinge_count(self.frame.length)
+
+    @property
+    def has_pins(self) -> bool:
+        """Whether any pin is left to try; a choice can leave none."""
+        return next(self.in_order(), None) is not None
+
+    @cached_property
+    def _allowed(self) -> list[PinCandidate]:
+        return self._ruled_pins(self._tolerances)
+
+    def _ruled_pins(self, tol: Tolerances) -> list[PinCandidate]:
+        """Returns the pins of the classes that the surroundings allow; of a forced class, over wider seams at need."""
+        forced = self.request.choice.mechanism
+        pins = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
+        if forced is None:
+            return pins
+        wider = replace(tol, contact=_LOOSER * tol.contact, flush=_LOOSER * tol.flush)
+        of_class = [pin for pin in pins if pin.mechanism is forced]
+        more = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * wider.contact), wider)
+        return of_class or [pin for pin in more if pin.mechanism is forced]
+
+    @property
+    def _tolerances(self) -> Tolerances:
+        unit = self.scene.unit
+        radius = barrel_radius(self.frame) * self.request.choice.scale
+        return Tolerances(self.config.contact * unit, self.config.flush * unit, radius)
+
+    def in_order(self) -> Iterator[JudgedPin]:
+        """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
+        return (judged for judged in self._all_in_order() if self._is_left(judged.pin))
+
+    def _is_left(self, pin: PinCandidate) -> bool:
+        choice = self.request.choice
+        if pin.is_pivot:
+            return choice.mechanism is None and choice.takes(PIVOT) and not choice.count
+        return choice.mechanism in (None, pin.mechanism) and choice.template != PIVOT
+
+    def _all_in_order(self) -> Iterator[JudgedPin]:
+        """Yields all pins: those of a hinge class that leave the door free, then slim ones, then everything by rank.
+
+        What is no board turns about the axis that was asked for, if anything can carry it there.
+        """
+        first = [judged for judged in self.ruled if judged.is_clear]
+        if turns_about_itself(self.frame, self.request.axis):
+            first = [judged for judged in self.others if judged.pin.is_pivot]
+        yield from first
+        slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.let_in]
+        yield from slim
+        rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in slim)
+        yield from sorted(rest, key=lambda j: j.rank)
+
+    def best(self) -> JudgedPin:
+        """Returns the best pin by the sweep alone."""
+        return next(self.in_order())
+
+    def to_clear(self) -> JudgedPin:
+        """Returns the pin to make clearance for where none is free: of a hinge class, or the axis as asked for."""
+        pivots = [judged for judged in self.others if judged.pin.is_pivot]
+        return min(self.ruled or pivots, key=lambda judged: judged.rank)
+
+    def met_at_rest(self) -> tuple[str, ...]:
+        """Returns what the door cuts into before it has moved at all."""
+        return sweep(self.body, pose_function(self.best().axis, JointType.REVOLUTE), 0.0, self.obstacles, 1).blockers
+
+    def widest(self, axis: Axis, reach: float) -> float:
+        """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
+        motion = pose_function(axis, JointType.REVOLUTE)
+        near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
+        return widest_free(self.body, motion, reach, near, self.config.fine_poses)
+
+    def _judged(self, pins: list[PinCandidate]) -> list[JudgedPin]:
+        return sorted((self._judge(pin) for pin in pins), key=lambda judged: judged.rank)
+
+    def _judge(self, pin: PinCandidate) -> JudgedPin:
+        axis = self.frame.axis_at(pin.x, pin.y)
+        motion = pose_function(axis, JointType.REVOLUTE)
+        box = swept_box(self.box, motion, self.wanted)
+        poses = self.config.coarse_poses
+        free, share = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
+        neighbours = all_blockers(self.body, motion, self.wanted, in_the_way(self.neighbours, box), poses)
+        shortfall = round(1.0 - free / self.wanted, 2) + round(share, 2)
+        rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
+        return JudgedPin(pin, axis, free, neighbours, rank)
+
+
+def door_search(
+    request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
+) -> DoorSearch:
+    """Returns the search for one request; what is `ignored` does not count as an obstacle."""
+    part = scene.parts[request.moving]
+    wanted = min(request.reference or radians(90), config.door_opening)
+    return DoorSearch(
+        request,
+        scene,
+        config,
+        border_frame(part.mesh, request.axis),
+        scene.swept_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
+        tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored),
+        scene.other_bodies(request.moving),
+        max(wanted, radians(30)),
+    )

@@ -1,0 +1,126 @@
+"""The widest opening free of collision, found by sweeping real meshes. It knows no hinges and no rails."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat4, Scalars, frozen_array
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import SweptBody
+from grafu.geometry.transform import transform_points
+from grafu.scene.scene import Obstacle
+from grafu.vocabulary import JointType
+
+_NEAR_REST = 1.5
+
+PoseFunction = Callable[[float], Mat4]
+
+
+def pose_function(axis: Axis, joint_type: JointType) -> PoseFunction:
+    """Returns joint value -> 4x4 motion from rest, for a revolute or prismatic joint on this axis."""
+    return axis.rotation if joint_type is JointType.REVOLUTE else axis.shift
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SweepVerdict:
+    """How far a body moves freely: the free opening, the share of poses that collide, and what it ran into first."""
+
+    free: float
+    share: float
+    blockers: tuple[str, ...]
+
+
+def opening_values(reach: float, poses: int) -> Scalars:
+    """Returns joint values from 0 to `reach`, closer together near rest, where parts lie nearest to one another."""
+    return reach * _shares(poses)
+
+
+@cache
+def _shares(poses: int) -> Scalars:
+    return frozen_array(np.linspace(0.0, 1.0, poses) ** _NEAR_REST)
+
+
+def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = 9) -> Box:
+    """Returns a box around a box's whole way from 0 to `reach` (slightly grown for what lies between poses)."""
+    corners = np.vstack([transform_points(motion(v), box.corners()) for v in np.linspace(0.0, reach, poses)])
+    return Box.around(corners).grown(0.02 * float(box.size.max()))
+
+
+def in_the_way(obstacles: Sequence[Obstacle], box: Box) -> list[Obstacle]:
+    """Returns the obstacles whose boxes meet a box."""
+    return [o for o in obstacles if o.collider.box.overlaps(box)]
+
+
+def sweep(
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> SweepVerdict:
+    """Returns the verdict over evenly spaced poses from 0 to `reach`; the first blocked pose ends the free opening.
+
+    A part that already collides at rest has a free opening of 0, and `share` tells whether that passes.
+    """
+    values = opening_values(reach, poses)
+    blocked = [_blockers(body, motion(v), obstacles) for v in values]
+    hits = [k for k, names in enumerate(blocked) if names]
+    free = reach if not hits else float(values[hits[0] - 1]) if hits[0] else 0.0
+    names = tuple(sorted({name for found in blocked for name in found}))
+    return SweepVerdict(free, len(hits) / poses, names)
+
+
+def free_opening(
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> tuple[float, float]:
+    """Returns the opening before the first blocked pose, and for a body blocked at rest the share of such poses.
+
+    It stops at the first blocked pose, unless that is the first of all.
+    """
+    values = opening_values(reach, poses)
+    if _blockers(body, motion(0.0), obstacles):
+        hits = [bool(_blockers(body, motion(v), obstacles)) for v in values]
+        return 0.0, sum(hits) / poses
+    first = next((k for k, v in enumerate(values) if _blockers(body, motion(v), obstacles)), None)
+    return (reach, 0.0) if first is None else (float(values[first - 1]), 0.0)
+
+
+def all_blockers(
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> tuple[str, ...]:
+    """Returns the ids of the obstacles that the body cuts into anywhere from 0 to `reach`, sorted."""
+    return sweep(body, motion, reach, obstacles, poses).blockers
+
+
+def is_free(body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
+    """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
+    return not any(_blockers(body, motion(v), obstacles) for v in opening_values(reach, poses)[::-1])
+
+
+def widest_free(
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+) -> float:
+    """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection.
+
+    A collision at rest does not count: it cannot be avoided by opening less.
+    """
+    values = opening_values(reach, poses)
+    for before, after in pairwise(values):
+        if not _blockers(body, motion(after), obstacles):
+            continue
+        for _ in range(6):
+            middle = (before + after) / 2
+            if not _blockers(body, motion(middle), obstacles):
+                before = middle
+            else:
+                after = middle
+        return float(before)
+    return float(reach)
+
+
+def _blockers(body: SweptBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
+    """Returns the ids of what the body, posed at T, cuts into."""
+    body.place(T)
+    return [obstacles[k].id for k in body.penetrated([o.collider for o in obstacles])]

@@ -1,0 +1,124 @@
+"""Where motions come from becomes one plan: from a completed graph, or from the joints that the input states.
+
+Both give initial axes only; what is built from them cannot tell the sources apart.
+"""
+
+from collections.abc import Iterable
+from math import pi
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Joint, JointLimits
+from grafu.asset.part import AnnotatedJoint, Asset
+from grafu.geometry.box import Box
+from grafu.geometry.transform import transform_points
+from grafu.graph.completion import GraphCompletion, RefusedMotion
+from grafu.graph.motion import hinge_to_axis, rail_to_axis
+from grafu.joints.carried import carried_parts
+from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
+from grafu.joints.report import SkipReason
+from grafu.vocabulary import JointType
+
+# A limit on the other side of the drawn pose that is less than this share of the wider one is play, not motion.
+_PLAY = 0.25
+
+
+def plan_from_annotation(asset: Asset) -> RealizationPlan:
+    """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one.
+
+    Joints that another system predicted count as stated; each request's source says who stated it.
+    """
+    others = {joint.stated_by for joint in asset.joints} - {"annotation"}
+    who = " and ".join(sorted(others)) or "the input"
+    requests = tuple(_from_joint(joint, asset) for joint in asset.joints)
+    stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
+    refused = tuple(
+        Refusal(part.id, f"{who} states no joint for it")
+        for part in asset.parts
+        if part.label.is_movable and part.id not in stated
+    )
+    return RealizationPlan(requests, refused)
+
+
+def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
+    """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
+    graph = completion.completed
+    known = {part.id for part in asset.parts}
+    fixed_to = {part.id: part.rides_on for part in asset.parts if part.rides_on}
+    carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to) if part in known]
+    attached = attached_to(asset, [*((edge.parent, edge.child) for edge in graph.attachments), *carried])
+    requests = []
+    for hinge in graph.hinges:
+        axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
+        rides = attached.get(hinge.child, ())
+        requests.append(
+            JointRequest(hinge.child, JointType.REVOLUTE, axis, completion.source, None, (hinge.parent,), rides)
+        )
+    for child in dict.fromkeys(rail.child for rail in graph.rails):
+        edges = [rail for rail in graph.rails if rail.child == child]
+        axis = rail_to_axis(graph.node(child).box, edges[0].axis)
+        mounts = tuple(rail.parent for rail in edges)
+        rides = attached.get(child, ())
+        requests.append(JointRequest(child, JointType.PRISMATIC, axis, completion.source, None, mounts, rides))
+    moved = {part for _, part in carried}
+    refused = tuple(_refusal(r) for r in completion.refused if r.part not in moved)
+    return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
+
+
+def _refusal(refused: RefusedMotion) -> Refusal:
+    reason = SkipReason.TOO_COMPLEX if refused.is_too_complex else SkipReason.NO_MOTION
+    return Refusal(refused.part, refused.why, reason)
+
+
+def attached_to(asset: Asset, attachments: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
+    """Returns the parts attached to each part, by the asset or by `attachments`, and those attached to these."""
+    known = {part.id for part in asset.parts}
+    below: dict[str, list[str]] = {}
+    for parent, child in [*((p.rides_on, p.id) for p in asset.parts if p.rides_on), *attachments]:
+        if child in known and child not in below.setdefault(parent, []):
+            below[parent].append(child)
+    return {parent: tuple(_descendants(parent, below)) for parent in below}
+
+
+def _descendants(parent: str, below: dict[str, list[str]]) -> list[str]:
+    found: list[str] = []
+    queue = list(below.get(parent, ()))
+    while queue:
+        child = queue.pop(0)
+        if child not in found and child != parent:
+            found.append(child)
+            queue += below.get(child, ())
+    return found
+
+
+def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
+    """Returns the request of one annotated joint: signed so that positive opens, drawn ajar where its range says so."""
+    lower, upper = (joint.lower, joint.upper) if joint.limited else (0.0, pi / 2)
+    lower, upper = min(lower, upper), max(lower, upper)
+    opens_up = abs(upper) >= abs(lower)
+    if min(-lower, upper) > _PLAY * max(-lower, upper):
+        opens_up = _closed_end(joint, asset, lower, upper) == lower
+    axis = joint.axis if opens_up else joint.axis.reversed()
+    before, after = (lower, upper) if opens_up else (-upper, -lower)
+    drawn_at = -before if min(-before, after) > _PLAY * max(-before, after) else 0.0
+    reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
+    if not joint.limited and joint.type is JointType.PRISMATIC:
+        reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out is unknown
+    attached = attached_to(asset, ()).get(joint.part, ())
+    return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), attached, drawn_at)
+
+
+def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float) -> float:
+    """Returns the end of a range at which the part lies deeper in the rest of the object: closed."""
+    moved = Joint("", joint.type, "", "", joint.axis, JointLimits(0.0, 0.0))
+    corners = asset.part(joint.part).box.corners()
+    others = {other.part for other in asset.joints}
+    body = [p.box for p in asset.parts if p.id not in others and p.rides_on is None]
+    whole = Box.around(np.vstack([box.corners() for box in body])) if body else asset.box
+    inside = {end: _shared(Box.around(transform_points(moved.motion(end), corners)), whole) for end in (lower, upper)}
+    return max((lower, upper), key=lambda end: inside[end])
+
+
+def _shared(a: Box, b: Box) -> float:
+    """Returns the volume that two boxes share."""
+    return float(np.prod(np.maximum(np.minimum(a.high, b.high) - np.maximum(a.low, b.low), 0.0)))

@@ -1,0 +1,129 @@
+"""What is measured on joints that stand: in how many poses they still cut in, and how far their hardware comes loose.
+
+A joint that cannot be measured within its share of the time is not delivered: its behaviour would be unknown.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.budget import within
+from grafu.geometry.intersection import MeshCollider
+from grafu.joints.build import Built
+from grafu.joints.build_all import joint_share
+from grafu.joints.config import RealizationConfig
+from grafu.joints.limits import in_the_way, pose_function, sweep, swept_box
+from grafu.joints.order import Order
+from grafu.joints.placement import Placement
+from grafu.joints.plan import JointRequest
+from grafu.joints.report import Skipped, SkipReason
+from grafu.processes.cache import Cache
+from grafu.scene.border import part_axes
+from grafu.scene.scene import Scene
+
+_GAP_POSES = 5  # hardware slides or turns along itself: a gap, where there is one, opens steadily
+_TOUCHING = 1e-4
+_MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
+
+Figures = tuple[float, float]
+"""The share of poses that collide with static parts, and the widest gap in metres to the static body."""
+
+
+@final
+@dataclass(frozen=True)
+class Measured:
+    """The joints that were built and measured, their figures and order by moving body, and a scene of these alone."""
+
+    built: tuple[Built, ...]
+    figures: Mapping[str, Figures]
+    orders: Mapping[str, Order]
+    scene: Scene
+    skipped: tuple[Skipped, ...] = ()
+
+
+def measure_all(
+    built: Sequence[Built], orders: Mapping[str, Order], scene: Scene, config: RealizationConfig, cache: Cache
+) -> Measured:
+    """Returns what was measured on each joint; one that takes more than its share of the time is taken out again."""
+    figures: dict[str, Figures] = {}
+    skipped: list[Skipped] = []
+    for k, one in enumerate(built):
+        name = one.request.moving
+        work = partial(_measured, one, orders[name].upper, scene, config, cache)
+        found: Figures | Skipped = within(
+            joint_share(len(built) - k), work, partial(Skipped, name, SkipReason.TOO_COMPLEX)
+        )
+        if isinstance(found, Skipped):
+            skipped.append(found)
+        else:
+            figures[name] = found
+    return _without({skip.request for skip in skipped}, Measured(tuple(built), figures, orders, scene, tuple(skipped)))
+
+
+def _too_complex(name: str, why: str) -> Figures | Skipped:
+    return Skipped(name, SkipReason.TOO_COMPLEX, why)
+
+
+def _without(gone: set[str], measured: Measured) -> Measured:
+    """Returns what is left when the joints of some moving bodies are taken out, with their hardware."""
+    if not gone:
+        return measured
+    removed = [one for one in measured.built if one.request.moving in gone]
+    pieces = {id(visual) for one in removed for visual in (*one.placement.static, *one.placement.dynamic)}
+    hardware = tuple(pair for pair in measured.scene.hardware if id(pair[1]) not in pieces)
+    orders = {
+        name: replace(order, after=tuple(other for other in order.after if other not in gone))
+        for name, order in measured.orders.items()
+    }
+    built = tuple(one for one in measured.built if one.request.moving not in gone)
+    return replace(measured, built=built, orders=orders, scene=replace(measured.scene, hardware=hardware))
+
+
+def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Skipped:
+    """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
+    moving = built.request.moving
+    motion = pose_function(built.placement.axis, built.request.type)
+    near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(moving).box, motion, upper))
+    names = {*scene.moving_bodies[moving].members, *(obstacle.id for obstacle in near)}
+    around = replace(
+        scene,
+        parts={name: part for name, part in scene.parts.items() if name in names},
+        moving_bodies={moving: scene.moving_bodies[moving]},
+        hardware=tuple((moving, visual) for visual in scene.hardware_of(moving)),
+        joint_motions={},
+    )
+    return cache.value("measure", _measure, built.request, built.placement, upper, around, config)
+
+
+def _measure(
+    request: JointRequest, placement: Placement, upper: float, scene: Scene, config: RealizationConfig
+) -> Figures:
+    """Returns the same in a scene that holds only what is near the path of the moving body."""
+    moving = request.moving
+    motion = pose_function(placement.axis, request.type)
+    near = list(scene.static_obstacles)
+    body = scene.swept_body(moving, config.depth * scene.unit, part_axes(scene.parts[moving].mesh))
+    share = sweep(body, motion, upper, near, _MEASURED_POSES).share
+    ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)]
+    held = [MeshCollider(v.mesh) for v in placement.static]
+    return share, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
+
+
+def _gap(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:
+    """Returns the distance in metres of the nearest two pieces of hardware, the moving ones posed at T."""
+    for end in ends:
+        end.place(T)
+    nearest = float("inf")
+    pairs = sorted(((one.box_gap(other), k, one, other) for k, (one, other) in enumerate(product(ends, held))))
+    for least, _, one, other in pairs:
+        if least >= nearest:
+            break
+        nearest = min(nearest, one.distance(other))
+        if nearest <= _TOUCHING:
+            break
+    return nearest

@@ -1,0 +1,185 @@
+"""A motion that the user states for one part; it replaces that of the motion source. It knows no graph and no hardware.
+
+Sides are those of the object frame: the front looks along -Y, the left lies at -X, so they are one's own before it.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.errors import OptionError
+from grafu.geometry.arrays import Mat3, Vec3, vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.rail.search import slides_in_its_plane
+from grafu.scene.border import part_axes
+from grafu.vocabulary import JointType, PartLabel
+
+_LEVEL = 1e-6
+OLD_FIXED = "not"
+"""The word of earlier versions for `fixed`; saved settings are still read."""
+
+
+class Moves(StrEnum):
+    """Whether a part moves, and how."""
+
+    FIXED = "fixed"  # it gets no joint, whatever its label
+    TURNS = "turns"
+    SLIDES = "slides"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Moves | None":
+        return cls.FIXED if value == OLD_FIXED else None  # as settings of earlier versions spell it
+
+
+class Side(StrEnum):
+    """A side of the object."""
+
+    LEFT = "left"
+    RIGHT = "right"
+    FRONT = "front"
+    BACK = "back"
+    TOP = "top"
+    BOTTOM = "bottom"
+
+
+DIRECTIONS: dict[Side, Vec3] = {
+    Side.LEFT: vec3(-1.0, 0.0, 0.0),
+    Side.RIGHT: vec3(1.0, 0.0, 0.0),
+    Side.FRONT: vec3(0.0, -1.0, 0.0),
+    Side.BACK: vec3(0.0, 1.0, 0.0),
+    Side.TOP: vec3(0.0, 0.0, 1.0),
+    Side.BOTTOM: vec3(0.0, 0.0, -1.0),
+}
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class MotionChoice:
+    """How one part moves.
+
+    `side` is the border that a part turns about, or the side that it slides to (None: the front). What turns opens
+    outwards, away from the object's middle, unless `inwards`.
+
+    Raises:
+        ValueError: if a part that turns has no side, or one that does not turn opens inwards.
+    """
+
+    moves: Moves
+    side: Side | None = None
+    inwards: bool = False
+
+    def __post_init__(self) -> None:
+        if self.moves is Moves.TURNS and self.side is None:
+            raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
+        if self.moves is not Moves.TURNS and self.inwards:
+            raise ValueError(f"`MotionChoice.inwards` is for parts that turn: got it for one that moves {self.moves}")
+        if self.moves is Moves.FIXED and self.side is not None:
+            raise ValueError(f"`MotionChoice.side` must be None for a fixed part: got {self.side}")
+
+    @property
+    def type(self) -> JointType:
+        """The type of joint."""
+        types = {Moves.TURNS: JointType.REVOLUTE, Moves.SLIDES: JointType.PRISMATIC}
+        return types.get(self.moves, JointType.FIXED)
+
+
+STANDS_STILL = MotionChoice(Moves.FIXED)
+
+TURNING_SIDES = ("left", "right", "top", "bottom")
+"""The borders that a part can turn about, as words."""
+
+
+def choice_in_words(word: str) -> MotionChoice:
+    """Returns the choice that one word states: a border of `TURNING_SIDES`, `slides`, or `fixed`.
+
+    Raises:
+        OptionError: if it is another word.
+    """
+    if word in TURNING_SIDES:
+        return MotionChoice(Moves.TURNS, Side(word))
+    if word == OLD_FIXED:
+        raise OptionError("`not` is called `fixed` now: use fixed")
+    if word not in (Moves.SLIDES.value, Moves.FIXED.value):
+        raise OptionError(f"must be one of {', '.join((*TURNING_SIDES, Moves.SLIDES, Moves.FIXED))}: got {word!r}")
+    return MotionChoice(Moves(word))
+
+
+def label_of_motion(part: Part, choice: MotionChoice) -> PartLabel:
+    """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
+    if choice.moves is Moves.FIXED:
+        return part.label
+    if choice.moves is Moves.TURNS or slides_in_its_plane(part.mesh, _direction(choice)):
+        return PartLabel.DOOR
+    return PartLabel.DRAWER
+
+
+def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
+    """Returns the initial axis of a part that moves; `whole` is the box of the object. Positive opens.
+
+    It follows the part's own sides where the part stands turned about Z.
+
+    Raises:
+        OptionError: if a part is to turn about what is no border of it, or to slide up or down.
+    """
+    axes = part_axes(part.mesh)
+    local = Box.around(part.mesh.vertices @ axes)
+    side = _own_side(axes, _direction(choice))
+    if choice.moves is Moves.SLIDES:
+        if abs(float(side[2])) > 0.5:
+            raise OptionError(f"`{part.id}` must slide level: got {choice.side}")
+        return Axis(axes @ local.center, side)
+    thin = axes[:, local.thin_axis]
+    if abs(float(side @ thin)) > 0.5:
+        raise OptionError(f"`{part.id}` must turn about one of its borders: its {choice.side} is a broad face")
+    opens = _outwards(thin, axes @ local.center - whole.center) * (-1.0 if choice.inwards else 1.0)
+    half = np.abs(axes.T @ side) @ local.half
+    depth = float(local.half[local.thin_axis])
+    return Axis(axes @ local.center + half * side + depth * opens, np.cross(-side, opens))
+
+
+def motion_as_choice(mesh: TriangleMesh, type_: JointType, axis: Axis, whole: Box) -> MotionChoice | None:
+    """Returns the choice that comes nearest to how a part moves; None where it turns about no border of its own.
+
+    `mesh` is the part closed, `axis` that of its joint, positive opens; `whole` is the box of the object.
+    """
+    if type_ is JointType.PRISMATIC:
+        return MotionChoice(Moves.SLIDES, _side_towards(axis.direction))
+    axes = part_axes(mesh)
+    local = Box.around(mesh.vertices @ axes)
+    along = int(np.argmax(np.abs(axes.T @ axis.direction)))
+    if along == local.thin_axis:
+        return None
+    wide = axes[:, 3 - along - local.thin_axis]
+    center = axes @ local.center
+    side = wide * np.copysign(1.0, float(wide @ (axis.point - center)))
+    opens = np.cross(axis.direction, -side)
+    outwards = _outwards(axes[:, local.thin_axis], center - whole.center)
+    return MotionChoice(Moves.TURNS, _side_towards(side), inwards=float(opens @ outwards) < 0)
+
+
+def _side_towards(direction: Vec3) -> Side:
+    return max(DIRECTIONS, key=lambda side: float(DIRECTIONS[side] @ direction))
+
+
+def _direction(choice: MotionChoice) -> Vec3:
+    return DIRECTIONS[choice.side or Side.FRONT]
+
+
+def _own_side(axes: Mat3, direction: Vec3) -> Vec3:
+    """Returns the part's own axis that is nearest to a direction, pointing that way."""
+    shares = axes.T @ direction
+    k = int(np.argmax(np.abs(shares)))
+    return np.asarray(axes[:, k] * np.sign(shares[k]))
+
+
+def _outwards(normal: Vec3, from_middle: Vec3) -> Vec3:
+    """Returns a broad face's normal, away from the middle of the whole; in the middle, the front's or the upper one."""
+    away = float(normal @ from_middle)
+    if abs(away) < _LEVEL:
+        away = float(normal @ vec3(0.0, -1.0, 0.5))
+    return normal if away >= 0 else -normal

@@ -1,0 +1,148 @@
+"""Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
+
+A joint that runs into a closed neighbour waits for it, if the neighbour, open, does not block it and does not itself
+wait; else its opening ends where the neighbour begins, and the report says so. Beyond a quarter turn a door opens only
+as far as it blocks no open neighbour, unless a wider opening was chosen.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+from grafu.articulation.kinematics import all_before
+from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
+from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.joints.config import RealizationConfig
+from grafu.joints.limits import PoseFunction, in_the_way, is_free, sweep, swept_box
+from grafu.scene.border import part_axes
+from grafu.scene.scene import Obstacle, Scene
+
+_SHARES = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, in the order tried
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class BuiltJoint:
+    """A joint as built so far: the moving body, its motion, its opening, and the moving bodies that it meets at rest.
+
+    `least` is the opening that it keeps, whatever it blocks.
+    """
+
+    moving: str
+    motion: PoseFunction
+    upper: float
+    least: float
+    in_way: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What one joint waits for, how far it may open, and what else is to be said of that."""
+
+    after: tuple[str, ...]
+    upper: float
+    note: str = ""
+
+
+def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
+    """Returns for each moving body the moving bodies that must be open first, and its opening."""
+    by_id = {joint.moving: joint for joint in joints}
+    orders: dict[str, Order] = {}
+    waits: dict[str, set[str]] = {}
+    for joint in sorted(joints, key=lambda m: len(m.in_way)):
+        after, upper = [], joint.upper
+        for name in joint.in_way:
+            other = by_id.get(name)
+            waits_for_us = joint.moving in all_before(name, waits)
+            if (
+                other is not None
+                and not waits_for_us
+                and _is_free_of(joint, joint.upper, _open(other, other.upper, scene), scene, config)
+            ):
+                after.append(name)
+            else:
+                upper = min(upper, _until(joint, scene.moving_mesh(name), scene, config))
+        waits[joint.moving] = set(after)
+        orders[joint.moving] = Order(tuple(after), upper)
+    return orders
+
+
+def stand_aside(
+    orders: Mapping[str, Order], joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig
+) -> dict[str, Order]:
+    """Returns the orders in which doors open no wider than leaves their open neighbours free, if they must.
+
+    A door that blocks another however little it opens, down to its `least`, opens as wide as before.
+    """
+    paths = _PathBoxes(scene)
+    settled = {m.moving: orders[m.moving].upper for m in joints}
+    reaches = settled | {m.moving: min(settled[m.moving], m.least) for m in joints}  # of doors to come: what they keep
+    for door in joints:
+        widest, least = settled[door.moving], reaches[door.moving]
+        shares = _SHARES if least < widest else ()
+        uppers = (least + share * (widest - least) for share in shares)
+        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, joints, paths, config))
+        reaches[door.moving] = next(found, widest)
+    return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
+
+
+@final
+class _PathBoxes:
+    """The boxes around the paths of joints, each worked out once; not a value."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._boxes: dict[tuple[str, float], Box] = {}
+
+    def box(self, joint: BuiltJoint, reach: float) -> Box:
+        """Returns the box around the path of a joint up to `reach`."""
+        key = joint.moving, reach
+        if key not in self._boxes:
+            require_time()
+            self._boxes[key] = swept_box(self.scene.moving_mesh(joint.moving).box, joint.motion, reach)
+        return self._boxes[key]
+
+
+def _leaves_free(
+    door: BuiltJoint,
+    upper: float,
+    reaches: Mapping[str, float],
+    joints: Sequence[BuiltJoint],
+    paths: _PathBoxes,
+    config: RealizationConfig,
+) -> bool:
+    """Whether no body hits a door that stands open by `upper`."""
+    scene = paths.scene
+    obstacle = _open(door, upper, scene)
+    others = [(other, reaches[other.moving]) for other in joints if other is not door]
+    near = [(other, reach) for other, reach in others if in_the_way([obstacle], paths.box(other, reach))]
+    return all(_is_free_of(other, reach, obstacle, scene, config) for other, reach in near)
+
+
+def _open(other: BuiltJoint, upper: float, scene: Scene) -> Obstacle:
+    """Returns a neighbour as an obstacle in its open pose, its hardware counted in."""
+    meshes = [scene.moving_mesh(other.moving), *(v.mesh for v in scene.hardware_of(other.moving))]
+    return Obstacle(other.moving, MeshCollider(merge_meshes(meshes).transformed(other.motion(upper))))
+
+
+def _body(joint: BuiltJoint, scene: Scene, config: RealizationConfig) -> SweptBody:
+    axes = part_axes(scene.parts[joint.moving].mesh)
+    return scene.swept_body(joint.moving, config.depth * scene.unit, axes)
+
+
+def _is_free_of(joint: BuiltJoint, upper: float, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
+    return is_free(_body(joint, scene, config), joint.motion, upper, [obstacle], config.coarse_poses)
+
+
+def _until(joint: BuiltJoint, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:
+    """Returns how far a moving body opens before it meets a neighbour that stays closed."""
+    obstacle = Obstacle("", MeshCollider(mesh))
+    path = swept_box(scene.moving_mesh(joint.moving).box, joint.motion, joint.upper)
+    verdict = sweep(
+        _body(joint, scene, config), joint.motion, joint.upper, in_the_way([obstacle], path), config.fine_poses
+    )
+    # What overlaps at rest already cannot be avoided by opening less.
+    return verdict.free if verdict.share and verdict.free > 0 else joint.upper

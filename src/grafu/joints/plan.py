@@ -1,0 +1,121 @@
+"""What is asked for: joints to build, with initial axes, and choices about them. It cannot tell who asked."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isfinite
+from typing import final
+
+from grafu.geometry.axis import Axis
+from grafu.joints.report import SkipReason
+from grafu.vocabulary import JointType, MechanismClass
+
+PIVOT = "pivot"
+"""The template of a door that is carried by discs at its ends; it is of no gallery."""
+
+
+class Supports(StrEnum):
+    """What holds a rail that touches no wall, and what bridges the way to its drawer."""
+
+    AUTO = "auto"  # the shortest block to whatever stands there
+    NONE = "none"  # nothing: rails stand only where they touch both sides
+    SLAB = "slab"  # a slab as large as the rail, out to the wall beside it
+    DIVIDER = "divider"  # an upright board along the rail, from what stands below to what stands above
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class JointChoice:
+    """What is decided about one joint; what is left as it is here, the search decides.
+
+    `mechanism` and `template` narrow it to one class or template (an id; `PIVOT` for discs at the ends), `scale`
+    multiplies the size of hinges, `count` is their number (0: by the door's height), `flipped` hangs the door on its
+    opposite border, `opening` is the widest opening (radians or metres), `mount` the part that must carry the joint (of
+    the two rails of a drawer, at least one), `supports` what holds rails where they touch no wall.
+
+    Raises:
+        ValueError: if `scale` is not in [0.25, 4], `count` not in 0..12, or `opening` not above 0.
+    """
+
+    mechanism: MechanismClass | None = None
+    template: str = ""
+    scale: float = 1.0
+    count: int = 0
+    flipped: bool = False
+    opening: float | None = None
+    mount: str = ""
+    supports: Supports = Supports.AUTO
+
+    def __post_init__(self) -> None:
+        if not 0.25 <= self.scale <= 4.0:
+            raise ValueError(f"`JointChoice.scale` must be in 0.25..4: got {self.scale}")
+        if not 0 <= self.count <= 12:
+            raise ValueError(f"`JointChoice.count` must be in 0..12: got {self.count}")
+        if self.opening is not None and not (isfinite(self.opening) and self.opening > 0):
+            raise ValueError(f"`JointChoice.opening` must be above 0: got {self.opening}")
+        if self.template == PIVOT and self.mechanism is not None:
+            raise ValueError(f"pivots are of no class: got {self.mechanism}")
+
+    def __str__(self) -> str:
+        words = (f"class {self.mechanism}" if self.mechanism else "", self.template, "flipped" * self.flipped)
+        sizes = (f"{self.count} of them" if self.count else "", f"scale {self.scale:g}" if self.scale != 1.0 else "")
+        mount = f"on `{self.mount}`" if self.mount else ""
+        held = f"supports: {self.supports}" if self.supports is not Supports.AUTO else ""
+        return ", ".join(word for word in (*words, *sizes, mount, held) if word)
+
+    def takes(self, template: str) -> bool:
+        """Whether hardware of this template may be built."""
+        return self.template in ("", template)
+
+
+AUTOMATIC = JointChoice()
+"""Nothing is decided: the search is free."""
+
+
+@final
+@dataclass(frozen=True)
+class JointRequest:
+    """One joint to build.
+
+    `axis` is an initial guess in the object frame; positive motion along or about it opens. `reference` is the
+    opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts
+    that should carry it, best first; empty leaves the choice to the geometry. `attached` move with the part (handles).
+    `source` says where the motion came from. `drawn_at` is the joint value at which the input draws the part: where it
+    is not 0 the part is drawn ajar, and is closed before anything is built. `choice` narrows the search for hardware.
+    """
+
+    moving: str
+    type: JointType
+    axis: Axis
+    source: str
+    reference: float | None = None
+    mounts: tuple[str, ...] = ()
+    attached: tuple[str, ...] = ()
+    drawn_at: float = 0.0
+    choice: JointChoice = AUTOMATIC
+
+    def __post_init__(self) -> None:
+        if self.type is JointType.FIXED:
+            raise ValueError(f"`JointRequest.type` must be revolute or prismatic: got {self.type} for {self.moving}")
+
+
+@final
+@dataclass(frozen=True)
+class Refusal:
+    """A movable part for which no joint is requested: the reason, and why, in words.
+
+    The reason is `NO_MOTION`, `TOO_COMPLEX` where there was no time to decide, or `REJECTED` where the user wants the
+    part to stand still.
+    """
+
+    part: str
+    why: str
+    reason: SkipReason = SkipReason.NO_MOTION
+
+
+@final
+@dataclass(frozen=True)
+class RealizationPlan:
+    """Everything to build on one asset."""
+
+    joints: tuple[JointRequest, ...] = ()
+    refused: tuple[Refusal, ...] = ()

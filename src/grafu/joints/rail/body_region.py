@@ -1,0 +1,201 @@
+"""The drawer frame, and the body region of a drawer: where its container runs, behind the pulling board.
+
+X runs across the drawer (right-handed with Z up), Y from the front into the cabinet, against the sliding direction. The
+origin is the middle of the drawer's front side: it fills |x| <= width / 2, 0 <= y <= depth, |z| <= height / 2. A
+sliding door is framed alike, but lying: X up, so that its flanks are its lower and upper edges, where tracks belong.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
+from grafu.geometry.transform import from_rotation, transform_points
+from grafu.scene.border import part_axes
+
+_SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
+_FINER = 24  # rows between two of those, where a body begins and ends: to a thousandth of the depth
+_BOARD = 0.15  # what is less deep than this share of its smaller side is a front without a container
+_THICKEST, _SLAT = 0.03, 0.1  # metres, share of its longer side: low fronts are thick for their height
+_SHORTEST = 0.3  # a body shorter than this share of the drawer's depth is no container (official 7.4)
+
+
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class DrawerFrame(ArrayValue):
+    """See the module's docstring; `rotation` has X, Y, Z as columns in the object frame."""
+
+    origin: Vec3
+    rotation: Mat3
+    width: float
+    depth: float
+    height: float
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self, dtype=np.float64)
+
+    @property
+    def T_object_drawer(self) -> Mat4:
+        """Maps drawer coordinates to the object frame."""
+        return from_rotation(self.rotation, self.origin)
+
+    @property
+    def slide(self) -> Vec3:
+        """The unit direction in which the drawer opens, in the object frame."""
+        return -self.rotation[:, 1]
+
+    def to_object(self, points: Points) -> Points:
+        """Returns points of the drawer frame in the object frame."""
+        return transform_points(self.T_object_drawer, points)
+
+
+def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> DrawerFrame | None:
+    """Returns the frame of a part that slides along a unit direction; None where it slides up or down.
+
+    The direction is snapped to the nearest level axis of the part's own box within 8 degrees, else kept. `lying` frames
+    a sliding door.
+    """
+    if abs(float(direction[2])) > 0.5:
+        return None
+    axes = part_axes(mesh)
+    nearest = int(np.argmax(np.abs(axes.T @ direction)))
+    snapped = axes[:, nearest] * np.sign(float(axes[:, nearest] @ direction))
+    slide = snapped if float(snapped @ direction) > np.cos(np.radians(8.0)) else direction
+    up = vec3(0.0, 0.0, 1.0)
+    y = -slide / np.linalg.norm(slide)
+    x = up if lying else np.cross(y, up)
+    x = x / np.linalg.norm(x)
+    rotation = np.column_stack([x, y, np.cross(x, y)])
+    local = Box.around(mesh.vertices @ rotation)
+    center = local.center
+    origin = rotation @ vec3(float(center[0]), float(local.low[1]), float(center[2]))
+    width, depth, height = (float(s) for s in local.size)
+    return DrawerFrame(origin, rotation, width, depth, height)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class BodyRegion:
+    """The container: the x of its flanks, its extent [front, back] along y, and the flanks' extent over z.
+
+    `is_bare` says that there is no container: rails hang on the back of the front, and must begin there.
+    """
+
+    left: float
+    right: float
+    front: float
+    back: float
+    bottom: float
+    top: float
+    is_bare: bool = False
+
+    @property
+    def length(self) -> float:
+        """The body's length along the slide."""
+        return self.back - self.front
+
+    @property
+    def middle(self) -> float:
+        """The x of the sagittal plane: midway between the flanks."""
+        return (self.left + self.right) / 2
+
+    @property
+    def half_width(self) -> float:
+        """Half the outer width."""
+        return (self.right - self.left) / 2
+
+
+def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> BodyRegion | None:
+    """Returns the region around the median of the outer-width profile (supplement, eq. body region); None if no body.
+
+    Each flank has its own profile: a front may stand out further on one side. `tolerance` is a share of the width. A
+    board has no body, however long its edges are.
+    """
+    if is_board(frame):
+        return None
+    caster = RayCaster(mesh)
+    y, z = _grid(frame)
+    flanks = _flanks(caster, frame, y, z)
+    columns = np.array([[_median(column) for column in flank] for flank in flanks])
+    if min(np.isfinite(columns).sum(axis=1)) < _SHORTEST * _SLIDE:
+        return None
+    band = max(tolerance * frame.width, 2e-3)
+    medians = np.nanmedian(columns, axis=1)
+    in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
+    enough = max(2.0, 0.2 * float(in_body.sum(axis=1).max()))
+    run = _longest_run(in_body.sum(axis=1) >= enough)
+    if run[1] - run[0] + 1 < _SHORTEST * _SLIDE:
+        return None
+    rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
+    if rows[1] < rows[0]:
+        return None
+    left, right = (float(np.median(flank[in_body])) for flank in flanks)
+    lift = frame.height / _HEIGHT / 2
+
+    def belongs(at: np.ndarray) -> np.ndarray:
+        near = np.abs(_flanks(caster, frame, at, z) - medians[:, None, None]) < band
+        return np.asarray(near.all(axis=0).sum(axis=1) >= enough)
+
+    front, back = _ends(y[run[0]], y[run[1]], frame.depth, belongs)
+    return BodyRegion(left, right, front, back, float(z[rows[0]] - lift), float(z[rows[1]] + lift))
+
+
+def _ends(first: float, last: float, depth: float, belongs: Callable[[np.ndarray], np.ndarray]) -> tuple[float, float]:
+    """Returns where a body begins before its first row of rays and ends behind its last: rows between two tell it."""
+    cell = depth / _SLIDE
+    reaches = min(cell, first), min(cell, depth - last)
+    shares = (np.arange(_FINER) + 0.5) / _FINER  # away from the body
+    found = belongs(np.concatenate([first - reaches[0] * shares, last + reaches[1] * shares])).reshape(2, _FINER)
+    run = [_FINER if row.all() else int(np.argmin(row)) for row in found]
+    return float(first - reaches[0] * run[0] / _FINER), float(last + reaches[1] * run[1] / _FINER)
+
+
+def is_board(frame: DrawerFrame) -> bool:
+    """Whether a drawer is a mere front: much less deep than it is wide and high, or as thin as boards are."""
+    as_thin = min(_THICKEST, _SLAT * max(frame.width, frame.height))
+    return frame.depth < max(_BOARD * min(frame.width, frame.height), as_thin)
+
+
+def is_shallow(frame: DrawerFrame) -> bool:
+    """Whether a drawer may be a mere front with its pull, drawn as one: much less deep than wide or high."""
+    return frame.depth < _BOARD * max(frame.width, frame.height)
+
+
+def _median(values: np.ndarray) -> float:
+    found = values[np.isfinite(values)]
+    return float(np.median(found)) if len(found) else float("nan")
+
+
+def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the y and the z of the cells' centres."""
+    y = (np.arange(_SLIDE) + 0.5) / _SLIDE * frame.depth
+    z = ((np.arange(_HEIGHT) + 0.5) / _HEIGHT - 0.5) * frame.height
+    return y, z
+
+
+def _flanks(caster: RayCaster, frame: DrawerFrame, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Returns the x of the left and the right outside at each (y, z); NaN where there is none."""
+    grid_y, grid_z = (a.ravel() for a in np.meshgrid(y, z, indexing="ij"))
+    outside = frame.width / 2 + 0.01
+    sides = []
+    for sign in (-1.0, 1.0):
+        origins = frame.to_object(np.column_stack([np.full_like(grid_y, sign * outside), grid_y, grid_z]))
+        distance = caster.along(origins, -sign * frame.rotation[:, 0])
+        sides.append(np.where(distance < outside, sign * (outside - distance), np.nan))
+    return np.stack(sides).reshape(2, len(y), len(z))
+
+
+def _longest_run(flags: np.ndarray) -> tuple[int, int]:
+    """Returns first and last index of the longest run of True; (0, -1) where there is none."""
+    padded = np.concatenate([[False], flags, [False]])
+    starts = np.flatnonzero(~padded[:-1] & padded[1:])
+    ends = np.flatnonzero(padded[:-1] & ~padded[1:]) - 1
+    if not len(starts):
+        return 0, -1
+    longest = int(np.argmax(ends - starts))
+    return int(starts[longest]), int(ends[longest])

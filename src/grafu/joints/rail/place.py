@@ -1,0 +1,245 @@
+"""Places the two rails of one drawer: mounts, heights and thicknesses tried in order, judged by sweeping real meshes.
+
+One rail is fitted, the other is its exact mirror image (supplement, eq. rail mirror); support blocks bridge what
+remains between a rail and the wall.
+
+What holds one rail of a pair: what it touches, or a support that bridges the way to the case and to the drawer.
+
+A support is a block to whatever is nearest, a slab to the wall beside the rail, or an upright board along it, as was
+chosen.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.geometry.transform import from_rotation, reflection
+from grafu.joints.limits import in_the_way, is_free, swept_box
+from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
+from grafu.joints.plan import Supports
+from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
+from grafu.joints.rail.search import DrawerSearch
+from grafu.joints.rail.spots import RailSpot, find_walls, rail_spots
+from grafu.joints.support_block import Footing, block, shortest_bridge
+from grafu.scene.scene import Obstacle
+from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
+from grafu.vocabulary import PartLabel
+
+_BOARD = 0.016  # thickness of a divider where there is room for it, metres
+_THINNEST = 0.003  # a divider thinner than this carries nothing
+_AIR = 0.001  # kept between a divider and what stands behind it
+
+
+@final
+@dataclass(frozen=True)
+class HeldRail:
+    """One rail's static and dynamic end with their supports; `is_on_mount`: whether the chosen mount carries it."""
+
+    static: tuple[Visual, ...]
+    dynamic: tuple[Visual, ...]
+    is_on_mount: bool
+
+
+def held_rail(template: RailTemplate, T: Mat4, side: str, search: DrawerSearch) -> HeldRail | None:
+    """Returns one rail at a pose with what holds it; None where nothing that may hold it is in reach."""
+    name = f"{search.request.moving}_{side}"
+    static, dynamic = template.static.transformed(T), template.dynamic.transformed(T)
+    carried = _carried(f"{name}_dynamic", dynamic, T, search)
+    if carried is None:
+        return None
+    mount = search.request.choice.mount
+    on_mount = _fixed(f"{name}_static", static, T, search, mount) if mount else None
+    fixed = on_mount or _fixed(f"{name}_static", static, T, search, "")
+    return None if fixed is None else HeldRail(fixed, carried, on_mount is not None)
+
+
+def _fixed(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, mount: str) -> tuple[Visual, ...] | None:
+    """Returns a rail's static end fixed to the case, or to one part of it; None where it is out of reach."""
+    rail = _visual(f"rail_{name}", end)
+    if search.scene.is_near_static(end.mesh, search.config.anchor * search.scene.unit, mount):
+        return (rail,)
+    if search.request.choice.supports is Supports.NONE:
+        return None
+    if not mount and _meets_divider(end, search):
+        return (rail,)
+    walls = search.walls_of(mount) if mount else search.static_rays
+    reach = (CHOSEN_REACH if mount else search.config.bridge) * search.scene.unit
+    if search.request.choice.supports is Supports.DIVIDER:
+        found = _divider(end, T, walls, reach)
+    else:
+        footings = _footings(end, T)
+        found = shortest_bridge([next(footings)] if _is_slab(search) else footings, walls, reach)
+    return None if found is None else (rail, block(f"support_{name}", *found))
+
+
+def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
+    """Whether dividers were chosen and one that was built for another drawer stands right behind a rail."""
+    if search.request.choice.supports is not Supports.DIVIDER:
+        return False
+    near = search.config.anchor * search.scene.unit
+    boards = (o for o in search.scene.static_hardware if o.id.startswith("support_"))
+    rail = MeshCollider(end.mesh)
+    return any(
+        board.collider.box.grown(near).contains(end.snap.center[None]).all() and rail.is_within(near, board.collider)
+        for board in boards
+    )
+
+
+def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tuple[Visual, ...] | None:
+    """Returns a rail's dynamic end fixed to the drawer; None where it is out of reach."""
+    rail = _visual(f"rail_{name}", end)
+    gap = MeshCollider(end.mesh).distance(MeshCollider(search.mesh))
+    if gap <= search.config.anchor * search.scene.unit:
+        return (rail,)
+    if search.request.choice.supports is Supports.NONE:
+        return None
+    bridge = shortest_bridge(_dynamic_footings(end, T), RayCaster(search.mesh), 0.2 * search.frame.width)
+    return None if bridge is None else (rail, block(f"support_{name}", *bridge))
+
+
+def _is_slab(search: DrawerSearch) -> bool:
+    return search.request.choice.supports is Supports.SLAB
+
+
+def _visual(name: str, end: TemplateEnd) -> Visual:
+    return Visual(name, end.surfaces, VisualRole.HARDWARE, PartLabel.MISC)
+
+
+def _divider(end: TemplateEnd, T: Mat4, walls: RayCaster, reach: float) -> tuple[Footing, float] | None:
+    """Returns the foot of an upright board behind a rail and its height: from what is below to what is above.
+
+    Where one of the two is out of reach it ends with the rail there; None where both are, or a wall leaves no room.
+    """
+    snap = end.snap
+    room = Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v).gap(walls, reach)
+    thickness = min(_BOARD, room - _AIR)
+    if thickness < _THINNEST:
+        return None
+    up, back = T[:3, 2], T[:3, 1]
+    outward = np.asarray(snap.normal)
+    heights, lengths = end.mesh.vertices @ up, end.mesh.vertices @ back
+    half = float(np.ptp(heights)) / 2
+    v = 0.98 * back * float(np.ptp(lengths)) / 2
+    middle = snap.center + outward * thickness / 2
+    middle = middle + up * (float(heights.min() + half) - float(middle @ up))
+    middle = middle + back * (float(lengths.min() + np.ptp(lengths) / 2) - float(middle @ back))
+    ways = [Footing(middle, sign * up, outward * thickness / 2, v).gap(walls, reach) for sign in (-1.0, 1.0)]
+    if not np.isfinite(ways).any():
+        return None
+    below, above = (way if np.isfinite(way) else half for way in ways)
+    return Footing(middle - below * up, up, outward * thickness / 2, v), below + above
+
+
+def _footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
+    """Yields the static snap plane looking at the wall, then the rail looking up, down and to the back."""
+    snap = end.snap
+    yield Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v)
+    yield from _looking(end, T, (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward")))
+    yield from _looking(end, T, (("back", 1.0, "up", "outward"),))
+
+
+def _dynamic_footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
+    """Yields the dynamic snap plane looking at the drawer, then the rail's front end looking at the front's back."""
+    snap = end.snap
+    yield Footing(snap.center, snap.normal, 0.9 * snap.u, 0.9 * snap.v)
+    yield from _looking(end, T, (("back", -1.0, "up", "outward"),))
+
+
+def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str], ...]) -> Iterator[Footing]:
+    """Yields rectangles on a rail's sides, measured along its own axes: direction, its sense, and their two sides."""
+    middle, reach = np.zeros(3), {}
+    for name, axis in (("outward", end.snap.normal), ("back", T[:3, 1]), ("up", T[:3, 2])):
+        along = end.mesh.vertices @ axis
+        middle = middle + axis * (along.min() + along.max()) / 2
+        reach[name] = axis * (along.max() - along.min()) / 2
+    for name, sign, first, second in looks:
+        towards = sign * reach[name]
+        direction = towards / np.linalg.norm(towards)
+        yield Footing(middle + towards, direction, 0.9 * reach[first], 0.9 * reach[second])
+
+
+_LEAST_SHARE = 0.3  # a travel below this share of the wanted one is no motion
+
+
+def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
+    """Returns the first placement whose rails hold on both sides and are in nothing's way; None where none does."""
+    region = search.region
+    if region is None:
+        return None
+    walls = find_walls(search.frame, region, search.static_rays, 0.25 * search.scene.unit)
+    choice = search.request.choice
+    for model in gallery.rails:
+        if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
+            continue
+        for spot in rail_spots(model, region, walls, search.config.rail_share):
+            placed = _with_hardware(model, spot, region, search)
+            if placed is not None:
+                return placed
+    return None
+
+
+def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> Placement | None:
+    """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
+    template = model.build(spot.size)
+    upper = search.travel(template.range)
+    if upper < _LEAST_SHARE * search.wanted:
+        return None
+    static: list[Visual] = []
+    dynamic: list[Visual] = []
+    mount = search.request.choice.mount
+    is_on_mount = not mount
+    for side, T in zip(("left", "right"), _poses(spot, region, search.frame), strict=True):
+        held = held_rail(template, T, side, search)
+        if held is None:
+            return None
+        static += held.static
+        dynamic += held.dynamic
+        is_on_mount = is_on_mount or held.is_on_mount
+    if not is_on_mount or _in_the_way(static, dynamic, upper, search):
+        return None
+    return Placement(
+        axis=search.axis,
+        upper=upper,
+        mechanism=model.mechanism,
+        template=model.id,
+        mount=mount or nearest_part(static[0], search.scene, search.request.mounts),
+        count=2,
+        dynamic=tuple(dynamic),
+        static=tuple(static),
+        in_way=search.bodies_in_the_way(upper),
+    )
+
+
+def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4, Mat4]:
+    """Returns T_object_template of the left rail and of its mirror image across the drawer's sagittal plane."""
+    left = frame.T_object_drawer @ from_rotation(np.eye(3), vec3(spot.x, spot.y, spot.z))
+    middle = frame.to_object(vec3(region.middle, 0.0, 0.0)[None])[0]
+    return left, reflection(middle, frame.rotation[:, 0]) @ left
+
+
+def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
+    """Whether rails or blocks cut into the other side's parts on the way, or into other moving bodies at rest."""
+    depth = search.config.depth * search.scene.unit
+    motion = search.motion
+    fixed = merge_meshes([v.mesh for v in static])
+    if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], 12):
+        return True
+    moving = merge_meshes([v.mesh for v in dynamic])
+    body = SweptBody(moving, depth, np.asarray(search.frame.rotation))
+    if not is_free(body, motion, upper, in_the_way(search.obstacles, swept_box(moving.box, motion, upper)), 12):
+        return True
+    return _cuts_neighbours(fixed, depth, search) or _cuts_neighbours(moving, depth, search)
+
+
+def _cuts_neighbours(mesh: TriangleMesh, depth: float, search: DrawerSearch) -> bool:
+    """Whether hardware at rest cuts into another moving body at rest."""
+    body = SweptBody(mesh, depth, np.asarray(search.frame.rotation))
+    body.place(np.eye(4))
+    return any(body.penetrates(o.collider) for o in in_the_way(search.neighbours, mesh.box))

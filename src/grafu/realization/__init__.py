@@ -1,4 +1,0 @@
-"""Geometry realization: initial motions become real hinges and rails, with axes and limits that hold.
-
-It knows neither where a motion came from nor any file format.
-"""

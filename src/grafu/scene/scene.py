@@ -1,0 +1,189 @@
+"""The parts as they stand: static body, moving bodies, installed hardware, and their colliders.
+
+A scene is never changed: replacing a part or adding hardware returns a new scene, which shares whatever was worked out
+on the meshes that stayed the same.
+"""
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from grafu.articulation.articulated_object import Visual
+from grafu.asset.part import Part
+from grafu.geometry.arrays import Mat3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.vocabulary import JointType
+
+
+@final
+@dataclass(frozen=True)
+class MovingBody:
+    """What moves as one: the part's id, then those that ride on it."""
+
+    id: str
+    members: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class JointMotion:
+    """How a moving body moves: about or along `axis`, from rest to `upper` (radians or metres).
+
+    `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built. `after`
+    names the moving bodies that must be wide open before it can move.
+    """
+
+    axis: Axis
+    type: JointType
+    upper: float
+    is_built: bool = True
+    after: tuple[str, ...] = ()
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Obstacle:
+    """Something that a moving part may run into."""
+
+    id: str
+    collider: MeshCollider
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """All parts in their rest pose.
+
+    `hardware` holds installed visuals by the id of the moving body, or "" for static; `joint_motions` holds what is
+    known of the moving bodies' motions.
+    """
+
+    parts: Mapping[str, Part]
+    moving_bodies: Mapping[str, MovingBody]
+    unit: float
+    hardware: tuple[tuple[str, Visual], ...] = ()
+    joint_motions: Mapping[str, JointMotion] = field(default_factory=dict)
+    _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
+        default_factory=dict, repr=False
+    )
+    _path_boxes: dict[str, tuple[TriangleMesh, JointMotion, Box]] = field(default_factory=dict, repr=False)
+    _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def moving_ids(self) -> frozenset[str]:
+        """The ids of all parts that move."""
+        return frozenset(member for moving in self.moving_bodies.values() for member in moving.members)
+
+    @cached_property
+    def static_parts(self) -> tuple[Part, ...]:
+        """The parts that stay where they are."""
+        return tuple(part for part in self.parts.values() if part.id not in self.moving_ids)
+
+    @cached_property
+    def static_obstacles(self) -> tuple[Obstacle, ...]:
+        """One obstacle per static part, at rest."""
+        return tuple(Obstacle(part.id, MeshCollider(part.mesh)) for part in self.static_parts if len(part.mesh.faces))
+
+    @cached_property
+    def static_hardware(self) -> tuple[Obstacle, ...]:
+        """One obstacle per installed static piece of hardware."""
+        return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for owner, v in self.hardware if not owner)
+
+    def moving_mesh(self, moving_id: str) -> TriangleMesh:
+        """Returns the moving body with all that rides on it, without hardware, as one mesh."""
+        return self._as_one(tuple(self.parts[member].mesh for member in self.moving_bodies[moving_id].members))
+
+    def equipped_mesh(self, moving_id: str) -> TriangleMesh:
+        """Returns the moving body with all that rides on it and the hardware that it carries so far, as one mesh."""
+        hardware = [visual.mesh for visual in self.hardware_of(moving_id)]
+        bare = self.moving_mesh(moving_id)
+        return self._as_one((bare, *hardware)) if hardware else bare
+
+    def _as_one(self, meshes: tuple[TriangleMesh, ...]) -> TriangleMesh:
+        """Returns meshes merged into one: the same one whenever it is asked for."""
+        key = tuple(id(mesh) for mesh in meshes)
+        if key not in self._merged:
+            self._merged[key] = (meshes, merge_meshes(meshes))
+        return self._merged[key][1]
+
+    def path_box(self, moving_id: str, mesh: TriangleMesh, joint_motion: JointMotion, find: Callable[[], Box]) -> Box:
+        """Returns the box around a mesh's whole way, which `find` works out: once, as long as mesh and way stay."""
+        known = self._path_boxes.get(moving_id)
+        if known is None or known[0] is not mesh or known[1] is not joint_motion:
+            known = self._path_boxes[moving_id] = (mesh, joint_motion, find())
+        return known[2]
+
+    def swept_body(self, moving_id: str, depth: float, axes: Mat3) -> SweptBody:
+        """Returns the moving body as a body that tells a touch from a penetration deeper than `depth` metres."""
+        mesh = self.moving_mesh(moving_id)
+        key = (id(mesh), np.append(axes, depth).tobytes())
+        if key not in self._bodies:
+            self._bodies[key] = (mesh, SweptBody(mesh, depth, axes))
+        return self._bodies[key][1]
+
+    def other_bodies(self, moving_id: str) -> tuple[Obstacle, ...]:
+        """Returns the other moving bodies as obstacles, at rest, with the hardware that they carry."""
+        others = (other for other in self.moving_bodies if other != moving_id)
+        return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
+
+    def is_near_static(self, mesh: TriangleMesh, within: float, of: str = "") -> bool:
+        """Whether a mesh comes within so many metres of a static part (`of`: of that one alone)."""
+        collider = MeshCollider(mesh)
+        obstacles = (obstacle for obstacle in self.static_obstacles if of in ("", obstacle.id))
+        return any(collider.is_within(within, obstacle.collider) for obstacle in obstacles)
+
+    def hardware_of(self, moving_id: str) -> tuple[Visual, ...]:
+        """Returns the hardware installed on a moving body."""
+        return self._hardware_by_owner.get(moving_id, ())
+
+    @cached_property
+    def _hardware_by_owner(self) -> dict[str, tuple[Visual, ...]]:
+        found: dict[str, list[Visual]] = {}
+        for owner, visual in self.hardware:
+            found.setdefault(owner, []).append(visual)
+        return {owner: tuple(visuals) for owner, visuals in found.items()}
+
+    def afresh(self) -> "Scene":
+        """Returns the same scene without what was worked out on its meshes: they take up much room."""
+        return replace(self, _merged={}, _path_boxes={}, _bodies={})
+
+    def replaced(self, parts: Iterable[Part]) -> "Scene":
+        """Returns the scene with some parts in a new shape."""
+        return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
+
+    def without_attached(self, gone: Collection[str]) -> "Scene":
+        """Returns the scene without some parts that ride on moving bodies."""
+        if not gone:
+            return self
+        moving_bodies = {
+            name: MovingBody(moving.id, tuple(m for m in moving.members if m not in gone))
+            for name, moving in self.moving_bodies.items()
+        }
+        return replace(self, parts={k: p for k, p in self.parts.items() if k not in gone}, moving_bodies=moving_bodies)
+
+    def with_joint(
+        self, moving_id: str, joint_motion: JointMotion, dynamic: Iterable[Visual], static: Iterable[Visual]
+    ) -> "Scene":
+        """Returns the scene with a path of the moving body, and hardware added to it and to the static body."""
+        added = [(moving_id, v) for v in dynamic] + [("", v) for v in static]
+        return replace(
+            self, hardware=(*self.hardware, *added), joint_motions={**self.joint_motions, moving_id: joint_motion}
+        )
+
+    def static_mesh_near(self, box: Box, margin: float, of: str = "") -> TriangleMesh:
+        """Returns the static triangles (`of`: of that part alone) whose own boxes come within `margin` of a box."""
+        near = []
+        for part in self.static_parts:
+            if of not in ("", part.id) or not part.box.overlaps(box, margin):
+                continue
+            grown = box.grown(margin)
+            low, high = triangle_bounds(part.mesh.triangles)
+            keep = np.all((low <= grown.high) & (high >= grown.low), axis=1)
+            near.append(part.mesh.with_faces(keep))
+        return merge_meshes(near)

@@ -1,0 +1,147 @@
+"""Clearance: as little as needed, within its limits, recorded; and none at all where it is turned off."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.articulation.articulated_object import VisualRole
+from grafu.joints.config import RealizationConfig
+from grafu.joints.report import SkipReason
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.fronts.layout import Door
+from grafu.synth.noise import edits
+from judging import installed, made_kind, realized, realized_kind, solid, swept_collisions
+from small_scenes import DOOR, SIDE, box, drawer, hinged, scene
+
+KINDS = ("doors into the case", "inset door into the side", "drawer into both walls")
+NO_TRIM = RealizationConfig(trim=False)
+
+
+def visuals(result) -> dict:
+    return {v.name: v for link in result.object.links for v in link.visuals if v.role is not VisualRole.HARDWARE}
+
+
+def volume(surfaces) -> float:
+    return sum(solid(s.mesh).volume() for s in surfaces)
+
+
+def clearances(result) -> list:
+    return [c for outcome in result.report.installed for c in outcome.clearances]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_was_changed_is_recorded_and_nothing_else_changes(kind):
+    asset, result = made_kind(kind), realized_kind(kind)
+    after = visuals(result)
+    changed = {p.id for p in asset.parts if after[p.id].surfaces != p.surfaces}
+    assert changed == {c.part for c in clearances(result)}
+    assert changed
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_clearance_keeps_its_limits_and_says_why(kind):
+    for c in clearances(realized_kind(kind)):
+        assert c.kind in ("trimmed", "eased", "carved")
+        assert 0 <= c.share <= (0.02 if c.kind == "trimmed" else 0.05)
+        assert c.amount > 0
+        assert c.why
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_part_shrinks_by_more_than_a_fiftieth_of_its_side_or_its_volume_by_a_twentieth(kind):
+    asset, result = made_kind(kind), realized_kind(kind)
+    for c in clearances(result):
+        before, after = asset.part(c.part), visuals(result)[c.part]
+        assert volume(after.surfaces) >= 0.95 * volume(before.surfaces)
+        assert np.all(before.box.size - after.mesh.box.size <= 0.02 * before.box.size.max() + 1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_parts_keep_their_materials_and_texture_coordinates(kind):
+    asset, result = made_kind(kind), realized_kind(kind)
+    for c in clearances(result):
+        before, after = asset.part(c.part).surfaces, visuals(result)[c.part].surfaces
+        assert [s.material for s in after] == [s.material for s in before]
+        assert [s.uv is None for s in after] == [s.uv is None for s in before]
+        assert all(s.mesh.is_closed for s in after)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_without_trimming_parts_stay_and_the_trouble_is_told(kind):
+    asset, result = made_kind(kind), realized(made_kind(kind), NO_TRIM)
+    assert clearances(result) == []
+    assert all(visuals(result)[p.id].surfaces == p.surfaces for p in asset.parts)
+    (stuck,) = {o.moving for o in realized_kind(kind).report.installed if o.clearances}
+    told = {s.request: s.reason for s in result.report.skipped}
+    assert told.get(stuck) is SkipReason.BLOCKED or installed(result)[stuck].collision_share > 0
+
+
+@pytest.mark.parametrize("sunk", [0.001, 0.004])
+def test_an_inset_door_sunk_into_the_side_by_millimetres_works(sunk):
+    asset = make_cabinet(Cabinet(layout=Door(), mount="inset"))
+    result = realized(edits.with_swollen(asset, "door", np.array([0.003 + sunk, 0.0, 0.0])))
+    assert not installed(result)["door"].restricted
+    assert swept_collisions(result.object, result.object.joints[0], 25) == {}
+
+
+@pytest.mark.parametrize("gap", [-0.003, 0.0, 0.001])
+def test_a_drawer_without_play_between_its_walls_works(gap):
+    result = realized(drawer(gap))
+    outcome = installed(result)["drawer"]
+    assert outcome.opening == pytest.approx(0.3, abs=0.02)
+    assert outcome.collision_share == 0.0
+    assert bool(outcome.clearances) is (gap <= 0)
+
+
+def test_a_wall_that_is_cut_far_too_deep_is_not_trimmed_away():
+    result = realized(drawer(gap=-0.06, wall=0.1))
+    after = visuals(result)
+    for part in drawer(gap=-0.06, wall=0.1).parts:
+        assert volume(after[part.id].surfaces) >= 0.95 * volume(part.surfaces)
+    assert "drawer" not in installed(result) or installed(result)["drawer"].collision_share > 0
+
+
+def test_a_block_that_encloses_a_door_is_not_hollowed_out():
+    block = box("block", (-0.02, -0.05, 0.0), (0.42, 0.05, 0.6))
+    result = realized(scene(DOOR, block, joints=(hinged(),)))
+    assert volume(visuals(result)["block"].surfaces) >= 0.95 * volume(block.surfaces)
+
+
+def test_a_lip_before_the_door_is_carved_where_little_of_it_goes():
+    """A static board behind the door, of which a nose stands in the door's way."""
+    nose = box("nose", (0.395, -0.021, 0.29), (0.41, 0.3, 0.31))
+    result = realized(scene(DOOR, SIDE, nose, joints=(hinged(),)))
+    outcome = installed(result)["door"]
+    assert not outcome.restricted
+    assert outcome.collision_share == 0.0
+    assert outcome.clearances
+
+
+def test_what_lies_enclosed_in_a_drawer_moves_with_it():
+    asset, t = drawer(), 0.012
+    boards = [
+        box("front", (-0.2, -0.2, 0.02), (0.2, -0.2 + t, 0.17)),
+        box("rear", (-0.2, 0.2 - t, 0.02), (0.2, 0.2, 0.17)),
+        box("left", (-0.2, -0.2 + t, 0.02), (t - 0.2, 0.2 - t, 0.17)),
+        box("right", (0.2 - t, -0.2 + t, 0.02), (0.2, 0.2 - t, 0.17)),
+        box("floor", (t - 0.2, -0.2 + t, 0.02), (0.2 - t, 0.2 - t, 0.03)),
+    ]
+    tray = replace(asset.part("drawer"), surfaces=tuple(b.surfaces[0] for b in boards))
+    runner = box("runner", (-0.17, -0.195, 0.025), (-0.15, 0.1, 0.04))  # stuck in the floor and the front
+    parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
+    result = realized(replace(asset, parts=(*parts, runner)))
+    assert [(c.part, c.kind) for c in installed(result)["drawer"].clearances] == [("runner", "joined")]
+    assert "runner" in {v.name for v in result.object.link("drawer").visuals}
+
+
+@pytest.mark.parametrize(("name", "is_carved"), [("bearing_0", True), ("stud_0", False)])
+def test_a_drawn_bearing_makes_way_where_other_parts_would_lose_too_much(name, is_carved):
+    asset = drawer()
+    stuck = box(name, (0.186, -0.1, 0.09), (0.2265, -0.09, 0.1))
+    result = realized(replace(asset, parts=(*asset.parts, stuck)))
+    done = installed(result)["drawer"].clearances if "drawer" in installed(result) else ()
+    assert ((name, "carved") in {(c.part, c.kind) for c in done}) is is_carved
+    if is_carved:
+        assert installed(result)["drawer"].collision_share == 0.0
+        assert volume(visuals(result)[name].surfaces) >= 0.4 * volume(stuck.surfaces)

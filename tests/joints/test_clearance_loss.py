@@ -1,0 +1,96 @@
+"""What carving takes of a part: of what is seen of it and of its volume, each known from geometry, the larger told."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.solids import ConvexSolid
+from grafu.joints.clearance.carve import measured_loss
+from judging import installed, realized
+from small_scenes import box, drawer
+
+SHARES = st.floats(0.02, 0.98)
+
+
+def solid(low, high) -> ConvexSolid:
+    found = ConvexSolid.around(Box(np.array(low, float), np.array(high, float)).corners())
+    assert found is not None
+    return found
+
+
+def hollow_box(name: str = "shell") -> Part:
+    """The six sides of a unit cube as one closed sheet: its hull is the whole cube, of which nothing is filled."""
+    return box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+
+
+def with_cavity() -> Part:
+    """The same with an inner cube that nobody sees: a wall of a tenth of a metre all round."""
+    shell, inner = hollow_box(), box("inner", (0.1, 0.1, 0.1), (0.9, 0.9, 0.9))
+    return replace(shell, surfaces=(*shell.surfaces, *(Surface(s.mesh) for s in inner.surfaces)))
+
+
+@pytest.mark.parametrize("part", [hollow_box(), with_cavity()], ids=["sheet", "thick wall"])
+@given(SHARES, SHARES, st.floats(0.001, 0.05))
+def test_a_hollow_box_loses_what_is_seen_of_its_front(part, width, height, depth):
+    """A recess in the front: of the cube's six faces it takes width x height, of its hull next to nothing."""
+    low, high = (0.5 - width / 2, -0.1, 0.5 - height / 2), (0.5 + width / 2, depth, 0.5 + height / 2)
+    loss = measured_loss(part, [solid(low, high)])
+
+    assert loss.surface == pytest.approx(width * height / 6, abs=1e-6)
+    volume = width * height * depth
+    if len(part.surfaces) == 1:
+        assert loss.volume == pytest.approx(volume, abs=1e-5)
+    assert loss.share == loss.surface > 3 * volume  # what the volume alone would say
+
+
+def test_a_wall_inside_is_no_loss_that_is_seen():
+    assert measured_loss(with_cavity(), [solid((0.05, 0.05, 0.05), (0.95, 0.95, 0.95))]).surface == 0.0
+
+
+def test_of_a_solid_bar_the_volume_counts_where_it_is_more():
+    bar = box("bar", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+    loss = measured_loss(bar, [solid((0.2, 0.2, -1.0), (0.8, 0.8, 2.0))])  # a shaft through it
+
+    assert loss.volume == pytest.approx(0.36, abs=1e-5)
+    assert loss.surface == pytest.approx(2 * 0.36 / 6, abs=1e-6)
+    assert loss.share == loss.volume
+
+
+def test_solids_that_overlap_take_nothing_twice():
+    one = solid((0.2, -0.1, 0.2), (0.6, 0.02, 0.8))
+    two = solid((0.4, -0.1, 0.2), (0.8, 0.02, 0.8))
+
+    assert measured_loss(hollow_box(), [one, two]).surface == pytest.approx(0.36 / 6, abs=1e-6)
+
+
+def test_nothing_is_lost_where_nothing_is_cut():
+    assert measured_loss(hollow_box(), []).share == 0.0
+    assert measured_loss(hollow_box(), [solid((2, 2, 2), (3, 3, 3))]).share == 0.0
+
+
+def blind() -> Part:
+    """A sheet across a drawer's mouth that hangs on two thin straps from far above: its hull is mostly air."""
+    corners = [(-0.2, -0.25, 0.02), (0.2, -0.25, 0.02), (0.2, -0.25, 0.17), (-0.2, -0.25, 0.17)]
+    corners += [(0.01, -0.25, 0.17), (-0.01, -0.25, 0.17), (0.0, -0.25, 1.2), (0.0, 0.8, 1.2)]
+    faces = np.array([(0, 1, 4), (1, 2, 4), (0, 4, 5), (0, 5, 3), (5, 4, 6), (5, 4, 7)])
+    return replace(hollow_box("blind"), surfaces=(Surface(TriangleMesh(np.array(corners), faces)),))
+
+
+def test_the_report_tells_the_surface_that_a_viewer_misses_and_both_figures():
+    asset, before = drawer(), blind()
+    result = realized(replace(asset, parts=(*asset.parts, before)))
+    [cut] = [c for c in installed(result)["drawer"].clearances if c.kind == "carved"]
+    after = next(v.mesh for link in result.object.links for v in link.visuals if v.name == "blind")
+    gone = before.mesh.area - after.area  # an open sheet is clipped, no cut face is made
+
+    assert cut.surface_share == pytest.approx(gone / before.mesh.area, abs=1e-6)
+    assert 0 < cut.volume_share < 0.05 < 0.5 < cut.surface_share
+    assert cut.share == cut.surface_share
+    assert cut.amount == pytest.approx(gone**0.5, rel=1e-6)

@@ -1,0 +1,38 @@
+"""The scene that realization hands on: what stands and moves in the end, and how far."""
+
+import numpy as np
+
+from judging import realized, realized_kind
+from small_scenes import DOOR, SIDE, box, hinged, scene
+
+
+def test_the_final_scene_says_how_every_joint_opens() -> None:
+    result = realized_kind("drawers behind a pair")
+    final = result.scene
+    assert set(final.moving_bodies) == set(final.joint_motions) == {joint.child for joint in result.object.joints}
+    for joint in result.object.joints:
+        joint_motion = final.joint_motions[joint.child]
+        assert joint_motion.is_built
+        assert (joint_motion.type, joint_motion.upper, joint_motion.axis) == (
+            joint.type,
+            joint.limits.upper,
+            joint.axis,
+        )
+
+
+def test_the_final_scene_holds_the_parts_as_they_are_built_and_all_hardware() -> None:
+    result = realized_kind("inset door into the side")
+    built = {v.name: v.mesh for link in result.object.links for v in link.visuals}
+    final = result.scene
+    for part in final.parts.values():
+        np.testing.assert_array_equal(built[part.id].vertices, part.mesh.vertices)
+    assert set(built) == {*final.parts, *(visual.name for _, visual in final.hardware)}
+
+
+def test_what_got_no_joint_stands_still_in_the_final_scene() -> None:
+    far = box("door_far", (3.0, -0.02, 0.0), (3.4, 0.0, 0.6))
+    joints = (hinged(), hinged("door_far", axis=hinged().axis.through(np.array([3.0, 0.0, 0.0]))))
+    result = realized(scene(DOOR, SIDE, far, joints=joints))
+    assert {skip.request for skip in result.report.skipped} == {"door_far"}
+    assert set(result.scene.moving_bodies) == {"door"}
+    assert "door_far" in {part.id for part in result.scene.static_parts}

@@ -1,0 +1,82 @@
+"""Hardware keeps out of the way of the doors and drawers beside it: fronts over one another with a 2 mm seam."""
+
+from itertools import pairwise
+
+import pytest
+
+from grafu.asset.part import Asset
+from grafu.metrics.collision import CollisionConfig, collision_shares, largest_gaps
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Layout, Pair, Stack
+from grafu.synth.noise import edits
+from judging import hardware, installed, realized, realized_kind
+from small_scenes import box, hinged, scene
+
+DROP, LIFT, LEFT, RIGHT = Door("bottom"), Door("top"), Door("left"), Door("right")
+STACKS: dict[str, tuple[Layout, ...]] = {  # from the lowest front up
+    "door under a flap": (LEFT, DROP),
+    "pair over a flap": (DROP, Pair()),
+    "flap under a flap": (DROP, DROP),
+    "lift-up door over a flap": (DROP, LIFT),
+    "lift-up door under a lift-up door": (LIFT, LIFT),
+    "lift-up door under a flap, back to back": (LIFT, DROP),
+    "side-hung doors": (LEFT, RIGHT),
+    "flap over a drawer": (Drawer(), DROP),
+    "three flaps": (DROP, DROP, DROP),
+}
+
+
+def stacked(name: str, mount: str, panel: float = 0.018) -> Asset:
+    """Fronts with nothing behind their seams: no panel, and no rail for a flap to hang on."""
+    case = Case(0.6, 1.0, 0.4, panel=panel)
+    asset = make_cabinet(Cabinet(case=case, layout=Stack(STACKS[name], (), "nothing"), mount=mount, gap=0.002))
+    rails = tuple(part.id for part in asset.parts if part.id.startswith("hinge_rail"))
+    return edits.without_parts(asset, rails) if rails else asset
+
+
+@pytest.mark.parametrize("mount", ["inset", "overlay"])
+@pytest.mark.parametrize("name", STACKS)
+def test_fronts_over_one_another_all_open_past_one_another(name, mount):
+    asset = stacked(name, mount)
+    result = realized(asset)
+    assert set(installed(result)) == {joint.part for joint in asset.joints}
+    assert not any(outcome.restricted or outcome.after for outcome in installed(result).values())
+    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.unit
+    everything = CollisionConfig(poses=20, tolerance=0.0005, hardware=True, moving_bodies=True)
+    assert collision_shares(result.object, everything) == {joint.id: 0.0 for joint in result.object.joints}
+
+
+def test_the_report_says_which_template_was_left_out_for_whom():
+    upper = installed(realized(stacked("flap under a flap", "overlay")))["door_2"]
+    assert upper.template == "pivot"
+    assert upper.notes == ("butt or ball_tip or lift_off or piano would stand in the way of door_1",)
+
+
+def test_an_overlay_flap_between_others_hangs_on_plates_beside_its_ends():
+    asset = stacked("flap under a flap", "overlay", panel=0.008)
+    result = realized(asset)
+    door, outcome = asset.part("door_2").box, installed(result)["door_2"]
+    assert (outcome.template, outcome.count) == ("pivot", 2)
+    _, still = hardware(result, "door_2")
+    plates = [visual.mesh.box for visual in still if visual.name.endswith("_plate")]
+    assert sorted(bool(box.low[0] > door.high[0]) for box in plates) == [False, True]
+    assert all(box.high[0] < door.low[0] or box.low[0] > door.high[0] for box in plates)
+    assert all(box.high[1] > door.high[1] for box in plates)  # they reach back past the door
+
+
+def test_where_nothing_is_in_the_way_nothing_is_noted():
+    results = [realized_kind(kind) for kind in ("overlay pair", "drop-down flap", "half-overlay doors on one divider")]
+    outcomes = [outcome for result in results for outcome in result.report.installed]
+    assert [outcome.notes for outcome in outcomes] == [()] * len(outcomes)
+    assert {outcome.template for outcome in outcomes} == {"butt"}
+
+
+def test_the_hinges_of_a_short_door_keep_apart():
+    door = box("door", (0.0, -0.02, 0.0), (0.3, 0.0, 0.1))
+    side = box("side", (-0.02, -0.02, 0.0), (-0.002, 0.3, 0.1))
+    bar = box("bar", (-0.02, -0.3, 0.0), (-0.002, -0.02, 0.05))  # takes the lower hinge's place in front
+    result = realized(scene(door, side, bar, joints=(hinged(),)))
+    moving, _ = hardware(result, "door")
+    spans = sorted((v.mesh.box.low[2], v.mesh.box.high[2]) for v in moving if v.name.startswith("hinge"))
+    assert all(one[1] <= other[0] + 1e-6 for one, other in pairwise(spans))
