@@ -73,13 +73,13 @@ def evaluation() -> Iterator[Sentence]:
         ),
     )
     yield page, "opening {:g} % or more, all at once", (per_cent(measures.OPENS),)
-    low, high = bootstrap._LEVEL
+    level = per_cent(bootstrap.LEVEL)
     yield (
         page,
         "Brackets hold {:g} % intervals: the objects are drawn anew {:,} times",
-        (high - low, bootstrap.RESAMPLES),
+        (level, bootstrap.RESAMPLES),
     )
-    yield page, "more than its paired {:g} % interval", (high - low,)
+    yield page, "more than its paired {:g} % interval", (level,)
     yield page, "Candidates agree within {:g} % in seven numbers", (per_cent(twins.ALIKE),)
     yield page, "lie within {} of the other's surface", (twins.ON,)
     yield page, "what stands still are within {}", (plausible.NEAR,)

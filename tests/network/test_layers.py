@@ -1,21 +1,33 @@
-"""Attention: shares, padding, and the two ways in which edges take part, against the formula written out."""
+"""Attention: weights, padding, and edges as bias and as value, against the formula written out."""
 
 import torch
 from torch import nn
 
-from grafu.network.layers import EdgeAttention, PairLinear, attention_shares
+from grafu.network.layers import Attention, EdgeAttention, PairLinear, attention_weights, join_heads, split_heads
 
 
-def test_shares_add_up_to_one_over_what_is_no_padding() -> None:
+def test_weights_sum_to_one_over_what_is_no_padding() -> None:
     query, key = torch.randn(1, 2, 3, 4), torch.randn(1, 2, 5, 4)
-    shares = attention_shares(query, key, None, torch.tensor([[True, True, False, True, False]]))
-    assert torch.allclose(shares.sum(dim=-1), torch.ones(1, 2, 3))
-    assert not shares[..., [2, 4]].any()
+    weights = attention_weights(query, key, None, torch.tensor([[True, True, False, True, False]]))
+    assert torch.allclose(weights.sum(dim=-1), torch.ones(1, 2, 3))
+    assert not weights[..., [2, 4]].any()
 
 
 def test_nothing_is_drawn_from_padding_alone() -> None:
-    shares = attention_shares(torch.randn(1, 2, 3, 4), torch.randn(1, 2, 5, 4), None, torch.zeros(1, 5).bool())
-    assert not shares.any()
+    weights = attention_weights(torch.randn(1, 2, 3, 4), torch.randn(1, 2, 5, 4), None, torch.zeros(1, 5).bool())
+    assert not weights.any()
+
+
+def test_attention_of_torch_is_that_of_the_formula() -> None:
+    torch.manual_seed(0)
+    layer, x, memory = Attention(12, 3), torch.randn(4, 5, 12), torch.randn(4, 7, 12)
+    mask = torch.rand(4, 7) < 0.6
+    mask[3] = False
+    query, key, value = layer.query(x), layer.key(memory), layer.value(memory)
+    weights = attention_weights(split_heads(query, 3), split_heads(key, 3), None, mask)
+    wanted = layer.out(join_heads(weights @ split_heads(value, 3)))
+    assert torch.allclose(layer(x, memory, mask), wanted, atol=1e-6)
+    assert torch.allclose(layer(x, memory, mask)[3], layer.out.bias.expand(5, 12))
 
 
 def test_edges_bias_the_score_and_add_to_the_value() -> None:

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from grafu.training.config import Matrices, OptimiserConfig
-from grafu.training.optimiser import AveragedWeights, Optimiser, rate_at
+from grafu.training.optimiser import Optimiser, averaged, rate_at
 
 CONFIG = OptimiserConfig(rate=0.01, weight_decay=0.0)
 
@@ -109,32 +109,38 @@ def linear(value: float) -> nn.Linear:
 
 
 def test_the_start_is_forgotten_and_the_rest_averaged() -> None:
-    average = AveragedWeights(linear(100.0), 0.9)
+    average = averaged(linear(100.0), 0.9)
     for _ in range(200):
-        average.update(linear(1.0))
-    assert average.weights["weight"].tolist() == [[pytest.approx(1.0), pytest.approx(1.0)]]
-    average.update(linear(2.0))
-    assert float(average.weights["bias"]) == pytest.approx(1.1)
+        average.update_parameters(linear(1.0))
+    assert average.module.weight.tolist() == [[pytest.approx(1.0), pytest.approx(1.0)]]
+    average.update_parameters(linear(2.0))
+    assert average.module.bias.item() == pytest.approx(1.1)
+
+
+def test_the_first_steps_count_more() -> None:
+    average = averaged(linear(100.0), 0.999)
+    average.update_parameters(linear(0.0))
+    average.update_parameters(linear(1.0))
+    assert average.module.bias.item() == pytest.approx(9 / 12)  # a decay of (1 + 2) / (10 + 2)
 
 
 def test_without_decay_it_is_the_last() -> None:
-    average = AveragedWeights(linear(1.0), 0.0)
-    average.update(linear(5.0))
-    assert float(average.weights["bias"]) == 5.0
+    average = averaged(linear(1.0), 0.0)
+    average.update_parameters(linear(3.0))
+    average.update_parameters(linear(5.0))
+    assert average.module.bias.item() == 5.0
 
 
 def test_it_goes_on_from_its_state() -> None:
-    one = AveragedWeights(linear(1.0), 0.99)
-    one.update(linear(3.0))
-    other = AveragedWeights(linear(0.0), 0.99)
-    other.restore(one.state())
-    one.update(linear(4.0))
-    other.update(linear(4.0))
-    assert torch.equal(one.weights["weight"], other.weights["weight"])
-    with pytest.raises(ValueError, match="same module"):
-        other.restore({"steps": 1, "weights": {}})
+    one = averaged(linear(1.0), 0.99)
+    one.update_parameters(linear(3.0))
+    other = averaged(linear(0.0), 0.99)
+    other.load_state_dict(one.state_dict())
+    one.update_parameters(linear(4.0))
+    other.update_parameters(linear(4.0))
+    assert torch.equal(one.module.weight, other.module.weight)
 
 
 def test_a_decay_of_one_is_refused() -> None:
     with pytest.raises(ValueError, match="decay"):
-        AveragedWeights(linear(1.0), 1.0)
+        averaged(linear(1.0), 1.0)

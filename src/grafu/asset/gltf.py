@@ -22,7 +22,7 @@ from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.transform import from_rotation
+from grafu.geometry.transform import from_rotation, quaternion_matrix
 from grafu.vocabulary import PartLabel
 
 _LARGEST = 1e12  # of a number in a node's transform: products of some of them stay finite
@@ -154,21 +154,10 @@ def _local(node: JsonObject, file: GltfFile) -> Mat4:
     else:
         x, y, z, w = node.numbers("rotation", 4, (0.0, 0.0, 0.0, 1.0))
         scale = np.array(node.numbers("scale", 3, (1.0, 1.0, 1.0)))
-        T = from_rotation(_rotation(w, x, y, z) * scale, np.array(node.numbers("translation", 3, (0.0, 0.0, 0.0))))
+        R = quaternion_matrix(w, x, y, z) if any((w, x, y, z)) else np.eye(3)
+        T = from_rotation(R * scale, np.array(node.numbers("translation", 3, (0.0, 0.0, 0.0))))
     if not np.abs(T).max() < _LARGEST:
         raise file.damaged("a node's transform holds numbers that no furniture has")
     if abs(np.linalg.det(T[:3, :3])) < 1e-30:
         return from_rotation(np.eye(3) * 1e-9, T[:3, 3])  # hidden by a zero scale: no face survives
     return T
-
-
-def _rotation(w: float, x: float, y: float, z: float) -> np.ndarray:
-    n = (w * w + x * x + y * y + z * z) ** 0.5 or 1.0
-    w, x, y, z = w / n, x / n, y / n, z / n
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )

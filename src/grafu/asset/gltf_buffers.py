@@ -1,7 +1,8 @@
-"""The glTF document: chunks of a GLB file, JSON, buffers, accessors, images as bytes. It knows no nodes or materials.
+"""The glTF document: chunks of a GLB file, JSON, buffers, accessors, images as bytes.
 
 Every size that the file declares is checked against the bytes that are there before memory is taken for it. The reader
-is our own: trimesh's decodes images and drops how textures repeat, and a result must hold both as they were.
+is our own: trimesh's decodes images and drops the wrap modes of textures, and a result must hold both unchanged;
+pygltflib parses the JSON, but leaves accessors and their bounds to its caller.
 """
 
 import base64

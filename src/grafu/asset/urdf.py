@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, final
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
@@ -21,9 +22,9 @@ from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf_shapes import ShapeReader, read_xml
 from grafu.errors import UnreadableAsset
-from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
-from grafu.geometry.transform import from_rotation, invert, rotation_matrix
+from grafu.geometry.transform import from_rotation, invert
 from grafu.vocabulary import JointType, PartLabel
 
 CONVENTION = Convention("the format (URDF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
@@ -204,10 +205,8 @@ def origin_of(element: Any, path: Path) -> Mat4:
     origin = element.find("origin")
     if origin is None:
         return np.eye(4)
-    roll, pitch, yaw = numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path)
-    x, y, z = (vec3(*row) for row in np.eye(3))
-    R = rotation_matrix(z, yaw) @ rotation_matrix(y, pitch) @ rotation_matrix(x, roll)
-    return from_rotation(R, np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
+    R = Rotation.from_euler("xyz", numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path))
+    return from_rotation(R.as_matrix(), np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
 
 
 def _moves(joint: _JointElement) -> bool:

@@ -2,7 +2,8 @@
 
 Coordinates are baked to glTF's frame (Y up, front +Z). Each link has a node whose origin lies on its joint's axis; its
 parts, its hardware and the links it carries are the children. Node `extras.grafu` say what glTF cannot: the joint's
-type, axis (in the node's frame), limits and order, and each part's role and label.
+type, axis (in the node's frame), limits and order, and each part's role and label. The writer is our own: trimesh
+exports no animation, and the Khronos validator reports hints on its files.
 """
 
 import json
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.kinematics import link_origins
@@ -178,8 +180,7 @@ def _described_joint(joint: Joint) -> dict[str, Any]:
 
 def _quaternions(axis: Vec3, angles: np.ndarray) -> np.ndarray:
     """Returns rotations about `axis` in glTF's order xyzw; neighbours lie on one side, so interpolation never flips."""
-    half = angles / 2
-    return np.column_stack([np.outer(np.sin(half), axis), np.cos(half)])
+    return Rotation.from_rotvec(np.outer(angles, axis)).as_quat()
 
 
 def _plain(vector: Vec3) -> list[float]:

@@ -2,6 +2,7 @@
 
 Body frames stand on their joints' axes, parallel to the object frame at rest; the root's is the object frame (metres,
 radians, Z up, front -Y), and it stands still. What must open first is text that MuJoCo keeps and does not obey.
+The XML is written here: MuJoCo's `MjSpec` writes MJCF too, but needs MuJoCo (99 MB), which the base install leaves out.
 """
 
 import xml.etree.ElementTree as ET

@@ -3,8 +3,6 @@
 Angles are radians, positive by the right-hand rule; quaternions are wxyz.
 """
 
-from math import cos, sin
-
 import numpy as np
 
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
@@ -38,10 +36,18 @@ def from_rotation(R: Mat3, offset: Vec3 | None = None) -> Mat4:
 
 
 def rotation_matrix(direction: Vec3, angle: float) -> Mat3:
-    """Returns the rotation by `angle` about the unit `direction` (Rodrigues' formula)."""
-    x, y, z = direction
-    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + sin(angle) * K + (1.0 - cos(angle)) * (K @ K)
+    """Returns the rotation by `angle` about the unit `direction`."""
+    from scipy.spatial.transform import Rotation  # local: scipy.spatial costs 0.1 s, and the command's help needs none
+
+    return Rotation.from_rotvec(angle * np.asarray(direction)).as_matrix()
+
+
+def quaternion_matrix(w: float, x: float, y: float, z: float) -> Mat3:
+    """Returns the rotation of a quaternion of any length but 0."""
+    from scipy.spatial.transform import Rotation  # local, as above
+
+    quaternion = np.array([x, y, z, w])
+    return Rotation.from_quat(quaternion / np.abs(quaternion).max()).as_matrix()  # no length over- or underflows
 
 
 def rotation_about(point: Vec3, direction: Vec3, angle: float) -> Mat4:

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
+from grafu.geometry.transform import quaternion_matrix
 from grafu.graph.completion import GraphCompletion, RefusedMotion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
@@ -140,13 +141,10 @@ def _node_from_official(node_id: str, node: Json) -> PartNode:
 def _read_obb(node: Json, where: str) -> Box:
     obb = read_object(node.get("obb"), f"`obb` of {where}")
     center, half = (read_vector(obb, key, where, (3,)) for key in ("center", "half"))
-    w, x, y, z = read_vector(obb, "quat", where, (4,), [1.0, 0.0, 0.0, 0.0])
-    length = w * w + x * x + y * y + z * z
-    if np.any(half < 0) or length <= 0:
+    quaternion = read_vector(obb, "quat", where, (4,), [1.0, 0.0, 0.0, 0.0])
+    if np.any(half < 0) or not np.any(quaternion):
         raise GraphError(f"`obb` of {where} must have half sizes that are not negative and a rotation: got {dict(obb)}")
-    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    R = np.eye(3) + 2 * (w * K + K @ K) / length
-    return Box.from_center(center, np.abs(R) @ half)
+    return Box.from_center(center, np.abs(quaternion_matrix(*quaternion)) @ half)
 
 
 def _slot_of(key: str, node: Json) -> int:

@@ -13,7 +13,7 @@ from torch.nn.functional import gelu, pad, softplus
 
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.network.config import EDGE_COUNT, LABEL_COUNT, GraFuConfig
-from grafu.network.layers import PairLinear, attention_shares, perceptron
+from grafu.network.layers import PairLinear, attention_weights, perceptron
 
 WIDTH = 128
 _THIN = -4.0  # shifts sizes so that at first a part adds a fiftieth of its own
@@ -38,12 +38,12 @@ class Pointing(nn.Module):
     ) -> tuple[Float[Tensor, "b k 3"], Float[Tensor, "b k 3"]]:
         """Returns the mean of what the nodes say of each slot's centre and half size, by how much it points at each."""
         query, key = self.query(slots)[:, None], self.key(nodes)[:, None]
-        shares = attention_shares(query, key, None, mask)[:, 0].float()
+        weights = attention_weights(query, key, None, mask)[:, 0].float()
         said = self.said(gelu(self.of_slot(slots)[:, :, None] + self.of_node(nodes)[:, None])).float()
         centres, halves = boxes[:, None, :, :3], boxes[:, None, :, 3:]
         centre = centres + halves * said[..., :3]
         half = halves * softplus(said[..., 3:] + _THIN)
-        return torch.einsum("bkn,bknc->bkc", shares, centre), torch.einsum("bkn,bknc->bkc", shares, half)
+        return torch.einsum("bkn,bknc->bkc", weights, centre), torch.einsum("bkn,bknc->bkc", weights, half)
 
 
 HEAD = 128  # official.md 5

@@ -1,6 +1,8 @@
-"""Layers that know nothing of furniture: linear stacks of nodes and of pairs, and attention, plain and with edges.
+"""Layers for any graph: linear stacks over nodes and over pairs of nodes, and attention, plain and with edges.
 
-Padding is never attended to; with nothing to attend, attention is 0.
+Padding is never attended to; where all is padding, the output of attention is 0. `Attention` calls PyTorch's
+`scaled_dot_product_attention`. `EdgeAttention` and the head of boxes need the attention weights themselves, which that
+function does not return: they call `attention_weights`.
 """
 
 import math
@@ -10,6 +12,7 @@ from typing import final
 import torch
 from jaxtyping import Bool, Float
 from torch import Tensor, nn
+from torch.nn.functional import scaled_dot_product_attention
 
 
 def perceptron(*widths: int) -> nn.Sequential:
@@ -60,16 +63,17 @@ class Attention(nn.Module):
         """Returns what each of x draws from the memory's elements that are in the mask."""
         query, key, value = self.query(x), self.key(memory), self.value(memory)
         query, key, value = (split_heads(part, self.heads) for part in (query, key, value))
-        shares = attention_shares(query, key, None, mask)
-        return self.out(join_heads(shares @ value))
+        unseen = torch.where(mask, 0.0, _UNSEEN).to(query.dtype)[:, None, None, :]
+        drawn = scaled_dot_product_attention(query, key, value, attn_mask=unseen)
+        return self.out(join_heads(drawn * mask.any(dim=1)[:, None, None, None]))
 
 
 @final
 class EdgeAttention(nn.Module):
     """Nodes attend to nodes; an edge adds W_b z_e to each head's score and W_E z_e to the value that is drawn.
 
-    (Supplement, Graph Encoder.) Edges are averaged by the heads' shares before W_E is applied to them, not after: the
-    same sum, without a value for every pair.
+    (Supplement, Graph Encoder.) Edges are averaged by each head's attention weights before W_E is applied to them, not
+    after: the same sum, without a value for every pair.
     """
 
     def __init__(self, hidden: int, heads: int, edge: int) -> None:
@@ -88,28 +92,28 @@ class EdgeAttention(nn.Module):
     ) -> Float[Tensor, "b n h"]:
         """Returns what each node draws from the nodes in the mask; `edges[i, j]` is that of i looking at j."""
         query, key, value = (split_heads(part(x), self.heads) for part in (self.query, self.key, self.value))
-        shares = attention_shares(query, key, self.bias_of_edge(edges).permute(0, 3, 1, 2), mask)
-        drawn = (shares.transpose(1, 2) @ edges.to(shares.dtype)).transpose(1, 2)  # b heads n e
-        return self.out(join_heads(shares @ value + drawn @ self.value_of_edge))
+        weights = attention_weights(query, key, self.bias_of_edge(edges).permute(0, 3, 1, 2), mask)
+        drawn = (weights.transpose(1, 2) @ edges.to(weights.dtype)).transpose(1, 2)  # b heads n e
+        return self.out(join_heads(weights @ value + drawn @ self.value_of_edge))
 
 
 def split_heads(x: Float[Tensor, "b n h"], heads: int) -> Float[Tensor, "b heads n c"]:
-    """Returns the heads' shares of a width."""
+    """Returns the features of each head, an equal part of the width."""
     return x.reshape(*x.shape[:2], heads, x.shape[2] // heads).transpose(1, 2)
 
 
 def join_heads(x: Float[Tensor, "b heads n c"]) -> Float[Tensor, "b n h"]:
-    """Returns the heads' parts side by side."""
+    """Returns the features of all heads side by side."""
     return x.transpose(1, 2).flatten(2)
 
 
-def attention_shares(
+def attention_weights(
     query: Float[Tensor, "b heads q c"],
     key: Float[Tensor, "b heads k c"],
     bias: Float[Tensor, "b heads q k"] | None,
     mask: Bool[Tensor, "b k"],
 ) -> Float[Tensor, "b heads q k"]:
-    """Returns how much each query draws from each key: the shares add up to 1, or to 0 where all is padding."""
+    """Returns the softmax over keys: the weights of a query sum to 1, or to 0 where all keys are padding."""
     scores = (query / math.sqrt(query.shape[-1])) @ key.transpose(2, 3)
     scores = scores if bias is None else scores + bias
     seen = mask[:, None, None, :]

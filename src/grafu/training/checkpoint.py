@@ -8,22 +8,57 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from pickle import UnpicklingError
-from typing import Any, final
+from typing import Any, TypeVar, final
 
 import torch
-from pydantic import TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, NonNegativeInt, TypeAdapter, ValidationError
 from torch import Tensor
+from torch.optim.swa_utils import AveragedModel
 
 from grafu.asset.own_files import read_own_json
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu
 from grafu.training.config import TrainingConfig
-from grafu.training.optimiser import AveragedWeights, Optimiser
+from grafu.training.optimiser import Optimiser
 
 SCHEMA = "grafu.training/1"
 LAST, BEST = "last.pt", "best.pt"
 _CONFIG = TypeAdapter(TrainingConfig)
+_DAMAGES = (OSError, EOFError, UnpicklingError, RuntimeError, ValueError, LookupError, TypeError, AttributeError)
+
+
+class _File(BaseModel):
+    """The content of a checkpoint but its schema."""
+
+    model_config = ConfigDict(strict=True, arbitrary_types_allowed=True, extra="forbid")
+    config: dict[str, Any]
+    step: NonNegativeInt
+
+
+@final
+class _AverageState(BaseModel):
+    model_config = _File.model_config
+    steps: NonNegativeInt
+    weights: dict[str, Tensor]
+
+
+@final
+class _LastFile(_File):
+    best: float
+    network: dict[str, Tensor]
+    optimiser: list[dict[str, Any]]
+    average: _AverageState
+    random: Tensor
+
+
+@final
+class _BestFile(_File):
+    weights: dict[str, Tensor]
+    figures: dict[str, float]
+
+
+_F = TypeVar("_F", bound=_File)
 
 
 @final
@@ -36,7 +71,7 @@ class Progress:
 
     network: GraFu
     optimiser: Optimiser
-    average: AveragedWeights
+    average: AveragedModel
     step: int = 0
     best: float = 0.0
     lost: int = 0
@@ -73,7 +108,10 @@ def save_progress(progress: Progress, config: TrainingConfig, folder: Path) -> N
             "best": progress.best,
             "network": progress.network.state_dict(),
             "optimiser": progress.optimiser.state(),
-            "average": progress.average.state(),
+            "average": {
+                "steps": int(progress.average.n_averaged),
+                "weights": progress.average.module.state_dict(),
+            },
             "random": torch.get_rng_state(),
         },
         folder / LAST,
@@ -86,13 +124,22 @@ def load_progress(progress: Progress, config: TrainingConfig, folder: Path) -> N
     Raises:
         UnreadableAsset: if there is nothing to go on from, the file is damaged, or it is of another config.
     """
-    state = _read(folder / LAST, progress)
-    _require_same(read_config(state["config"], folder / LAST), config, folder)
-    progress.network.load_state_dict(state["network"])
-    progress.optimiser.restore(state["optimiser"])
-    progress.average.restore(state["average"])
-    progress.step, progress.best = state["step"], state["best"]
-    torch.set_rng_state(state["random"].cpu())
+    path = folder / LAST
+    state = _read(path, _LastFile, next(progress.network.parameters()).device)
+    _require_same(read_config(state.config, path), config, folder)
+    for name, weights in (("network", state.network), ("average", state.average.weights)):
+        _require_weights(weights, progress.network.state_dict(), name, path)
+    progress.network.load_state_dict(state.network)
+    progress.average.module.load_state_dict(state.average.weights)
+    progress.average.n_averaged.fill_(state.average.steps)
+    progress.step, progress.best = state.step, state.best
+    name = "optimiser"
+    try:
+        progress.optimiser.restore(state.optimiser)
+        name = "random"
+        torch.set_rng_state(state.random.cpu())
+    except _DAMAGES as error:
+        raise _damaged(path, name, f"is of another network or config ({type(error).__name__})") from error
 
 
 def has_progress(folder: Path) -> bool:
@@ -133,8 +180,13 @@ def load_best(folder: Path) -> BestWeights:
     Raises:
         UnreadableAsset: if there are none, or the file is damaged.
     """
-    state = _read(folder / BEST)
-    return BestWeights(read_config(state["config"], folder / BEST), state["weights"], state["step"], state["figures"])
+    path = folder / BEST
+    state = _read(path, _BestFile, torch.device("cpu"))
+    config = read_config(state.config, path)
+    with torch.device("meta"):  # names and shapes only
+        expected = GraFu(config.network).state_dict()
+    _require_weights(state.weights, expected, "weights", path)
+    return BestWeights(config, state.weights, state.step, state.figures)
 
 
 def read_config(stated: Any, path: Path) -> TrainingConfig:
@@ -148,7 +200,8 @@ def read_config(stated: Any, path: Path) -> TrainingConfig:
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
-        raise UnreadableAsset(f"`{path}` was written by another version: `{where}`: {first['msg']}") from error
+        problem = f"`{where}`: {first['msg']}"
+        raise UnreadableAsset(f"`{path}` was written by another version: {problem}; train again") from error
 
 
 def _require_same(stated: TrainingConfig, asked: TrainingConfig, folder: Path) -> None:
@@ -159,17 +212,36 @@ def _require_same(stated: TrainingConfig, asked: TrainingConfig, folder: Path) -
             )
 
 
-def _read(path: Path, progress: Progress | None = None) -> dict[str, Any]:
-    device = next(progress.network.parameters()).device if progress else "cpu"
+def _read(path: Path, form: type[_F], device: torch.device) -> _F:
     if not path.is_file():
-        raise UnreadableAsset(f"`{path}` is not there: train first")
+        raise UnreadableAsset(f"`{path}` does not exist: train first")
     try:
-        state = torch.load(path, map_location=device, weights_only=True)
-    except (OSError, RuntimeError, EOFError, UnpicklingError) as error:
-        raise UnreadableAsset(f"`{path}` cannot be read: it is damaged, or of another program") from error
+        state = torch.load(path, map_location=device, weights_only=True)  # runs no code of the file
+    except _DAMAGES as error:
+        raise UnreadableAsset(f"`{path}` cannot be read as a checkpoint of grafu: remove it and train again") from error
     if not isinstance(state, dict) or state.get("schema") != SCHEMA:
-        raise UnreadableAsset(f"`{path}` must be of the form `{SCHEMA}`")
-    return state
+        raise UnreadableAsset(f"`{path}` must be a checkpoint of the form `{SCHEMA}`: remove it and train again")
+    try:
+        return form.model_validate({key: value for key, value in state.items() if key != "schema"})
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(str(step) for step in first["loc"])
+        raise _damaged(path, name, first["msg"]) from error
+
+
+def _require_weights(found: Mapping[str, Tensor], expected: Mapping[str, Tensor], name: str, path: Path) -> None:
+    for key in sorted(found.keys() | expected.keys()):
+        if key not in found or key not in expected:
+            raise _damaged(path, f"{name}.{key}", "is missing" if key in expected else "is no weight of this network")
+        shape, wanted = tuple(found[key].shape), tuple(expected[key].shape)
+        if shape != wanted or found[key].dtype != expected[key].dtype:
+            raise _damaged(
+                path, f"{name}.{key}", f"is {found[key].dtype} {shape}, expected {expected[key].dtype} {wanted}"
+            )
+
+
+def _damaged(path: Path, name: str, problem: str) -> UnreadableAsset:
+    return UnreadableAsset(f"`{path}` is damaged: `{name}`: {problem}; remove it and train again")
 
 
 def _write(state: Mapping[str, Any], path: Path) -> None:

@@ -24,7 +24,7 @@ from grafu.training.checkpoint import Progress, has_progress, load_progress, req
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
 from grafu.training.logbook import STEPS, VALIDATION, Logbook, Meter
-from grafu.training.optimiser import AveragedWeights, Optimiser, rate_at
+from grafu.training.optimiser import Optimiser, averaged, rate_at
 from grafu.training.source import Source
 from grafu.training.validation import validate, validation_batches, validation_source
 from grafu.training.workers import Workers, stop_requests
@@ -97,7 +97,7 @@ def train(
 def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool) -> Progress:
     """Returns a run at its beginning, or where it was cut."""
     network = GraFu(config.network).to(workers.device)
-    average = AveragedWeights(network, config.optimiser.average)
+    average = averaged(network, config.optimiser.average)
     progress = Progress(network, Optimiser(network, config.optimiser), average)
     if has_progress(folder):
         if not resume:
@@ -142,7 +142,7 @@ def _step(progress: Progress, config: TrainingConfig, is_sound: bool) -> None:
     progress.optimiser.rate = asked.rate * rate_at(progress.step, config.steps, asked.warmup, asked.period)
     if is_sound:
         progress.optimiser.step()
-        progress.average.update(progress.network)
+        progress.average.update_parameters(progress.network)
     progress.lost = 0 if is_sound else progress.lost + 1
     progress.step += 1
 
@@ -178,7 +178,7 @@ class _Keeper:
 
     def _judge(self, progress: Progress) -> dict[str, float]:
         """Returns the figures of the averaged weights, which are kept where none did better."""
-        weights = progress.average.weights
+        weights = progress.average.module.state_dict()
         judge = GraFu(self._config.network).to(next(progress.network.parameters()).device)
         judge.load_state_dict(weights)
         figures = validate(judge, self._judged_by, self._config.loss)

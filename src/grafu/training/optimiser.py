@@ -11,60 +11,35 @@ from typing import Any, final
 
 import torch
 from torch import Tensor, nn
+from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 
 from grafu.training.config import OptimiserConfig
 
+_Tensors = tuple[Tensor, ...] | list[Tensor]
 
-@final
-class AveragedWeights:
-    """An exponential average over the weights of a module, of the length 1 / (1 - decay) steps.
 
-    The first steps count fully: after n of them the decay is at most (1 + n) / (10 + n), so that the weights at the
-    start, which are noise, are forgotten at once.
+def averaged(module: nn.Module, decay: float) -> AveragedModel:
+    """Returns a copy of a module whose weights are the exponential moving average, over 1 / (1 - decay) steps.
+
+    The weights before the first step are not in it. After n steps the decay is at most (1 + n) / (10 + n), so that the
+    first steps, which are noise, are soon forgotten.
+
+    Raises:
+        ValueError: if `decay` is not in 0..1.
     """
+    if not 0.0 <= decay < 1.0:
+        raise ValueError(f"`decay` must be in 0..1: got {decay}")
 
-    def __init__(self, module: nn.Module, decay: float) -> None:
-        if not 0.0 <= decay < 1.0:
-            raise ValueError(f"`decay` must be in 0..1: got {decay}")
-        self.decay = decay
-        self.steps = 0
-        self.weights = {name: value.detach().clone() for name, value in module.state_dict().items()}
+    def update(averages: _Tensors, weights: _Tensors, count: Tensor | int) -> None:
+        steps = int(count) + 1
+        move = get_ema_multi_avg_fn(min(decay, (1 + steps) / (10 + steps)))  # type: ignore[no-untyped-call]
+        move(averages, weights, count)
 
-    @torch.no_grad()
-    def update(self, module: nn.Module) -> None:
-        """Takes one more step's weights into the average."""
-        self.steps += 1
-        decay = min(self.decay, (1 + self.steps) / (10 + self.steps))
-        floats: list[Tensor] = []
-        news: list[Tensor] = []
-        for name, value in module.state_dict().items():
-            if value.is_floating_point():
-                floats.append(self.weights[name])
-                news.append(value.detach())
-            else:
-                self.weights[name].copy_(value)
-        torch._foreach_lerp_(floats, news, 1.0 - decay)
-
-    def state(self) -> dict[str, object]:
-        """Returns what `restore` takes."""
-        return {"steps": self.steps, "weights": self.weights}
-
-    def restore(self, state: dict[str, object]) -> None:
-        """Goes on from the state of an earlier average over the same module.
-
-        Raises:
-            ValueError: if it is of another module.
-        """
-        weights = state["weights"]
-        if not isinstance(weights, dict) or weights.keys() != self.weights.keys():
-            raise ValueError("the average must be of the same module: got weights of other names")
-        for name, value in self.weights.items():
-            value.copy_(weights[name])
-        self.steps = int(str(state["steps"]))
+    return AveragedModel(module, multi_avg_fn=update)
 
 
 def rate_at(step: int, steps: int, warmup: int, period: int | None = None) -> float:
-    """Returns the share (0..1) of the highest learning rate for step 0, 1, ... of `steps`.
+    """Returns the fraction (0..1) of the highest learning rate at step 0, 1, ... of `steps`.
 
     It rises evenly over the first `warmup` steps, so that Adam's first averages do no harm, and then falls along half a
     cosine to zero at the end; or, with `period`, at that step, which the paper's training never reaches.
@@ -126,9 +101,17 @@ class Optimiser:
         return [part.state_dict() for part in self._parts]
 
     def restore(self, state: Sequence[Mapping[str, Any]]) -> None:
-        """Goes on from what `state` returned."""
+        """Goes on from what `state` returned.
+
+        Raises:
+            ValueError: if it is the state of another network or other optimisers; torch's own errors where a key lacks.
+        """
         for part, stated in zip(self._parts, state, strict=True):
             part.load_state_dict(dict(stated))
+            for parameter, moments in part.state.items():
+                for name, value in moments.items():
+                    if isinstance(value, Tensor) and value.ndim and value.shape != parameter.shape:
+                        raise ValueError(f"`{name}` must be of shape {parameter.shape}: got {value.shape}")
 
     def _groups(self) -> Iterator[dict[str, Any]]:
         for part in self._parts:

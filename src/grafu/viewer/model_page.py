@@ -1,7 +1,8 @@
 """The page of one model: a single file that opens from a disk, without a network. It writes no files.
 
 A header with the verdict (its colour, its sentence, a line for each fault), a 3D view with a slider per joint,
-pictures, the functional graph, and the report as tables.
+pictures, the functional graph, and the report as tables. The view is WebGL of our own: `model-viewer` plays the
+animation of a GLB but has no slider per joint and adds 1 MB to each page; viser needs a server that runs.
 """
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
