@@ -76,8 +76,11 @@ def _templates() -> list:
 
 def _slides(context, part: str):
     """Returns whether a part slides; None: that is not known, for it has no joint."""
+    from grafu.articulation.motion_kind import motion_kind
+    from grafu.vocabulary import JointType
+
     row = session_of(context).joints.get(part)
-    return row.type == "prismatic" if row is not None and row.type else None
+    return motion_kind(JointType(row.type)).slides if row is not None and row.type else None
 
 
 def _class_chosen(operator, _):

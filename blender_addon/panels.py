@@ -111,9 +111,11 @@ def _draw_choice(column, what, part, changed, text, icon):
 
 
 def _limits(empty) -> str:
-    if empty["type"] == "revolute":
-        return f"turns by {57.29578 * empty['upper']:.0f} degrees"
-    return f"slides by {100 * empty['upper']:.1f} cm"
+    from grafu.articulation.motion_kind import motion_kind
+    from grafu.vocabulary import JointType
+
+    kind = motion_kind(JointType(empty["type"]))
+    return f"{kind.verb} by {kind.worded(empty['upper'])}"
 
 
 class GRAFU_PT_view(_ResultPanel, bpy.types.Panel):

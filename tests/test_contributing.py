@@ -27,6 +27,16 @@ def test_a_hinge_class_touches_the_files_that_name_one() -> None:
     assert naming - paths_in(row_of("a hinge class")) == set()
 
 
+def test_a_kind_of_motion_touches_the_files_that_name_one() -> None:
+    moving = re.compile(r"JointType\.(?!FIXED)[A-Z]+|\"(revolute|prismatic)\"")
+    addon = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / "blender_addon").rglob("*.py")}
+    pages = {p.relative_to(ROOT).as_posix(): p for p in (ROOT / "src/grafu/viewer/templates").iterdir()}
+    every = {**SOURCES, **addon, **pages}
+    named = paths_in(row_of("a kind of joint motion"))
+    assert {name for name, path in every.items() if moving.search(path.read_text("utf-8"))} - named == set()
+    assert len(named) <= 15
+
+
 def test_only_the_table_of_formats_names_an_exporter() -> None:
     exporter = re.compile(r"grafu\.export\.[\w.]+:export_\w+")
     assert {name for name, path in SOURCES.items() if exporter.search(path.read_text("utf-8"))} == {

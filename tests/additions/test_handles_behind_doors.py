@@ -11,7 +11,6 @@ from front_scenes import cabinet, scene_of, without_handles
 from grafu.additions.handle.grasp import find_grasps
 from grafu.additions.handle.place import add_handles
 from grafu.geometry.intersection import MeshCollider
-from grafu.joints.limits import pose_function
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.scene.scene import JointMotion, Scene
@@ -35,7 +34,7 @@ def with_way(scene: Scene, moving: str, **changes) -> Scene:
 
 
 def at(joint_motion: JointMotion, value: float) -> np.ndarray:
-    return pose_function(joint_motion.axis, joint_motion.type)(value)
+    return joint_motion.kind.transform(joint_motion.axis, value)
 
 
 def posed(meshes, T: np.ndarray) -> trimesh.collision.CollisionManager:

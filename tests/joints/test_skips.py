@@ -109,7 +109,7 @@ def test_what_rides_on_a_door_gets_no_joint_of_its_own():
 
 
 def test_a_request_must_move():
-    with pytest.raises(ValueError, match="revolute or prismatic"):
+    with pytest.raises(ValueError, match="must be one that moves"):
         JointRequest("door", JointType.FIXED, LEFT_EDGE, "test")
 
 

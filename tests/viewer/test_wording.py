@@ -1,14 +1,12 @@
 """Reports in words."""
 
-from math import pi
-
 import pytest
 
 from grafu.joints.report import SkipReason
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
-from grafu.pipeline.words import counted, listed, opening
+from grafu.pipeline.words import counted, listed
 from grafu.viewer.wording import (
     added,
     axis_words,
@@ -83,9 +81,7 @@ def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
     assert still_lacking(said(SkipReason.BLOCKED)) == (lack,)
 
 
-def test_numbers_are_read_in_degrees_and_centimetres():
-    assert opening(JointType.REVOLUTE, pi / 2) == "90°"
-    assert opening(JointType.PRISMATIC, 0.1234) == "12.3 cm"
+def test_counts_and_lists_are_words():
     assert (counted(1, "hinge"), counted(3, "shelf"), counted(2, "rail")) == ("1 hinge", "3 shelves", "2 rails")
     assert counted(2, "drawer box") == "2 drawer boxes"
     assert (listed([]), listed(["a"]), listed(["a", "b", "c"])) == ("", "a", "a, b and c")

@@ -10,6 +10,7 @@ from typing import final
 from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require
 from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.errors import ExportError, OptionError
 from grafu.export.files import write_files
@@ -26,7 +27,7 @@ from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings
 from grafu.templates.available import open_handles
-from grafu.vocabulary import JointType, MechanismClass, PartLabel
+from grafu.vocabulary import MechanismClass, PartLabel
 
 
 @final
@@ -244,7 +245,7 @@ class Result:
 
     def _sliding(self, part: str) -> Settings:
         """Returns the settings in which a part slides, where it does not already."""
-        slides = any(j.part == part and j.type is JointType.PRISMATIC for j in self.joints)
+        slides = any(j.part == part and motion_kind(j.type).slides for j in self.joints)
         return self.settings if slides else self.settings.with_motion(part, motion_in_words(part, "slides"))
 
     def _with(self, settings: Settings) -> "Result":

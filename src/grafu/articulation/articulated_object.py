@@ -4,18 +4,21 @@ Everything is in the object frame (metres, Z up, front -Y) at rest, which is clo
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.errors import ArticulationError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.vocabulary import JointType, PartLabel
+
+_ALIKE = 1e-6  # radians or metres: limits that differ by less are the same
 
 
 class VisualRole(StrEnum):
@@ -95,11 +98,47 @@ class JointLimits:
 
 
 @final
+@dataclass(frozen=True, slots=True)
+class Coupling:
+    """A joint follows another, its leader: its value is `multiplier` times the leader's, plus `offset`.
+
+    `offset` is in the unit of the joint that follows, `multiplier` in that unit for each unit of the leader's.
+
+    Raises:
+        ArticulationError: if a number is not finite, or the multiplier is 0.
+    """
+
+    leader: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.multiplier) and np.isfinite(self.offset) and self.multiplier != 0):
+            raise ArticulationError(
+                f"a coupling needs finite numbers and a multiplier that is not 0: got {self.multiplier}, {self.offset}"
+            )
+
+    def value(self, leader_value: float) -> float:
+        """Returns the value at a value of the leader."""
+        return self.multiplier * leader_value + self.offset
+
+    def leader_value(self, value: float) -> float:
+        """Returns the leader's value at a value of the joint that follows."""
+        return (value - self.offset) / self.multiplier
+
+    def ends(self, limits: JointLimits) -> tuple[float, float]:
+        """Returns the lowest and the highest value while the leader keeps to its limits."""
+        low, high = sorted((self.value(limits.lower), self.value(limits.upper)))
+        return low, high
+
+
+@final
 @dataclass(frozen=True)
 class Joint:
-    """A revolute or prismatic joint: `axis` in the object frame at rest, positive values open.
+    """How a child link moves against its parent: `axis` in the object frame at rest, positive values open.
 
-    `after` names the joints that must be open before this one can move (a door in front of a drawer).
+    `after` names the joints that must be open before this one can move (a door in front of a drawer). With a `coupling`
+    the joint does not move by itself: it follows another.
     """
 
     id: str
@@ -109,14 +148,31 @@ class Joint:
     axis: Axis
     limits: JointLimits
     after: tuple[str, ...] = ()
+    coupling: Coupling | None = None
+
+    @property
+    def kind(self) -> MotionKind:
+        """How it moves, and what everyone asks about it."""
+        return motion_kind(self.type)
 
     def motion(self, value: float) -> np.ndarray:
         """Returns the 4x4 motion of the child from rest, at a joint value."""
-        if self.type is JointType.REVOLUTE:
-            return self.axis.rotation(value)
-        if self.type is JointType.PRISMATIC:
-            return self.axis.shift(value)
-        return np.eye(4)
+        return self.kind.transform(self.axis, value)
+
+    def following(self, leader: "Joint", multiplier: float = 1.0, offset: float = 0.0) -> "Joint":
+        """Returns this joint coupled to another, with the limits that follow from it.
+
+        Values of a joint are never negative: where they would be, the axis is reversed, and with it both numbers.
+
+        Raises:
+            ArticulationError: if the values are negative for some values of the leader and positive for others.
+        """
+        coupling, axis = Coupling(leader.id, multiplier, offset), self.axis
+        if min(coupling.ends(leader.limits)) < -_ALIKE:
+            coupling, axis = Coupling(leader.id, -multiplier, -offset), self.axis.reversed()
+        low, high = coupling.ends(leader.limits)
+        limits = JointLimits(max(low, 0.0) if low > -_ALIKE else low, high)
+        return replace(self, axis=axis, limits=limits, after=(), coupling=coupling)
 
 
 @final
@@ -126,7 +182,8 @@ class ArticulatedObject:
 
     Raises:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
-            exists, or a link cannot be reached from the root.
+            exists, or a link cannot be reached from the root; if a joint follows one that is not there, stands still or
+            follows it in turn, waits for others by itself, or has limits that do not follow from its leader's.
     """
 
     name: str
@@ -152,6 +209,23 @@ class ArticulatedObject:
         if self.root in children or reached != known:
             lost = sorted(known - reached) or [self.root]
             raise ArticulationError(f"every link must hang on the root `{self.root}`, without a cycle: {lost} do not")
+        for joint in self.joints:
+            if joint.coupling is not None:
+                self._check_coupling(joint, joint.coupling)
+
+    def _check_coupling(self, joint: Joint, coupling: Coupling) -> None:
+        leader = self._joints_by_id.get(coupling.leader)
+        if leader is None or not leader.kind.moves or not joint.kind.moves:
+            raise ArticulationError(f"`{joint.id}` must follow a joint that moves: got `{coupling.leader}`")
+        if joint.after:
+            raise ArticulationError(f"`{joint.id}` follows `{leader.id}` and cannot wait for {list(joint.after)}")
+        self.leader_of(joint)
+        low, high = coupling.ends(leader.limits)
+        if max(abs(low - joint.limits.lower), abs(high - joint.limits.upper)) > _ALIKE:
+            found = f"{joint.limits.lower} .. {joint.limits.upper}"
+            raise ArticulationError(
+                f"the limits of `{joint.id}` must follow from `{leader.id}`: got {found}, not {low} .. {high}"
+            )
 
     def _walk(self) -> Iterator[Link]:
         by_id = {link.id: link for link in self.links}
@@ -182,10 +256,33 @@ class ArticulatedObject:
         """The joint above each link; the root has none."""
         return {joint.child: joint for joint in self.joints}
 
+    @cached_property
+    def _joints_by_id(self) -> dict[str, Joint]:
+        return {joint.id: joint for joint in self.joints}
+
+    def leader_of(self, joint: Joint) -> Joint:
+        """Returns the joint that moves by itself and that this one follows, over others or not; itself where it is one.
+
+        Raises:
+            ArticulationError: if joints follow one another in a circle.
+        """
+        seen = [joint.id]
+        while joint.coupling is not None:
+            joint = self._joints_by_id[joint.coupling.leader]
+            if joint.id in seen:
+                raise ArticulationError(f"joints must not follow one another in a circle: {seen} do")
+            seen.append(joint.id)
+        return joint
+
+    @property
+    def free_joints(self) -> tuple[Joint, ...]:
+        """The joints that move by themselves: neither fixed nor coupled."""
+        return tuple(joint for joint in self.moving_joints if joint.coupling is None)
+
     @property
     def moving_joints(self) -> tuple[Joint, ...]:
         """The joints that are not fixed."""
-        return tuple(joint for joint in self.joints if joint.type is not JointType.FIXED)
+        return tuple(joint for joint in self.joints if joint.kind.moves)
 
 
 def _require_unique(what: str, ids: list[str]) -> None:

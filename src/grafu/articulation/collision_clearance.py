@@ -13,7 +13,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
 from grafu.articulation.kinematics import link_poses
-from grafu.articulation.sweep import values_before
+from grafu.articulation.sweep import rest_to_full, values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import require_time
@@ -50,11 +50,19 @@ class _JointPath:
     """One joint's way from rest to full.
 
     `Ts_object_carried` are the poses of each link that moves with it, (poses, 4, 4); `T_object_still` is where every
-    other link stands meanwhile, links at rest left out.
+    other link stands meanwhile, links at rest left out; `Ts_object_coupled` are the poses of links that it does not
+    carry and that move as well, for they are coupled.
     """
 
     Ts_object_carried: Mapping[str, np.ndarray]
     T_object_still: Mapping[str, Mat4]
+    Ts_object_coupled: Mapping[str, np.ndarray]
+
+    def pose_of_other(self, link: str, pose: int) -> Mat4:
+        """Returns the pose of a link that is not carried."""
+        if link in self.Ts_object_coupled:
+            return np.asarray(self.Ts_object_coupled[link][pose])
+        return self.T_object_still.get(link, _REST)
 
 
 @final
@@ -93,14 +101,30 @@ def cleared(
 
 
 def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
-    """Returns the way of a joint: what hangs on it moves as one body with its child."""
+    """Returns the way of a joint: what hangs on it moves as one body with its child, unless joints are coupled."""
+    if any(articulated.leader_of(other) is articulated.leader_of(joint) for other in _others(articulated, joint)):
+        return _coupled_motion(articulated, joint, poses)
     start = link_poses(articulated, values_before(articulated, joint.id))
     T_object_parent, T_child_object = start[joint.parent], invert(start[joint.child])
     values = np.linspace(joint.limits.lower, joint.limits.upper, poses)
     Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
     carried = _carried(articulated, joint)
     still = {link: T for link, T in start.items() if link not in carried and not np.array_equal(T, np.eye(4))}
-    return _JointPath({link: Ts @ start[link] for link in carried}, still)
+    return _JointPath({link: Ts @ start[link] for link in carried}, still, {})
+
+
+def _others(articulated: ArticulatedObject, joint: Joint) -> list[Joint]:
+    return [other for other in articulated.moving_joints if other is not joint]
+
+
+def _coupled_motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
+    """Returns the way of a joint that moves together with others."""
+    frames = [link_poses(articulated, values) for values in rest_to_full(articulated, joint.id, poses)]
+    Ts = {link.id: np.stack([frame[link.id] for frame in frames]) for link in articulated.links}
+    carried = _carried(articulated, joint)
+    others = {link: Ts_link for link, Ts_link in Ts.items() if link not in carried}
+    moved = {link: Ts_link for link, Ts_link in others.items() if not np.allclose(Ts_link, _REST)}
+    return _JointPath({link: Ts[link] for link in carried}, {}, moved)
 
 
 def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
@@ -126,7 +150,7 @@ def _conflicts(
         if body in settled and other in settled:
             continue
         T_object_body = motion.Ts_object_carried[body.link][pose]
-        T_object_other = motion.T_object_still.get(other.link, _REST)
+        T_object_other = motion.pose_of_other(other.link, int(pose))
         body.place(T_object_body)
         other.place(T_object_other)
         if body.meets(other):
@@ -140,11 +164,14 @@ def _near(motion: _JointPath, moving: list[ShapeBody], still: list[ShapeBody]) -
     if not moving or not still:
         return np.zeros((0, 3), dtype=np.int64)
     a = np.stack([body.bounds_at(motion.Ts_object_carried[body.link]) for body in moving], axis=1)[:, :, None]
-    b = np.stack([_bounds_of_still(motion, body) for body in still])
-    return np.argwhere(np.all((a[..., 0, :] <= b[:, 1]) & (b[:, 0] <= a[..., 1, :]), axis=-1))
+    b = np.stack([np.broadcast_to(_bounds_of_other(motion, body), (len(a), 2, 3)) for body in still], axis=1)[:, None]
+    return np.argwhere(np.all((a[..., 0, :] <= b[..., 1, :]) & (b[..., 0, :] <= a[..., 1, :]), axis=-1))
 
 
-def _bounds_of_still(motion: _JointPath, body: ShapeBody) -> np.ndarray:
+def _bounds_of_other(motion: _JointPath, body: ShapeBody) -> np.ndarray:
+    """Returns the bounds of a body that is not carried, (2, 3), or in each pose, (poses, 2, 3)."""
+    if body.link in motion.Ts_object_coupled:
+        return body.bounds_at(motion.Ts_object_coupled[body.link])
     T = motion.T_object_still.get(body.link)
     return body.bounds if T is None else body.bounds_at(T[None])[0]
 

@@ -12,6 +12,8 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import Mat4, Vec3, vec3
 
+_ALIKE = 1e-6  # radians or metres
+
 
 def all_before(name: str, waits: Mapping[str, Iterable[str]]) -> set[str]:
     """Returns what a part waits for, what that waits for, and so on; `waits` says what each waits for by itself."""
@@ -41,19 +43,43 @@ def link_origins(articulated: ArticulatedObject) -> dict[str, Vec3]:
     return root | {link: joint_origin(articulated, joint) for link, joint in joints.items()}
 
 
+def with_coupled(articulated: ArticulatedObject, values: Mapping[str, float]) -> dict[str, float]:
+    """Returns the values together with those of all coupled joints, which follow from their leaders'.
+
+    A joint that `values` leaves out counts as closed (0).
+
+    Raises:
+        ArticulationError: if a value is given for a coupled joint that is not the one it has at its leader's.
+    """
+    coupled = {joint.id: joint.coupling for joint in articulated.joints if joint.coupling is not None}
+    found = {name: value for name, value in values.items() if name not in coupled}
+
+    def value_of(name: str) -> float:
+        coupling = coupled.get(name)
+        return found.get(name, 0.0) if coupling is None else coupling.value(value_of(coupling.leader))
+
+    for name, coupling in coupled.items():
+        value = value_of(name)
+        if abs(values.get(name, value) - value) > _ALIKE:
+            raise ArticulationError(f"`{name}` follows `{coupling.leader}`: it is at {value}, got {values[name]}")
+        found[name] = value
+    return found
+
+
 def link_poses(articulated: ArticulatedObject, values: Mapping[str, float]) -> dict[str, Mat4]:
     """Returns for each link id its motion from rest, in the object frame, chained from the root outwards.
 
-    A joint that `values` leaves out stays closed (0). Values are radians or metres; limits are not applied.
+    A joint that `values` leaves out stays closed (0); a coupled joint follows its leader. Values are radians or metres;
+    limits are not applied.
 
     Raises:
-        ArticulationError: if `values` names a joint that the object does not have.
+        ArticulationError: if `values` names a joint that the object does not have, or puts a coupled joint elsewhere.
     """
     unknown = sorted(set(values) - {joint.id for joint in articulated.joints})
     if unknown:
         known = [joint.id for joint in articulated.joints]
         raise ArticulationError(f"joint values must name joints of `{articulated.name}`: got {unknown}, it has {known}")
-    poses: dict[str, Mat4] = {}
+    values, poses = with_coupled(articulated, values), dict[str, Mat4]()
     for link in articulated.links_from_root:
         joint = articulated.joint_of.get(link.id)
         poses[link.id] = np.eye(4) if joint is None else poses[joint.parent] @ joint.motion(values.get(joint.id, 0.0))

@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import link_poses, with_coupled
 from grafu.articulation.sweep import JointValues, opening_stages
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import require_time
@@ -34,8 +34,8 @@ def near_at_rest(articulated: ArticulatedObject, shapes: Shapes) -> Pairs:
 def open_together(articulated: ArticulatedObject, shapes: Shapes) -> JointValues:
     """Returns a value for each moving joint: its upper limit where the others leave room, else as much as they do.
 
-    Joints open one after another in the order in which they may; who comes later gives way. What meets at rest may
-    meet, and so may what a joint joins; shapes are in the object frame at rest.
+    Joints open one after another in the order in which they may; who comes later gives way, and what is coupled moves
+    together. What meets at rest may meet, and so may what a joint joins; shapes are in the object frame at rest.
 
     Raises:
         ArticulationError: if joints wait for one another.
@@ -43,16 +43,16 @@ def open_together(articulated: ArticulatedObject, shapes: Shapes) -> JointValues
     bodies = _bodies(shapes)
     known = _met(articulated, bodies, {}, frozenset())
     allowed = frozenset(frozenset(pair) for pair in (*known, *((j.parent, j.child) for j in articulated.joints)))
-    joints = {joint.id: joint for joint in articulated.moving_joints}
+    joints = {joint.id: joint for joint in articulated.free_joints}
     values = {joint.id: joint.limits.lower for joint in joints.values()}
-    for name in (name for stage in opening_stages(articulated) for name in stage):
+    for name in (name for stage in opening_stages(articulated) for name in stage if name in joints):
         limits = joints[name].limits
         for step in range(_STEPS, 0, -1):
             wider = {**values, name: limits.lower + limits.range * step / _STEPS}
             if not _met(articulated, bodies, wider, allowed):
                 values = wider
                 break
-    return values
+    return with_coupled(articulated, values)
 
 
 def _bodies(shapes: Shapes) -> list[ShapeBody]:

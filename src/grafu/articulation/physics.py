@@ -21,7 +21,6 @@ from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, mo
 from grafu.articulation.open_together import met_at_rest, near_at_rest
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.budget import WhileTimeLasts, present_budget, within
-from grafu.vocabulary import JointType
 
 T = TypeVar("T")
 GRAVITY = 9.81
@@ -72,7 +71,7 @@ def joint_dynamics(
     """
     carried = [masses[link] for link in _carried(articulated, joint.child)]
     weight = GRAVITY * sum(m.mass for m in carried)
-    if joint.type is JointType.REVOLUTE:
+    if joint.kind.turns:
         inertia, pull, most = _about_axis(joint, carried)
         friction = config.hinge_braking * inertia + config.holding * max(pull, 0.0)
         return JointDynamics(inertia / config.settling, friction, 2.0 * most + 10.0 * friction, config.hinge_velocity)

@@ -11,6 +11,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.articulation.kinematics import with_coupled
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import ArrayValue, Scalars, frozen_array
 
@@ -40,10 +41,11 @@ def opening_stages(articulated: ArticulatedObject) -> tuple[tuple[str, ...], ...
     Raises:
         ArticulationError: if an `after` names a joint that is not there, or two joints wait for one another.
     """
-    waiting = {joint.id: set(joint.after) for joint in articulated.moving_joints}
-    unknown = sorted(set().union(*waiting.values()) - set(waiting)) if waiting else []
+    joints = {joint.id: joint for joint in articulated.moving_joints}
+    unknown = sorted({other for joint in joints.values() for other in joint.after} - set(joints))
     if unknown:
         raise ArticulationError(f"`after` must name moving joints of `{articulated.name}`: got {unknown}")
+    waiting = {joint.id: set(articulated.leader_of(joint).after) for joint in joints.values()}
     stages: list[tuple[str, ...]] = []
     opened: set[str] = set()
     while len(opened) < len(waiting):
@@ -61,33 +63,34 @@ def values_before(articulated: ArticulatedObject, joint_id: str) -> JointValues:
     Raises:
         ArticulationError: if the joint is not a moving joint, or the order of opening cannot be kept.
     """
-    _moving_joint(articulated, joint_id)
+    joint = _moving_joint(articulated, joint_id)
     opening_stages(articulated)
     joints = {joint.id: joint for joint in articulated.moving_joints}
-    values = {joint.id: joint.limits.lower for joint in joints.values()}
-    queue = list(joints[joint_id].after)
+    values = {joint.id: joint.limits.lower for joint in articulated.free_joints}
+    queue = list(articulated.leader_of(joint).after)
     while queue:
-        other = joints[queue.pop()]
+        other = articulated.leader_of(joints[queue.pop()])
         values[other.id] = other.limits.upper
         queue += other.after
-    return values
+    return with_coupled(articulated, values)
 
 
 def rest_to_full(articulated: ArticulatedObject, joint_id: str, count: int = 50) -> list[JointValues]:
     """Returns `count` frames of all joint values in which one moving joint goes from rest to full, evenly spaced.
 
-    Joints that it waits for (`after`) are fully open throughout; all others rest. The default is the paper's number
-    of poses.
+    Joints that it waits for (`after`) are fully open throughout; all others rest. What is coupled moves together: where
+    the joint follows another, that one goes from rest to full. The default is the paper's number of poses.
     """
-    joint = _moving_joint(articulated, joint_id)
-    start = values_before(articulated, joint_id)
-    steps = np.linspace(joint.limits.lower, joint.limits.upper, count)
-    return [{**start, joint_id: float(value)} for value in steps]
+    leader = articulated.leader_of(_moving_joint(articulated, joint_id))
+    before = values_before(articulated, joint_id)
+    start = {joint.id: before[joint.id] for joint in articulated.free_joints}
+    steps = np.linspace(leader.limits.lower, leader.limits.upper, count)
+    return [with_coupled(articulated, {**start, leader.id: float(value)}) for value in steps]
 
 
 def all_open(articulated: ArticulatedObject) -> JointValues:
-    """Returns every moving joint at its upper limit."""
-    return {joint.id: joint.limits.upper for joint in articulated.moving_joints}
+    """Returns every free joint at its upper limit, and the coupled ones where that puts them."""
+    return with_coupled(articulated, {joint.id: joint.limits.upper for joint in articulated.free_joints})
 
 
 def cycle_tracks(
@@ -103,8 +106,8 @@ def cycle_tracks(
     joints = {joint.id: joint for joint in articulated.moving_joints}
     tracks: list[JointTrack] = []
     for index, stage in enumerate(stages):
-        keys = _cycle_keys(index * stage_seconds, stage_seconds, whole, steps)
-        tracks += [JointTrack(joint_id, keys[0], _scaled(joints[joint_id], keys[1])) for joint_id in stage]
+        times, shares = _cycle_keys(index * stage_seconds, stage_seconds, whole, steps)
+        tracks += [JointTrack(name, times, _scaled(joints[name], _shares(joints, name, shares))) for name in stage]
     return tuple(tracks)
 
 
@@ -135,6 +138,18 @@ def _cycle_keys(start: float, seconds: float, whole: float, steps: int) -> tuple
     if start > 0:
         times, shares = np.concatenate([[0.0], times]), np.concatenate([[0.0], shares])
     return np.concatenate([times, whole - times[::-1]]), np.concatenate([shares, shares[::-1]])
+
+
+def _shares(joints: Mapping[str, Joint], name: str, shares: Scalars) -> Scalars:
+    """Returns the shares of its range that a joint passes through; one that closes as its leader opens is at the rest.
+
+    `shares` are those of the joint that moves by itself.
+    """
+    coupling = joints[name].coupling
+    if coupling is None:
+        return shares
+    led = _shares(joints, coupling.leader, shares)
+    return led if coupling.multiplier > 0 else 1.0 - led
 
 
 def _scaled(joint: Joint, shares: Scalars) -> Scalars:

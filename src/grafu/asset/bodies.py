@@ -12,6 +12,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.drafts import PartDraft
 from grafu.asset.labels import is_control, is_piece, label_of
 from grafu.asset.names import unique_ids, words
@@ -172,8 +173,8 @@ def _spoken_label(body: Body, rest: tuple[Visual, ...]) -> PartLabel:
 
 def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: StatedMotion, up: int) -> PartLabel:
     """Returns what a body is by its joint: what turns is a door, whatever it is called; names tell slides apart."""
-    if motion.type is JointType.REVOLUTE:
-        return PartLabel.DOOR
+    if motion_kind(motion.type).turns:
+        return motion_kind(motion.type).label
     if spoken is not PartLabel.UNKNOWN:
         return spoken
     return PartLabel.DOOR if _slides_in_its_plane(rest, motion, up) else PartLabel.DRAWER

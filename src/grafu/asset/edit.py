@@ -9,11 +9,10 @@ from typing import Literal
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Annotation, Asset, Frame, Part
 from grafu.geometry.arrays import Mat4, vec3
-from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, reflection, rotation_matrix, scale_of, translation
-from grafu.vocabulary import JointType
 
 
 def moved(asset: Asset, T: Mat4) -> Asset:
@@ -80,8 +79,7 @@ def _moved_part(part: Part, T: Mat4) -> Part:
 
 
 def _moved_joint(joint: AnnotatedJoint, T: Mat4, scale: float) -> AnnotatedJoint:
-    revolute = joint.type is JointType.REVOLUTE
-    axis: Axis = joint.axis.transformed(T, rotational=revolute)
-    if revolute:
-        return replace(joint, axis=axis)
-    return replace(joint, axis=axis, lower=joint.lower * scale, upper=joint.upper * scale)
+    kind = motion_kind(joint.type)
+    growth = kind.length_scale(scale)
+    axis = kind.mapped_axis(joint.axis, T)
+    return replace(joint, axis=axis, lower=joint.lower * growth, upper=joint.upper * growth)

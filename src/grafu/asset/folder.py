@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from grafu.articulation.motion_kind import kind_named
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies
 from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.folders import folders_within
@@ -24,7 +25,6 @@ from grafu.errors import UnsegmentedAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import merge_meshes
-from grafu.vocabulary import JointType
 
 CONVENTION = Convention("the names (Sweet Home 3D: centimetres, Y up, front +Z)", up="+Y", front="+Z", unit=0.01)
 _MOVING = re.compile(r"^sweethome3d_opening_on_(hinge|rail)_(\d+)", re.IGNORECASE)
@@ -73,14 +73,16 @@ def _key(match: re.Match[str]) -> tuple[str, str]:
     return match[1].lower(), match[2]
 
 
-def _motion(kind: str, guide: MeshPiece | None) -> StatedMotion | None:
+def _motion(word: str, guide: MeshPiece | None) -> StatedMotion | None:
     if guide is None:
         return None
     box = merge_meshes([s.mesh for s in guide.surfaces]).box
     direction = np.eye(3)[int(np.argmax(box.size))]
-    if kind == "hinge":
-        return StatedMotion(JointType.REVOLUTE, Axis(box.center, direction), 0.0, math.pi / 2, limited=False)
-    return StatedMotion(JointType.PRISMATIC, Axis(box.center, direction), 0.0, float(box.size.max()), limited=False)
+    moves = kind_named("sweethome", word.lower())
+    if moves is None:
+        return None
+    upper = math.pi / 2 if moves.turns else float(box.size.max())
+    return StatedMotion(moves.type, Axis(box.center, direction), 0.0, upper, limited=False)
 
 
 _DIVIDE = "divide it first, an object for each part (Blender: Edit Mode, P, By Loose Parts), and export it as GLB"

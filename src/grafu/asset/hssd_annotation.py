@@ -11,6 +11,7 @@ from typing import Any, TypeGuard, final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import kind_named
 from grafu.asset.json_files import finite, read_json
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
@@ -21,7 +22,6 @@ from grafu.vocabulary import JointType
 
 PARTS, MOTIONS = ".artpre.json", ".articulations.json"
 _LARGEST = 1e9  # metres or radians: beyond, a number is no coordinate
-_TYPES = {"rotation": JointType.REVOLUTE, "hinge_rotation": JointType.REVOLUTE, "translation": JointType.PRISMATIC}
 
 
 @final
@@ -188,13 +188,13 @@ def _articulation(file: _Json, entry: dict[str, Any] | None, known: set[str]) ->
     pid, word = str(entry.get("pid")), str(entry.get("type")).lower()
     if pid not in known:
         raise file.damaged(f"a motion is stated for part {pid}, which is not there")
-    if word not in _TYPES:
+    kind = kind_named("hssd", word)
+    if kind is None:
         raise file.damaged(f"part {pid} has a motion of type {word!r}: rotation and translation are known")
     direction = file.vector(f"the axis of part {pid}", entry.get("axis"))
     if np.linalg.norm(direction) < 1e-9:
         raise file.damaged(f"the axis of part {pid} is zero")
-    slides = _TYPES[word] is JointType.PRISMATIC
-    point = [0, 0, 0] if slides and entry.get("origin") is None else entry.get("origin")
+    point = [0, 0, 0] if kind.slides and entry.get("origin") is None else entry.get("origin")
     axis = Axis(file.vector(f"the origin of part {pid}", point), direction)
     drawn = _number(entry.get("defaultValue")) or 0.0
     low, high = (_number(entry.get(key)) for key in ("rangeMin", "rangeMax"))
@@ -202,7 +202,7 @@ def _articulation(file: _Json, entry: dict[str, Any] | None, known: set[str]) ->
     limited = not (low is None and high is None)
     stated = _closed(entry.get("motionStates"))
     closed = None if stated is None else stated - drawn
-    return _opening(Articulation(pid, _TYPES[word], axis, lower, upper, limited, closed, _base(entry)))
+    return _opening(Articulation(pid, kind.type, axis, lower, upper, limited, closed, _base(entry)))
 
 
 def _closed(states: Any) -> float | None:

@@ -4,7 +4,6 @@ Mesh files are Y up, front +Z, scaled to about a unit sphere. JSON hinge limits 
 makers' `mobility.urdf` is read by what it says.
 """
 
-import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -13,6 +12,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import kind_named
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.frame import spelled
@@ -29,10 +29,8 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.vocabulary import JointType
 
 EXPECTED = "a PartNet-Mobility file in the data set's own form; fetch the model again"
-_TYPES = {"hinge": JointType.REVOLUTE, "slider": JointType.PRISMATIC, "slider+": JointType.PRISMATIC}
 
 Key = int | str
 """The id of a node or part, as JSON has it."""
@@ -154,17 +152,15 @@ def _file(stems: list[str]) -> str:
 
 
 def _motion(link: JsonObject) -> StatedMotion | None:
-    joint, data = _TYPES.get(link.text("joint")), link.member("jointData")
+    kind, data = kind_named("partnet", link.text("joint")), link.member("jointData")
     stated = data.member("axis")
     direction = _vector(stated, "direction")
-    if joint is None or direction is None or not any(direction):
+    if kind is None or direction is None or not any(direction):
         return None
     limit = data.member("limit")
-    low, high = limit.number("a", 0.0), limit.number("b", 0.0)
-    if joint is JointType.REVOLUTE:
-        low, high = math.radians(low), math.radians(high)
+    low, high = (kind.from_degrees(limit.number(end, 0.0)) for end in ("a", "b"))
     axis = Axis(vec3(*(_vector(stated, "origin") or (0.0, 0.0, 0.0))), vec3(*direction))
-    return StatedMotion(joint, axis, low, high, low != high and not limit.get("noLimit"))
+    return StatedMotion(kind.type, axis, low, high, low != high and not limit.get("noLimit"))
 
 
 def _vector(holder: JsonObject, key: str) -> tuple[float, ...] | None:

@@ -9,12 +9,12 @@ from typing import Literal, final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.attached_parts import with_attached
 from grafu.asset.part import AnnotatedJoint, Annotation, AssetKind, Frame, Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mask
 from grafu.geometry.mesh import TriangleMesh
-from grafu.vocabulary import JointType
 
 
 @final
@@ -65,8 +65,8 @@ class Placing:
         return replace(self._made[key][1], name=surface.name)
 
     def _joint(self, joint: AnnotatedJoint) -> AnnotatedJoint:
-        axis = joint.axis.transformed(self._T, rotational=joint.type is JointType.REVOLUTE)
-        metres = self._frame.scale if joint.type is JointType.PRISMATIC else 1.0
+        kind = motion_kind(joint.type)
+        axis, metres = kind.mapped_axis(joint.axis, self._T), kind.length_scale(self._frame.scale)
         return replace(joint, axis=axis, lower=joint.lower * metres, upper=joint.upper * metres)
 
 

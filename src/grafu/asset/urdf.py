@@ -13,6 +13,7 @@ from typing import Any, final
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from grafu.articulation.motion_kind import MotionKind, kind_named
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.json_files import spelled
@@ -25,14 +26,9 @@ from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, invert
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 CONVENTION = Convention("the format (URDF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
-_MOVING = {
-    "revolute": JointType.REVOLUTE,
-    "continuous": JointType.REVOLUTE,
-    "prismatic": JointType.PRISMATIC,
-}
 _LARGEST = 1e12  # metres: products with the sizes of meshes stay finite
 _LOOSE = "floating"  # the link moves, the file does not say how
 
@@ -209,8 +205,12 @@ def origin_of(element: Any, path: Path) -> Mat4:
     return from_rotation(R.as_matrix(), np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
 
 
+def _kind(joint: _JointElement) -> MotionKind | None:
+    return kind_named("urdf", joint.kind)
+
+
 def _moves(joint: _JointElement) -> bool:
-    return joint.kind in _MOVING and any(joint.axis)
+    return _kind(joint) is not None and any(joint.axis)
 
 
 def _is_fixed(joint: _JointElement) -> bool:
@@ -275,11 +275,12 @@ def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[Visual, 
         return Body(head, visuals[0].link if visuals else head, visuals)
     above = heads[joint.parent]
     parent = above if above in tree.above else None
-    if joint.kind == _LOOSE:
+    kind = _kind(joint)
+    if kind is None:  # it moves, and the file does not say how
         return Body(head, head, visuals, parent=parent, is_loose=True)
     T = T_base_root @ tree.T_root_link[head]
     axis = Axis(T[:3, 3], T[:3, :3] @ np.array(joint.axis))
-    motion = StatedMotion(_MOVING[joint.kind], axis, joint.lower, joint.upper, joint.limited)
+    motion = StatedMotion(kind.type, axis, joint.lower, joint.upper, joint.limited)
     return Body(head, head, visuals, motion, parent)
 
 
@@ -289,8 +290,8 @@ def _materials(robot: Any) -> dict[str, Any]:
 
 def _kind_notes(tree: _Tree) -> list[str]:
     loose = [j for j in tree.above.values() if j.kind == _LOOSE]
-    odd = [j for j in tree.above.values() if j.kind not in _MOVING and j.kind not in ("fixed", _LOOSE)]
-    zero = [j for j in tree.above.values() if j.kind in _MOVING and not any(j.axis)]
+    odd = [j for j in tree.above.values() if _kind(j) is None and j.kind not in ("fixed", _LOOSE)]
+    zero = [j for j in tree.above.values() if _kind(j) is not None and not any(j.axis)]
     extra = [f"link {name} hangs on no joint and is kept in place" for name in tree.roots[1:]]
     said = [f"joint {j.name} is {j.kind}, which is not built: {j.child} is kept in place" for j in odd]
     said += [f"joint {j.name} is {j.kind}: how {j.child} moves is not said" for j in loose]

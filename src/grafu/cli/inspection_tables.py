@@ -3,9 +3,9 @@
 from rich.markup import escape
 from rich.table import Table
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.inspection import InspectedPart, Inspection, StatedJoint
-from grafu.vocabulary import JointType
 
 
 def print_inspection(inspection: Inspection) -> None:
@@ -44,8 +44,11 @@ def _joints_table(joints: tuple[StatedJoint, ...]) -> Table:
     table = plain_table("joint of", "type", "axis", "limits")
     for joint in joints:
         direction = " ".join(f"{c:+.2f}" for c in joint.axis.direction)
-        unit = "rad" if joint.type is JointType.REVOLUTE else "m"
-        limits = "none stated" if joint.lower is None else f"{joint.lower:.3f} .. {joint.upper:.3f} {unit}"
+        limits = (
+            "none stated"
+            if joint.lower is None
+            else f"{joint.lower:.3f} .. {joint.upper:.3f} {motion_kind(joint.type).unit}"
+        )
         table.add_row(escape(joint.part), joint.type, direction, limits)
     return table
 

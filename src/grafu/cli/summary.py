@@ -7,14 +7,14 @@ from pathlib import Path
 from rich.markup import escape
 from rich.table import Table
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
-from grafu.pipeline.words import counted, listed, opening, percent
+from grafu.pipeline.words import counted, listed, percent
 from grafu.viewer.wording import added, unused_joints
-from grafu.vocabulary import JointType
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)
 _READ_NOTES = 5  # of one input; the report has all
@@ -81,7 +81,7 @@ def _joints_table(report: Report) -> Table:
             joint.part,
             joint.type,
             mechanism,
-            opening(joint.type, joint.opening),
+            motion_kind(joint.type).worded(joint.opening),
             escape("; ".join(_joint_notes(joint))),
         )
     for why, requests in _not_built(report).items():
@@ -118,8 +118,8 @@ def _is_worth_a_row(result: JobResult) -> bool:
 
 def _counts(result: Succeeded) -> tuple[str, ...]:
     verdict = verdict_of(result.report)
-    types = [joint.type for joint in result.report.joints]
-    turning, sliding = types.count(JointType.REVOLUTE), types.count(JointType.PRISMATIC)
+    kinds = [motion_kind(joint.type) for joint in result.report.joints]
+    turning, sliding = sum(kind.turns for kind in kinds), sum(kind.slides for kind in kinds)
     return verdict.colour, str(turning), str(sliding), str(_skipped(verdict)), f"{result.seconds:.1f}"
 
 

@@ -30,7 +30,7 @@ from grafu.geometry.transform import from_rotation, transform_points
 from grafu.graph.edges import Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 CONVENTION = Convention("the release (Z up)", up="+Z", front="-Y", usual_up="+Z")
 DOOR_RANGE = pi / 2  # radians; a graph states no ranges: the authors' records say so for every hinge (official.md 7)
@@ -209,7 +209,7 @@ def _joints(functional: FunctionalGraph, ids: dict[str, str]) -> Iterator[Annota
         box = functional.node(edge.child).box
         if isinstance(edge, Hinge):
             axis = hinge_to_axis(box, edge.border, edge.sign)
-            yield AnnotatedJoint(ids[edge.child], JointType.REVOLUTE, axis, 0.0, DOOR_RANGE)
+            yield AnnotatedJoint(ids[edge.child], edge.joint_type, axis, 0.0, DOOR_RANGE)
         else:
             travel = DRAWER_RANGE * float(box.size[edge.axis // 2])
-            yield AnnotatedJoint(ids[edge.child], JointType.PRISMATIC, rail_to_axis(box, edge.axis), 0.0, travel)
+            yield AnnotatedJoint(ids[edge.child], edge.joint_type, rail_to_axis(box, edge.axis), 0.0, travel)

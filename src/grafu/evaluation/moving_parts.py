@@ -13,6 +13,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -59,12 +60,12 @@ def counted_parts(asset: Asset) -> tuple[MovingPart, ...]:
     return tuple(part for part in found if part is not None)
 
 
-def usual_opening(kind: JointType, axis: Axis, box: Box) -> float:
+def usual_opening(joint_type: JointType, axis: Axis, box: Box) -> float:
     """Returns how far a part should open where nothing is stated: radians or metres.
 
     A quarter turn, or three quarters of the part's own depth along the slide.
     """
-    if kind is JointType.REVOLUTE:
+    if motion_kind(joint_type).turns:
         return WIDEST_TURN
     return DEPTH_SHARE * float(np.abs(axis.direction) @ box.size)
 

@@ -21,7 +21,7 @@ from grafu.geometry.point_distance import distances_up_to
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import transform_points
 from grafu.metrics.collision import TOLERANT
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 NEAR = 0.03  # of the object's largest side: what is farther from the pin, or from a slide, holds nothing
 HELD = 0.5  # of the hinge line must have both the part and the body beside it
@@ -64,8 +64,8 @@ class _Case:
 
     def wrong_type(self) -> str:
         """Returns why a door may not slide out, or a drawer turn."""
-        wanted = {PartLabel.DRAWER: JointType.PRISMATIC, PartLabel.DOOR: JointType.REVOLUTE}.get(self._part.label)
-        if wanted is None or self._joint.type is wanted or self._joint.type is self._part.motion.type:
+        label, usual = self._part.label, self._joint.kind.label
+        if not label.is_movable or label is usual or self._joint.type is self._part.motion.type:
             return ""
         return f"a {self._part.label.value} that is {self._joint.type.value}"
 
@@ -74,7 +74,7 @@ class _Case:
         near = NEAR * self._asset.unit
         if not len(self._static.faces):
             return "there is no body"
-        if self._joint.type is JointType.PRISMATIC:
+        if self._joint.kind.slides:
             held, body = MeshCollider(self._static), MeshCollider(self._moving)
             for value in np.linspace(0.0, self._reach, 5):
                 body.place(self._joint.motion(float(value)))
@@ -102,7 +102,7 @@ class _Case:
 
     def handle_at_the_pin(self) -> str:
         """Returns why its handles cannot open it."""
-        if self._joint.type is not JointType.REVOLUTE:
+        if not self._joint.kind.turns:
             return ""
         members = (self._asset.part(m) for m in self._part.members[1:])
         handles = [p.box.center for p in members if p.label is PartLabel.HANDLE]

@@ -8,6 +8,7 @@ exports no animation, and the Khronos validator reports hints on its files.
 
 import json
 import struct
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, final
 
@@ -22,10 +23,9 @@ from grafu.export.files import ExportFiles
 from grafu.export.gltf_mesh import GltfBuffer, GltfMaterials, mesh_of, to_y_up
 from grafu.export.names import NameBook
 from grafu.export.shading import CREASE_ANGLE
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Scalars, Vec3
 from grafu.version import __version__
 from grafu.visible import writable
-from grafu.vocabulary import JointType
 
 ANIMATION_NAME = "open_close"
 _JSON_CHUNK = 0x4E4F534A
@@ -137,19 +137,28 @@ class _GlbWriter:
         if not moving:
             return None
         times: dict[bytes, int] = {}
-        samplers = [self._sampler(track, joints[track.joint], times) for track in moving]
-        channels = [_channel(k, joints[track.joint], link_nodes) for k, track in enumerate(moving)]
+        samplers: list[dict[str, Any]] = []
+        channels: list[dict[str, Any]] = []
+        for track in moving:
+            joint = joints[track.joint]
+            for path, values in self._animated(joint, track.values):
+                target = {"node": link_nodes[joint.child], "path": path}
+                channels.append({"sampler": len(samplers), "target": target})
+                samplers.append(self._sampler(track, values, times))
         return {"name": ANIMATION_NAME, "channels": channels, "samplers": samplers}
 
-    def _sampler(self, track: JointTrack, joint: Joint, times: dict[bytes, int]) -> dict[str, Any]:
+    def _animated(self, joint: Joint, values: Scalars) -> Iterator[tuple[str, np.ndarray]]:
+        """Yields the properties of a joint's node that follow its values, with what they pass through."""
+        axis, kind = to_y_up(joint.axis.direction[None])[0], joint.kind
+        if kind.turn:
+            yield "rotation", _quaternions(axis, kind.turn * values)
+        if kind.shift:
+            yield "translation", np.array(self._offset(joint)) + np.outer(kind.shift * values, axis)
+
+    def _sampler(self, track: JointTrack, values: np.ndarray, times: dict[bytes, int]) -> dict[str, Any]:
         key = track.times.tobytes()
         if key not in times:  # joints of one stage share their key times
             times[key] = self._buffer.add_array(track.times.astype(np.float32), bounds=True)
-        axis = to_y_up(joint.axis.direction[None])[0]
-        if joint.type is JointType.REVOLUTE:
-            values = _quaternions(axis, track.values)
-        else:
-            values = np.array(self._offset(joint)) + np.outer(track.values, axis)
         output = self._buffer.add_array(np.ascontiguousarray(values, dtype=np.float32))
         return {"input": times[key], "output": output, "interpolation": "LINEAR"}
 
@@ -160,11 +169,6 @@ def _reserved_names(articulated: ArticulatedObject) -> NameBook:
         for visual in link.visuals:
             names.unique(visual.name)
     return names
-
-
-def _channel(sampler: int, joint: Joint, link_nodes: dict[str, int]) -> dict[str, Any]:
-    path = "rotation" if joint.type is JointType.REVOLUTE else "translation"
-    return {"sampler": sampler, "target": {"node": link_nodes[joint.child], "path": path}}
 
 
 def _described_joint(joint: Joint) -> dict[str, Any]:

@@ -25,7 +25,7 @@ from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import within
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 VISUAL_GROUP, COLLISION_GROUP, GRASP_GROUP = "2", "3", "4"  # the first is shown by default, the others are not
 _FOR_POSE = 0.3  # of the time that is left
@@ -126,14 +126,14 @@ class _MjcfWriter:
         return body
 
     def _add_joint(self, body: ET.Element, joint: Joint) -> None:
-        if joint.type is JointType.FIXED or joint.limits.range <= 0:
+        if not joint.kind.moves or joint.limits.range <= 0:
             return
         self._moving.append(joint)
         dynamics = self._physics.dynamics[joint.id]
         inertia = dynamics.damping * self._config.physics.dynamics.settling
         attributes = {
             "name": self._joints[joint.id],
-            "type": "hinge" if joint.type is JointType.REVOLUTE else "slide",
+            "type": joint.kind.word("mjcf"),
             "axis": numbers(joint.axis.direction),
             "range": numbers([joint.limits.lower, joint.limits.upper]),
             "damping": number(dynamics.damping),

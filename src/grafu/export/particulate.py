@@ -17,7 +17,6 @@ from grafu.export.files import ExportFiles
 from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import is_mirror, scale_of
-from grafu.vocabulary import JointType
 
 Direction = Literal["X", "-X", "Y", "-Y", "Z", "-Z"]
 
@@ -81,7 +80,7 @@ def _arrays(articulated: ArticulatedObject, links: list[str], T: Mat4) -> dict[s
         if joint is None:
             continue
         pairs += [(links.index(parent), k) for parent in [_parent(articulated, link, links)] if parent]
-        if joint.type is not JointType.FIXED:
+        if joint.kind.moves:
             _say(joint, k, arrays, T)
     arrays["motion_hierarchy"] = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     return arrays
@@ -97,15 +96,13 @@ def _parent(articulated: ArticulatedObject, link: str, links: list[str]) -> str 
 
 def _say(joint: Joint, part: int, arrays: dict[str, np.ndarray], T: Mat4) -> None:
     limits = np.array([joint.limits.lower, joint.limits.upper])
-    axis = joint.axis.transformed(T)
-    if joint.type is JointType.REVOLUTE:
-        arrays["is_part_revolute"][part] = True
-        arrays["revolute_plucker"][part] = [*axis.direction, *np.cross(axis.direction, axis.point)]  # m = l x p
-        arrays["revolute_range"][part] = limits
+    axis, word = joint.axis.transformed(T), joint.kind.word("particulate")
+    arrays[f"is_part_{word}"][part] = True
+    arrays[f"{word}_range"][part] = limits * joint.kind.length_scale(scale_of(T))
+    if joint.kind.turns:
+        arrays[f"{word}_plucker"][part] = [*axis.direction, *np.cross(axis.direction, axis.point)]  # m = l x p
     else:
-        arrays["is_part_prismatic"][part] = True
-        arrays["prismatic_axis"][part] = axis.direction
-        arrays["prismatic_range"][part] = limits * scale_of(T)
+        arrays[f"{word}_axis"][part] = axis.direction
 
 
 def _obj(mesh: TriangleMesh) -> bytes:

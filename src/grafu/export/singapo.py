@@ -7,7 +7,6 @@ the authors' loader makes it, so that a range may run from 0 to below 0 (peers.m
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import degrees
 from typing import Any, Final, Literal, final
 
 import numpy as np
@@ -20,7 +19,7 @@ from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation, scale_of
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _Z_UP_TO_Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 _WORDS: Final = {PartLabel.DOOR: "door", PartLabel.DRAWER: "drawer", PartLabel.SHELF: "shelf"}
@@ -97,9 +96,9 @@ def _word(body: Iterable[Visual], joint: Joint | None) -> str:
     if joint is None:
         return "base"
     spoken = [_WORDS[v.label] for v in body if v.label in _WORDS]
-    if spoken or joint.type is JointType.FIXED:
+    if spoken or not joint.kind.moves:
         return spoken[0] if spoken else "base"
-    return "door" if joint.type is JointType.REVOLUTE else "drawer"
+    return _WORDS[joint.kind.label]
 
 
 def _node(
@@ -124,14 +123,13 @@ def _added(folder: ObjFolder, number: int, mesh: TriangleMesh) -> str:
 
 
 def _joint(joint: Joint | None, T: Mat4) -> dict[str, Any]:
-    if joint is None or joint.type is JointType.FIXED:
+    if joint is None or not joint.kind.moves:
         axis = {"direction": [0.0, 0.0, 0.0], "origin": [0.0, 0.0, 0.0]}
         return {"type": "fixed", "range": [0.0, 0.0], "axis": axis}
     placed = joint.axis.transformed(T)
-    turns = joint.type is JointType.REVOLUTE
-    end = degrees(joint.limits.upper) if turns else joint.limits.upper * scale_of(T)
+    end = joint.kind.in_degrees(joint.limits.upper) * joint.kind.length_scale(scale_of(T))
     largest = int(np.argmax(np.abs(placed.direction)))
     if placed.direction[largest] < 0:
         placed, end = placed.reversed(), -end
     axis = {"direction": placed.direction.tolist(), "origin": placed.point.tolist()}
-    return {"type": joint.type.value, "range": [0.0, end], "axis": axis}
+    return {"type": joint.kind.word("singapo"), "range": [0.0, end], "axis": axis}

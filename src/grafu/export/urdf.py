@@ -21,7 +21,6 @@ from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
-from grafu.vocabulary import JointType
 
 
 @final
@@ -84,12 +83,12 @@ class _UrdfWriter:
             _add_mesh(element, self._objs.pieces[link, place])
 
     def _add_joint(self, robot: ET.Element, joint: Joint) -> None:
-        element = ET.SubElement(robot, "joint", name=joint.id, type=joint.type.value)
+        element = ET.SubElement(robot, "joint", name=joint.id, type=joint.kind.word("urdf"))
         offset = self._physics.origins[joint.child] - self._physics.origins[joint.parent]
         ET.SubElement(element, "origin", xyz=numbers(offset), rpy="0 0 0")
         ET.SubElement(element, "parent", link=joint.parent)
         ET.SubElement(element, "child", link=joint.child)
-        if joint.type is not JointType.FIXED:
+        if joint.kind.moves:
             ET.SubElement(element, "axis", xyz=numbers(joint.axis.direction))
             _add_dynamics(element, joint, self._physics.dynamics[joint.id])
 

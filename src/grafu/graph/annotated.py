@@ -10,6 +10,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.errors import GraphError
 from grafu.geometry.arrays import Vec3
@@ -19,7 +20,7 @@ from grafu.graph.completion import RefusedMotion
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import axis_to_hinge, axis_to_rail, signed_axis
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _NOT_STATED = "the annotation states no joint for it"
 
@@ -73,11 +74,11 @@ def joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartN
     supports = [other for other in still if other.id in touching] or still
     if not supports:
         raise GraphError("there is no static part that could carry it")
-    if joint.type is JointType.REVOLUTE and node.label in (PartLabel.DOOR, PartLabel.UNKNOWN):
+    if motion_kind(joint.type).turns and node.label in (PartLabel.DOOR, PartLabel.UNKNOWN):
         border, sign = axis_to_hinge(node.box, _opening_axis(joint))
         mount = _nearest(supports, joint.axis.closest_point(node.box.center))
         return [Hinge(mount, node.id, border, sign)]
-    if joint.type is JointType.PRISMATIC and node.label in (PartLabel.DRAWER, PartLabel.UNKNOWN):
+    if motion_kind(joint.type).slides and node.label in (PartLabel.DRAWER, PartLabel.UNKNOWN):
         slide = axis_to_rail(_opening_axis(joint))
         across = 0 if slide // 2 == 1 else 1  # the other horizontal axis
         flanks = (node.box.face_center(signed_axis(across, positive)) for positive in (False, True))

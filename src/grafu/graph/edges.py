@@ -6,10 +6,10 @@ lines in space and back.
 """
 
 from dataclasses import dataclass
-from typing import Literal, final, get_args
+from typing import ClassVar, Literal, final, get_args
 
 from grafu.errors import GraphError
-from grafu.vocabulary import EdgeKind
+from grafu.vocabulary import EdgeKind, JointType
 
 HingeBorder = Literal[0, 1, 2, 3]
 AxisSign = Literal[0, 1]
@@ -53,6 +53,7 @@ class Hinge:
         GraphError: if `border` is not 0..3 or `sign` not 0 or 1.
     """
 
+    joint_type: ClassVar = JointType.REVOLUTE
     parent: str
     child: str
     border: HingeBorder
@@ -72,6 +73,7 @@ class Rail:
         GraphError: if `axis` is not 0..5.
     """
 
+    joint_type: ClassVar = JointType.PRISMATIC
     parent: str
     child: str
     axis: SignedAxis

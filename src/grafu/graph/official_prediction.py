@@ -21,7 +21,6 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.json_values import Json
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.graph.official_json import graph_from_official
-from grafu.vocabulary import JointType
 
 SUFFIX = "_pred.json"
 _EXPECTED = "the authors' <model>_pred.json, whose nodes have a `slot` and an `obb`"
@@ -124,9 +123,9 @@ def _joints(graph: FunctionalGraph) -> tuple[ForeignJoint, ...]:
     for hinge in graph.hinges:
         pin = BorderPin(hinge.border, hinge.sign)
         axis = pin.axis_on(graph.node(hinge.child).box)
-        found[hinge.child] = ForeignJoint(hinge.child, JointType.REVOLUTE, axis, limited=False, code=pin)
+        found[hinge.child] = ForeignJoint(hinge.child, hinge.joint_type, axis, limited=False, code=pin)
     for rail in graph.rails:
         slide = Slide(rail.axis)
         axis = slide.axis_on(graph.node(rail.child).box)
-        found.setdefault(rail.child, ForeignJoint(rail.child, JointType.PRISMATIC, axis, limited=False, code=slide))
+        found.setdefault(rail.child, ForeignJoint(rail.child, rail.joint_type, axis, limited=False, code=slide))
     return tuple(found.values())

@@ -15,7 +15,6 @@ from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.place import place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
-from grafu.joints.limits import pose_function
 from grafu.joints.placement import Placement
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.place import place_rails
@@ -116,7 +115,7 @@ _BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationCo
 
 def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path:
     axes = part_axes(scene.parts[request.moving].mesh)
-    return Path(request.moving, pose_function(axis, request.type), reach, axes, request.type is JointType.REVOLUTE)
+    return Path(request.moving, request.kind.along(axis), reach, axes, request.kind.turns)
 
 
 def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Skipped:

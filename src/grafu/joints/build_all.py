@@ -22,7 +22,6 @@ from grafu.joints.report import Skipped, SkipReason
 from grafu.processes.cache import Cache
 from grafu.scene.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
-from grafu.vocabulary import JointType
 
 
 def expected_motions(
@@ -36,7 +35,7 @@ def _motions(
     requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
 ) -> Iterator[tuple[str, JointMotion]]:
     for request in requests:
-        if request.type is JointType.REVOLUTE:
+        if request.kind.turns:
             door = door_search(request, scene, config)
             yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
             continue
@@ -61,7 +60,7 @@ def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
         first.setdefault(request.moving, request)
     ridden = {part for request in first.values() for part in request.attached}
     kept = [request for request in first.values() if request.moving not in ridden]
-    return sorted(kept, key=lambda r: r.type is not JointType.REVOLUTE)
+    return sorted(kept, key=lambda r: not r.kind.turns)
 
 
 def build_fairly(
@@ -78,7 +77,7 @@ def build_fairly(
     with budget.in_force():
         first = _build_all(requests, replace(scene, joint_motions=joint_motions), gallery, config, cache)
         left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & joint_motions.keys()
-        asked = [request for request in requests if request.moving in left and request.type is JointType.REVOLUTE]
+        asked = [request for request in requests if request.moving in left and request.kind.turns]
         if not asked or not first[0] or budget.left == 0:
             return first
         wider = {r.moving: replace(joint_motions[r.moving], axis=r.axis) for r in asked}

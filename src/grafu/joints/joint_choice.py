@@ -15,7 +15,7 @@ from grafu.geometry.box import Box
 from grafu.joints.plan import AUTOMATIC, PIVOT, JointChoice, JointRequest, RealizationPlan, Supports
 from grafu.scene.border import BorderFrame, border_frame
 from grafu.templates.template import Gallery
-from grafu.vocabulary import JointType, MechanismClass
+from grafu.vocabulary import MechanismClass
 
 _RAILS = (MechanismClass.CENTRE, MechanismClass.CORNER)
 _APART = 0.2  # of a door's width: a mount this much nearer to the other border stands by that one
@@ -61,7 +61,7 @@ def _chosen_axis(request: JointRequest, choice: JointChoice, parts: Mapping[str,
     door = parts[request.moving]
     if choice.flipped:
         return flipped_axis(door, request.axis)
-    if choice.mount and request.type is JointType.REVOLUTE and _is_beyond(door, request.axis, parts[choice.mount]):
+    if choice.mount and request.kind.turns and _is_beyond(door, request.axis, parts[choice.mount]):
         return flipped_axis(door, request.axis)
     return request.axis
 
@@ -81,7 +81,7 @@ def _border_box(frame: BorderFrame, x: float) -> Box:
 
 def _mechanism(request: JointRequest, choice: JointChoice, gallery: Gallery) -> MechanismClass | None:
     """Returns the class that is chosen, by name or by the template."""
-    slides = request.type is JointType.PRISMATIC
+    slides = request.kind.slides
     if slides and (choice.flipped or choice.count or choice.scale != 1.0):
         raise OptionError(f"side, count and scale are chosen for hinges: `{request.moving}` slides on two rails")
     if not slides and choice.supports is not Supports.AUTO:
@@ -111,7 +111,7 @@ def short_of_chosen(request: JointRequest, template: str, upper: float) -> tuple
 
     `upper` is how far it opens, radians or metres.
     """
-    chosen, turns = request.choice.opening, request.type is JointType.REVOLUTE
+    chosen, turns = request.choice.opening, request.kind.turns
     if chosen is None or upper > chosen - (radians(1.0) if turns else 2e-3):
         return ()
     opens = f"{degrees(upper):.0f} of {degrees(chosen):.0f} degrees" if turns else f"{upper:.3f} of {chosen:.3f} m"

@@ -9,21 +9,14 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.arrays import Mat4, Scalars, frozen_array
-from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.transform import transform_points
 from grafu.scene.scene import Obstacle
-from grafu.vocabulary import JointType
 
 _NEAR_REST = 1.5
 
 PoseFunction = Callable[[float], Mat4]
-
-
-def pose_function(axis: Axis, joint_type: JointType) -> PoseFunction:
-    """Returns joint value -> 4x4 motion from rest, for a revolute or prismatic joint on this axis."""
-    return axis.rotation if joint_type is JointType.REVOLUTE else axis.shift
 
 
 @final

@@ -9,6 +9,7 @@ from math import pi
 import numpy as np
 
 from grafu.articulation.articulated_object import Joint, JointLimits
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
@@ -17,7 +18,6 @@ from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.joints.carried import carried_parts
 from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
 from grafu.joints.report import SkipReason
-from grafu.vocabulary import JointType
 
 # A limit on the other side of the drawn pose that is less than this share of the wider one is play, not motion.
 _PLAY = 0.25
@@ -52,14 +52,14 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
         axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
         rides = attached.get(hinge.child, ())
         requests.append(
-            JointRequest(hinge.child, JointType.REVOLUTE, axis, completion.source, None, (hinge.parent,), rides)
+            JointRequest(hinge.child, hinge.joint_type, axis, completion.source, None, (hinge.parent,), rides)
         )
     for child in dict.fromkeys(rail.child for rail in graph.rails):
         edges = [rail for rail in graph.rails if rail.child == child]
         axis = rail_to_axis(graph.node(child).box, edges[0].axis)
         mounts = tuple(rail.parent for rail in edges)
         rides = attached.get(child, ())
-        requests.append(JointRequest(child, JointType.PRISMATIC, axis, completion.source, None, mounts, rides))
+        requests.append(JointRequest(child, edges[0].joint_type, axis, completion.source, None, mounts, rides))
     moved = {part for _, part in carried}
     refused = tuple(_refusal(r) for r in completion.refused if r.part not in moved)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
@@ -102,7 +102,7 @@ def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
     before, after = (lower, upper) if opens_up else (-upper, -lower)
     drawn_at = -before if min(-before, after) > _PLAY * max(-before, after) else 0.0
     reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
-    if not joint.limited and joint.type is JointType.PRISMATIC:
+    if not joint.limited and motion_kind(joint.type).slides:
         reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out is unknown
     attached = attached_to(asset, ()).get(joint.part, ())
     return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), attached, drawn_at)

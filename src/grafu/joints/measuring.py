@@ -17,7 +17,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.joints.build import Built
 from grafu.joints.build_all import joint_share
 from grafu.joints.config import RealizationConfig
-from grafu.joints.limits import in_the_way, pose_function, sweep, swept_box
+from grafu.joints.limits import in_the_way, sweep, swept_box
 from grafu.joints.order import Order
 from grafu.joints.placement import Placement
 from grafu.joints.plan import JointRequest
@@ -87,7 +87,7 @@ def _without(gone: set[str], measured: Measured) -> Measured:
 def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Skipped:
     """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
     moving = built.request.moving
-    motion = pose_function(built.placement.axis, built.request.type)
+    motion = built.request.kind.along(built.placement.axis)
     near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(moving).box, motion, upper))
     names = {*scene.moving_bodies[moving].members, *(obstacle.id for obstacle in near)}
     around = replace(
@@ -105,7 +105,7 @@ def _measure(
 ) -> Figures:
     """Returns the same in a scene that holds only what is near the path of the moving body."""
     moving = request.moving
-    motion = pose_function(placement.axis, request.type)
+    motion = request.kind.along(placement.axis)
     near = list(scene.static_obstacles)
     body = scene.swept_body(moving, config.depth * scene.unit, part_axes(scene.parts[moving].mesh))
     share = sweep(body, motion, upper, near, _MEASURED_POSES).share

@@ -9,6 +9,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Part
 from grafu.errors import OptionError
 from grafu.geometry.arrays import Mat3, Vec3, vec3
@@ -142,12 +143,12 @@ def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
     return Axis(axes @ local.center + half * side + depth * opens, np.cross(-side, opens))
 
 
-def motion_as_choice(mesh: TriangleMesh, type_: JointType, axis: Axis, whole: Box) -> MotionChoice | None:
+def motion_as_choice(mesh: TriangleMesh, joint_type: JointType, axis: Axis, whole: Box) -> MotionChoice | None:
     """Returns the choice that comes nearest to how a part moves; None where it turns about no border of its own.
 
     `mesh` is the part closed, `axis` that of its joint, positive opens; `whole` is the box of the object.
     """
-    if type_ is JointType.PRISMATIC:
+    if motion_kind(joint_type).slides:
         return MotionChoice(Moves.SLIDES, _side_towards(axis.direction))
     axes = part_axes(mesh)
     local = Box.around(mesh.vertices @ axes)

@@ -5,6 +5,7 @@ from enum import StrEnum
 from math import isfinite
 from typing import final
 
+from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.geometry.axis import Axis
 from grafu.joints.report import SkipReason
 from grafu.vocabulary import JointType, MechanismClass
@@ -94,8 +95,13 @@ class JointRequest:
     choice: JointChoice = AUTOMATIC
 
     def __post_init__(self) -> None:
-        if self.type is JointType.FIXED:
-            raise ValueError(f"`JointRequest.type` must be revolute or prismatic: got {self.type} for {self.moving}")
+        if not self.kind.moves:
+            raise ValueError(f"`JointRequest.type` must be one that moves: got {self.type} for {self.moving}")
+
+    @property
+    def kind(self) -> MotionKind:
+        """How it moves, and what everyone asks about it."""
+        return motion_kind(self.type)
 
 
 @final

@@ -23,7 +23,6 @@ from grafu.joints.clearance.carve import Path, obstruction
 from grafu.joints.clearance.make import adopt
 from grafu.joints.config import RealizationConfig
 from grafu.joints.joint_choice import short_of_chosen
-from grafu.joints.limits import pose_function
 from grafu.joints.measuring import Measured, measure_all
 from grafu.joints.order import BuiltJoint, Order, order_joints, stand_aside
 from grafu.joints.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
@@ -32,7 +31,6 @@ from grafu.processes.cache import NO_CACHE, Cache
 from grafu.scene.border import part_axes
 from grafu.scene.scene import JointMotion, MovingBody, Scene
 from grafu.templates.template import Gallery
-from grafu.vocabulary import JointType
 
 _ORDERING = 0.5  # of the time that is left when all joints stand; the rest is for measuring them
 
@@ -103,9 +101,9 @@ def _closed_scene(
     for request in requests:
         if request.drawn_at <= 0:
             continue
-        motion = pose_function(request.axis, request.type)
+        motion = request.kind.along(request.axis)
         axes = part_axes(scene.parts[request.moving].mesh)
-        path = Path(request.moving, motion, 1e-6, axes, request.type is JointType.REVOLUTE)
+        path = Path(request.moving, motion, 1e-6, axes, request.kind.turns)
         scene, joined = adopt(scene, path, obstruction(scene, path, config).blockers, config)
         T = motion(-request.drawn_at)
         members = scene.moving_bodies[request.moving].members
@@ -126,8 +124,8 @@ def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> 
 
 def _built_joint(built: Built) -> BuiltJoint:
     placement = built.placement
-    motion = pose_function(placement.axis, built.request.type)
-    turns = built.request.type is JointType.REVOLUTE
+    motion = built.request.kind.along(placement.axis)
+    turns = built.request.kind.turns
     least = radians(90) if turns and built.request.choice.opening is None else placement.upper
     return BuiltJoint(built.request.moving, motion, placement.upper, least, placement.in_way)
 

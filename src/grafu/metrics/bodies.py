@@ -9,14 +9,13 @@ from grafu.articulation.articulated_object import ArticulatedObject, Link, Visua
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.vocabulary import JointType
 
 
 def rigid_body(articulated: ArticulatedObject, link_id: str) -> tuple[Link, ...]:
     """Returns a link and all links that are fixed to it, directly or through one another."""
     fixed: dict[str, list[str]] = {}
     for joint in articulated.joints:
-        if joint.type is JointType.FIXED:
+        if not joint.kind.moves:
             fixed.setdefault(joint.parent, []).append(joint.child)
     found, queue = [], [link_id]
     while queue:

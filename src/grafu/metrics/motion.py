@@ -10,6 +10,7 @@ from math import radians
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.motion_kind import motion_kind
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.vocabulary import JointType
@@ -83,7 +84,7 @@ def _compare(part: str, found: Motion | None, truth: Motion, angle: float) -> Ag
 
 def _same_border(found: Motion, truth: Motion) -> bool:
     """Whether both axes pass the part's middle on one side; a slide has no border."""
-    if truth.type is not JointType.REVOLUTE:
+    if not motion_kind(truth.type).turns:
         return True
     to_found = found.axis.closest_point(truth.center) - truth.center
     to_truth = truth.axis.closest_point(truth.center) - truth.center

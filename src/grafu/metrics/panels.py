@@ -25,7 +25,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.metrics.bodies import largest_side
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 _STEPS = 30  # points along the object's longest side
@@ -87,7 +87,7 @@ def _taken(points: Points, articulated: ArticulatedObject) -> np.ndarray:
 
 def _taken_by(points: Points, joint: Joint, mesh: TriangleMesh) -> np.ndarray:
     """Returns which points lie in a drawer or anywhere before or behind it; none for doors, sliding ones too."""
-    if joint.type is not JointType.PRISMATIC or not len(mesh.faces):
+    if not joint.kind.slides or not len(mesh.faces):
         return np.zeros(len(points), dtype=bool)
     axis = int(np.abs(joint.axis.direction).argmax())
     size = mesh.box.size
@@ -138,7 +138,7 @@ def panel_faults(articulated: ArticulatedObject, panels: Collection[str], skin: 
     root = [v for v in articulated.link(articulated.root).visuals if len(v.mesh.faces)]
     standing = {v.name: v.mesh for v in root}
     moving = {link.id: link.mesh for link in articulated.links if link.id != articulated.root}
-    joints = [joint for joint in articulated.joints if joint.type is not JointType.FIXED]
+    joints = articulated.moving_joints
     found: list[PanelFault] = []
     for panel in (v for v in root if v.name in panels):
         others = {name: mesh for name, mesh in standing.items() if name != panel.name}
@@ -156,9 +156,7 @@ def _turned(articulated: ArticulatedObject, T: Mat4) -> ArticulatedObject:
         return replace(visual, surfaces=tuple(surface.transformed(T) for surface in visual.surfaces))
 
     links = tuple(replace(link, visuals=tuple(map(moved, link.visuals))) for link in articulated.links)
-    joints = tuple(
-        replace(joint, axis=joint.axis.transformed(T, joint.type is JointType.REVOLUTE)) for joint in articulated.joints
-    )
+    joints = tuple(replace(joint, axis=joint.kind.mapped_axis(joint.axis, T)) for joint in articulated.joints)
     return replace(articulated, links=links, joints=joints)
 
 

@@ -10,7 +10,7 @@ from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion, motion_as_choice
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.motion_choices import motions_of
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _SIDES = (Side.LEFT, Side.RIGHT, Side.TOP, Side.BOTTOM)
 _MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
@@ -71,7 +71,7 @@ def _planned(part: Part, result: Functionalized) -> MotionChoice | None:
     request = next((request for request in result.plan.joints if request.moving == part.id), None)
     if request is None:
         return None
-    if request.type is JointType.PRISMATIC:
+    if request.kind.slides:
         return SLIDES
     found = motion_as_choice(part.mesh, request.type, request.axis, result.asset.box)
     return MotionChoice(found.moves, found.side) if found else None

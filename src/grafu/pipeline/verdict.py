@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from math import prod
 from typing import Final
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import FaultRecord, GuessRecord, JointRecord, Report, SkippedRecord, VerdictRecord
-from grafu.pipeline.words import counted, listed, opening, percent
-from grafu.vocabulary import JointType, PartLabel
+from grafu.pipeline.words import counted, listed, percent
+from grafu.vocabulary import PartLabel
 
 LEAST_CONFIDENCE: Final = 0.8
 """A decision with a lower score is a guess that the user should check."""
@@ -106,9 +107,9 @@ def _faults_of(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
 
 def _short(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
     share = joint.opening / joint.wanted if joint.wanted else 1.0
-    said = f"it opens by {opening(joint.type, joint.opening)}"
+    said = f"it opens by {motion_kind(joint.type).worded(joint.opening)}"
     if joint.wanted:
-        said += f" of {opening(joint.type, joint.wanted)}"
+        said += f" of {motion_kind(joint.type).worded(joint.wanted)}"
     if share < LEAST_MOTION or joint.opening <= 0:
         yield _fault(report, joint.part, FaultKind.SHUT, said)
     elif share < LEAST_OPENING or joint.restricted:
@@ -166,7 +167,7 @@ def _names(faults: tuple[FaultRecord, ...]) -> str:
 def _fronts_words(report: Report) -> str:
     """Returns how many doors and drawers there are that should move; empty where there is none."""
     category = {part.id: part.category for part in report.parts}
-    slides = [joint.type is JointType.PRISMATIC for joint in report.joints]
+    slides = [motion_kind(joint.type).slides for joint in report.joints]
     slides += [category.get(part) is PartLabel.DRAWER for part in still_fronts(report)]
     counts = Counter("drawer" if slide else "door" for slide in slides)
     return listed(counted(counts[kind], kind) for kind in ("door", "drawer") if counts[kind])

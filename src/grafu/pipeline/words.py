@@ -1,14 +1,6 @@
 """Numbers and lists as people read them. It knows no report."""
 
 from collections.abc import Iterable
-from math import degrees
-
-from grafu.vocabulary import JointType
-
-
-def opening(joint_type: JointType, value: float) -> str:
-    """Returns a joint value in the unit that people read: degrees or centimetres."""
-    return f"{degrees(value):.0f}°" if joint_type is JointType.REVOLUTE else f"{value * 100:.1f} cm"
 
 
 def counted(count: int, what: str) -> str:

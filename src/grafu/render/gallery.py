@@ -10,6 +10,7 @@ from math import radians
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
+from grafu.articulation.motion_kind import motion_kind
 from grafu.export.files import ExportFiles
 from grafu.export.glb import export_glb
 from grafu.geometry.appearance import Material
@@ -37,7 +38,7 @@ from grafu.templates.template import (
     RailSize,
     RailTemplate,
 )
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 Template = HingeTemplate | RailTemplate
 Model = HingeModel | RailModel
@@ -56,15 +57,17 @@ def as_articulated(template: Template) -> ArticulatedObject:
     T = translation(vec3(0.0, 0.0, -low))
     if isinstance(template, HingeTemplate):
         T = T @ rotation_about(np.zeros(3), vec3(0.0, 0.0, 1.0), np.pi)
-        joint_type, axis = JointType.REVOLUTE, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
+        axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
     else:
-        joint_type, axis = JointType.PRISMATIC, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0))
-    prefix = "hinge" if joint_type is JointType.REVOLUTE else "rail"
+        axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0))
+    prefix = motion_kind(template.joint_type).hardware
     links = []
     for name, end in (("static", template.static), ("dynamic", template.dynamic)):
         surfaces = end.transformed(T).surfaces
         links.append(Link(name, (Visual(f"{prefix}_{template.id}_{name}", surfaces, VisualRole.HARDWARE),)))
-    joint = Joint(f"{template.id}_joint", joint_type, "static", "dynamic", axis, JointLimits(0.0, template.range))
+    joint = Joint(
+        f"{template.id}_joint", template.joint_type, "static", "dynamic", axis, JointLimits(0.0, template.range)
+    )
     return ArticulatedObject(template.id, "static", tuple(links), (joint,))
 
 

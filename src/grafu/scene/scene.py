@@ -12,6 +12,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual
+from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
@@ -44,6 +45,11 @@ class JointMotion:
     upper: float
     is_built: bool = True
     after: tuple[str, ...] = ()
+
+    @property
+    def kind(self) -> MotionKind:
+        """How it moves, and what everyone asks about it."""
+        return motion_kind(self.type)
 
 
 @final

@@ -21,7 +21,7 @@ upright about Y where `turns` says that this makes sense (a cup or a drop handle
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, final
+from typing import ClassVar, Literal, final
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
-from grafu.vocabulary import MechanismClass
+from grafu.vocabulary import JointType, MechanismClass
 
 HandleFamily = Literal["bar", "knob", "cup"]
 
@@ -149,6 +149,7 @@ class HingeSize:
 class HingeTemplate:
     """A hinge in its own frame, closed. `range` is the widest opening in radians, in (0, 2 pi)."""
 
+    joint_type: ClassVar = JointType.REVOLUTE
     id: str
     mechanism: MechanismClass
     static: TemplateEnd
@@ -179,6 +180,7 @@ class RailTemplate:
     `support` is the plane under the drawer's bottom (n = +Z) for mounts that carry the drawer from below, else None.
     """
 
+    joint_type: ClassVar = JointType.PRISMATIC
     id: str
     mechanism: MechanismClass
     static: TemplateEnd

@@ -6,11 +6,11 @@ animation of a GLB but has no slider per joint and adds 1 MB to each page; viser
 """
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import FaultRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
-from grafu.pipeline.words import opening
 from grafu.render.graph_picture import draw_graph, drawing_svg
 from grafu.viewer.pictures import Stills, stills_row
 from grafu.viewer.report_tables import (
@@ -120,14 +120,14 @@ def _panel(articulated: ArticulatedObject) -> Html:
 
 
 def _slider(index: int, joint: Joint) -> Html:
-    low, high = (opening(joint.type, value) for value in (joint.limits.lower, joint.limits.upper))
+    low, high = (motion_kind(joint.type).worded(value) for value in (joint.limits.lower, joint.limits.upper))
     name = f"joint-{index}"
     slider = tag(
         "input", type="range", id=name, min=0, max=1000, value=0, data_joint=index, disabled=True, autocomplete="off"
     )
     limits = tag("span", f"of {high}", class_="limit", title=f"from {low} to {high}")
     words = tag("div", tag("label", joint.child, for_=name), tag("span", tag("output", low, for_=name), " ", limits))
-    return tag("div", words, slider, class_=f"joint {joint.type.value}")
+    return tag("div", words, slider, class_=f"joint {joint.kind.hardware}")
 
 
 def _switch(key: str, word: str, on: bool) -> Html:

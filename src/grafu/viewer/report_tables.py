@@ -7,15 +7,15 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.pipeline.verdict import stopped, verdict_of
-from grafu.pipeline.words import counted, listed, opening, percent
+from grafu.pipeline.words import counted, listed, percent
 from grafu.viewer.shell import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
-from grafu.vocabulary import JointType
 
 LEAD = (
     "One is wrong? Copy its line, give it to the same command, with --overwrite. Instead of the last word: left, "
@@ -75,7 +75,7 @@ def added_table(report: Report) -> Html:
 
 def _hardware(joint: JointRecord) -> str:
     """Returns what a joint runs on, by the same word as it is counted by."""
-    return "hinge" if joint.type is JointType.REVOLUTE else "rail"
+    return motion_kind(joint.type).hardware
 
 
 def not_built_table(report: Report) -> Html:
@@ -106,8 +106,8 @@ def part_button(part: str) -> Html:
 
 
 def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ...]:
-    reach = f"{opening(joint.type, joint.lower)} to {opening(joint.type, joint.upper)}"
-    moves = [tag("span", _hardware(joint), class_=f"kind {joint.type.value}"), reach]
+    reach = f"{motion_kind(joint.type).worded(joint.lower)} to {motion_kind(joint.type).worded(joint.upper)}"
+    moves = [tag("span", _hardware(joint), class_=f"kind {_hardware(joint)}"), reach]
     return (
         part_button(joint.part),
         lines([*moves, flag("restricted")] if joint.restricted else moves),

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal, final
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
 from grafu.pipeline.words import listed
 from grafu.viewer.wording import still_lacking
-from grafu.vocabulary import JointType
 
 Cell = str | int | float | None
 ColumnKind = Literal["text", "light", "number", "percent", "seconds"]
@@ -170,7 +170,7 @@ def _row(entry: RunEntry) -> RunRow:
         return RunRow((entry.name, "failed", f"failed: {entry.failure}", *unknown), _FAILED, flagged=True)
     report, verdict = entry.report, verdict_of(entry.report)
     joints = report.joints
-    turning = sum(joint.type is JointType.REVOLUTE for joint in joints)
+    turning = sum(motion_kind(joint.type).turns for joint in joints)
     amiss = Counter(line.kind for line in verdict.lines)
     cells: tuple[Cell, ...] = (
         entry.name,

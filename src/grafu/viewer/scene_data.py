@@ -205,7 +205,8 @@ class _Packer:
         return {
             "id": joint.id,
             "part": joint.child,
-            "type": joint.type.value,
+            "motion": [joint.kind.turn, joint.kind.shift],
+            "shown": [joint.kind.shown.factor, joint.kind.shown.digits, joint.kind.shown.suffix],
             "axis": _line(joint.axis),
             "initial": None if record is None else [record.initial_axis.origin, record.initial_axis.direction],
             "lower": joint.limits.lower,

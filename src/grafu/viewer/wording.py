@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from math import acos, degrees
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
 from grafu.pipeline.verdict import stopped
@@ -33,7 +34,7 @@ def unused_joints(report: Report) -> str:
 
 def added(report: Report) -> list[str]:
     """Returns all that was added, by kind: hinges and rails first, then parts; the boards of a drawer's box are one."""
-    hinges = sum(joint.count for joint in report.joints if joint.type is JointType.REVOLUTE)
+    hinges = sum(joint.count for joint in report.joints if motion_kind(joint.type).turns)
     rails = sum(joint.count for joint in report.joints) - hinges
     boxes = {part.link for part in report.added if part.style == DeficiencyKind.DRAWER_BOX}
     kinds = Counter(part.category for part in report.added if part.style != DeficiencyKind.DRAWER_BOX)
@@ -57,7 +58,7 @@ def direction_words(direction: Vector) -> str:
 
 def axis_words(axis: AxisRecord, joint_type: JointType) -> str:
     """Returns a line in space: its direction, and for a hinge where it lies, centimetres."""
-    if joint_type is JointType.PRISMATIC:
+    if motion_kind(joint_type).slides:
         return f"along {direction_words(axis.direction)}"
     places = zip("xyz", axis.origin, axis.direction, strict=True)
     across = [f"{name} {100 * value:.1f}".replace("-", "−") for name, value, along in places if abs(along) < _STRAIGHT]
@@ -72,7 +73,7 @@ def moved_words(joint: JointRecord) -> str:
     offset = [y - x for x, y in zip(a.origin, b.origin, strict=True)]
     along = sum(x * y for x, y in zip(offset, b.direction, strict=True))
     distance = sum((x - along * y) ** 2 for x, y in zip(offset, b.direction, strict=True)) ** 0.5
-    said = [f"{100 * distance:.1f} cm"] if joint.type is JointType.REVOLUTE else []
+    said = [f"{100 * distance:.1f} cm"] if motion_kind(joint.type).turns else []
     return ", ".join([*said, f"{turned:.1f}°"] if turned > 0.05 or not said else said)
 
 
@@ -82,8 +83,8 @@ def size_words(size: Iterable[float]) -> str:
 
 
 def _moves(report: Report) -> str:
-    kinds = Counter(joint.type for joint in report.joints)
-    turning, sliding = kinds[JointType.REVOLUTE], kinds[JointType.PRISMATIC]
+    kinds = [motion_kind(joint.type) for joint in report.joints]
+    turning, sliding = sum(kind.turns for kind in kinds), sum(kind.slides for kind in kinds)
     said = [f"{counted(turning, 'part')} on hinges"] if turning else []
     said += [f"{sliding} on rails" if turning else f"{counted(sliding, 'part')} on rails"] if sliding else []
     if not said:

@@ -16,7 +16,7 @@ from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.joints.limits import pose_function, sweep
+from grafu.joints.limits import sweep
 from grafu.joints.plan import JointRequest
 from grafu.scene.scene import Obstacle
 from grafu.vocabulary import PartLabel
@@ -40,7 +40,7 @@ def volume(mesh: TriangleMesh) -> float:
 
 def opens_freely(moving: Part, joint: JointRequest, top: Part, reach: float) -> bool:
     body = SweptBody(moving.mesh, 4e-4, np.eye(3))
-    motion = pose_function(joint.axis, joint.type)
+    motion = joint.kind.along(joint.axis)
     return sweep(body, motion, reach, [Obstacle("top", MeshCollider(top.mesh))], 41).share == 0.0
 
 

@@ -62,5 +62,5 @@ def test_what_turns_about_its_own_middle_has_an_arc_within_it():
 
 
 def test_a_fixed_joint_has_none():
-    with pytest.raises(ValueError, match="revolute or prismatic"):
+    with pytest.raises(ValueError, match="must be one that moves"):
         motion_marks(JointType.FIXED, JointLimits(0.0, 0.0), 0.0, door(1.0, 1.0))

@@ -20,7 +20,6 @@ from grafu.joints.plan import JointRequest
 from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
-from grafu.vocabulary import JointType
 
 _LEVEL = 0.3  # the most of a unit direction that points up where a front stands upright
 _SQUARE = float(np.cos(np.radians(8.0)))  # how near to an axis of the object a front's way is taken to be along it
@@ -123,12 +122,12 @@ def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
     """Returns the level unit direction to which a front looks; None where it is a lid, or slides up."""
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
-    if request.type is JointType.PRISMATIC and not slides_in_its_plane(mesh, direction):
+    if request.kind.slides and not slides_in_its_plane(mesh, direction):
         way = direction
     else:
         axes = part_axes(mesh)
         thin = axes[:, int(np.argmin(np.ptp(mesh.vertices @ axes, axis=0)))]
-        if request.type is JointType.REVOLUTE:
+        if request.kind.turns:
             towards = np.cross(direction, mesh.box.center - request.axis.point)
         else:
             towards = mesh.box.center - np.mean([p.box.center for p in scene.parts.values()], axis=0)
@@ -152,7 +151,7 @@ def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, moving_
 
 def find_bays(view: View, scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[Bay, ...]:
     """Returns the bays behind the fronts of a view, those that open into one another as one."""
-    doors = {r.moving for r in requests if r.type is JointType.REVOLUTE}
+    doors = {r.moving for r in requests if r.kind.turns}
     bays = [
         bay for moving in view.moving_bodies if (bay := _bay(view, scene, moving, moving in doors, config)) is not None
     ]

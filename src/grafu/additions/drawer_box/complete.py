@@ -30,7 +30,7 @@ from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
 from grafu.joints.rail.body_region import DrawerFrame, drawer_frame, is_shallow
 from grafu.joints.rail.search import carried_mesh, slides_in_its_plane
 from grafu.scene.scene import Scene
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 DEFAULT = DrawerBoxConfig()
 _WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
@@ -59,7 +59,7 @@ def complete_drawers(
 
     `build=False` only looks: what is missing is said, nothing is added.
     """
-    requests = [r for r in plan.joints if r.type is JointType.PRISMATIC]
+    requests = [r for r in plan.joints if r.kind.slides]
     if not requests:
         return DrawerBoxes()
     around = surroundings_of(parts, plan)

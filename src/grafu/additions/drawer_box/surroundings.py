@@ -8,11 +8,9 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
-from grafu.geometry.transform import translation
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.scene.scene import MovingBody, Scene
-from grafu.vocabulary import JointType
 
 _OPPOSITE = -0.9  # cosine between the ways of two drawers from which on they face away from each other
 
@@ -41,7 +39,7 @@ class Surroundings:
         nearest = float("inf")
         for other in self.requests:
             way = float(np.asarray(other.axis.direction) @ np.asarray(request.axis.direction))
-            if other.moving == request.moving or other.type is not JointType.PRISMATIC or way > _OPPOSITE:
+            if other.moving == request.moving or not other.kind.slides or way > _OPPOSITE:
                 continue
             local = (self.scene.parts[other.moving].mesh.vertices - frame.origin) @ frame.rotation
             low, high = local.min(axis=0), local.max(axis=0)
@@ -84,10 +82,7 @@ def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surrounding
 
 
 def _closed(part: Part, request: JointRequest) -> Part:
-    if request.type is JointType.REVOLUTE:
-        T = request.axis.rotation(-request.drawn_at)
-    else:
-        T = translation(-request.drawn_at * np.asarray(request.axis.direction))
+    T = request.kind.transform(request.axis, -request.drawn_at)
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 

@@ -22,7 +22,6 @@ from grafu.geometry.solids import ConvexSolid
 from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import border_frame, part_axes
 from grafu.scene.scene import JointMotion
-from grafu.vocabulary import JointType
 
 _HAND = 0.1  # metres: on a front with a shorter side, all that fingers need shrinks with it
 
@@ -65,7 +64,7 @@ class Front(ArrayValue):
 def front_of(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) -> Front:
     """Returns the front frame of a part that moves in a way."""
     direction = np.asarray(joint_motion.axis.direction)
-    if joint_motion.type is JointType.REVOLUTE:
+    if joint_motion.kind.turns:
         border = border_frame(mesh, joint_motion.axis)
         along, towards, out = border.rotation[:, 2], border.rotation[:, 0], border.rotation[:, 1]
     elif slides_in_its_plane(mesh, direction):

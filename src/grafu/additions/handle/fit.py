@@ -21,7 +21,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
-from grafu.joints.limits import PoseFunction, in_the_way, opening_values, pose_function, swept_box
+from grafu.joints.limits import PoseFunction, in_the_way, opening_values, swept_box
 from grafu.scene.scene import Obstacle, Scene
 
 _TOUCH = 0.0002  # of the object's largest side: how deep a handle may touch something
@@ -66,7 +66,7 @@ class Surroundings:
 
     def _motion_of(self, moving_id: str) -> tuple[PoseFunction, float]:
         joint_motion = self.scene.joint_motions[moving_id]
-        return pose_function(joint_motion.axis, joint_motion.type), joint_motion.upper
+        return joint_motion.kind.along(joint_motion.axis), joint_motion.upper
 
     def _before(self, moving_id: str) -> set[str]:
         """Returns the moving bodies that stand open before a moving body can move."""

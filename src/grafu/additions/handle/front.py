@@ -16,7 +16,7 @@ from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.scene.border import border_frame, part_axes
 from grafu.scene.scene import JointMotion, Scene
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 Side = Literal["left", "right", "bottom", "top"]
 OPPOSITE: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
@@ -84,7 +84,7 @@ def front_of(scene: Scene, moving_id: str) -> Front:
     """
     mesh = _body_mesh(scene, moving_id)
     joint_motion = scene.joint_motions[moving_id]
-    if joint_motion.type is JointType.REVOLUTE:
+    if joint_motion.kind.turns:
         return _hinged(mesh, scene.parts[moving_id].mesh, joint_motion)
     return _sliding(mesh, scene.parts[moving_id].mesh, joint_motion, scene)
 

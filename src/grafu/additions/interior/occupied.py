@@ -18,7 +18,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.free_space import Grid, cells_met, points_on
 from grafu.geometry.mesh import TriangleMesh
 from grafu.scene.scene import MovingBody, Scene
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _SPACING = 0.9  # of a cell: a board along the axes has a point in each of its cells
 _THIN = 0.15  # of the next longer side: a board, a frame, a door leaf
@@ -79,7 +79,7 @@ def is_drawer(scene: Scene, moving: MovingBody) -> bool:
     joint_motion, part = scene.joint_motions.get(moving.id), scene.parts[moving.id]
     if joint_motion is None:
         return part.label is PartLabel.DRAWER
-    if joint_motion.type is not JointType.PRISMATIC or part.label is PartLabel.DOOR:
+    if not joint_motion.kind.slides or part.label is PartLabel.DOOR:
         return False
     size = scene.moving_mesh(moving.id).box.size
     thin, middle = np.sort(size)[:2]

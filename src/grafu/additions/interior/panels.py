@@ -20,7 +20,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
-from grafu.joints.limits import in_the_way, opening_values, pose_function, swept_box
+from grafu.joints.limits import in_the_way, opening_values, swept_box
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel
@@ -67,7 +67,7 @@ class Clearing:
     def _stops(self, panel: MeshCollider, body: SweptBody, moving: str) -> bool:
         """Whether a panel stands in the way of a moving body or of the hardware that it carries."""
         joint_motion = self._scene.joint_motions[moving]
-        motion = pose_function(joint_motion.axis, joint_motion.type)
+        motion = joint_motion.kind.along(joint_motion.axis)
         values = opening_values(joint_motion.upper, _POSES)
         mesh = self._scene.moving_mesh(moving)
         if swept_box(mesh.box, motion, joint_motion.upper).overlaps(panel.box):

@@ -18,7 +18,6 @@ from grafu.geometry.box import Box
 from grafu.geometry.heading import heading_of
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points
 from grafu.scene.scene import Scene
-from grafu.vocabulary import JointType
 
 
 def furnish_scene(
@@ -62,9 +61,7 @@ def _turned(scene: Scene, T: Mat4) -> Scene:
         scene.unit,
         tuple((owner, _visual(visual, T)) for owner, visual in scene.hardware),
         {
-            moving: replace(
-                joint_motion, axis=joint_motion.axis.transformed(T, joint_motion.type is JointType.REVOLUTE)
-            )
+            moving: replace(joint_motion, axis=joint_motion.kind.mapped_axis(joint_motion.axis, T))
             for moving, joint_motion in scene.joint_motions.items()
         },
     )

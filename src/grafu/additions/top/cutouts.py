@@ -13,8 +13,6 @@ from shapely.geometry.base import BaseGeometry
 from grafu.additions.top.roles import Closed
 from grafu.additions.top.section import EMPTY, offset, section_lines
 from grafu.geometry.transform import transform_points
-from grafu.joints.limits import pose_function
-from grafu.vocabulary import JointType
 
 _LEFT = 0.4  # of the thickness that must be left over a groove
 _UPRIGHT = 0.7  # of a unit direction
@@ -78,7 +76,7 @@ def thick_enough(
 def lifts(moving: Closed) -> bool:
     """Whether a moving body turns about a level axis at its upper end: a flap that rises when it opens."""
     joint = moving.request
-    if joint is None or joint.type is not JointType.REVOLUTE:
+    if joint is None or not joint.kind.turns:
         return False
     if abs(float(joint.axis.direction[2])) > 1 - _UPRIGHT:
         return False
@@ -109,8 +107,8 @@ def _swept(moving: Closed, height: float) -> BaseGeometry:
     if joint is None:
         poses = [points]
     else:
-        motion = pose_function(joint.axis, joint.type)
-        turns = joint.type is JointType.REVOLUTE
+        motion = joint.kind.along(joint.axis)
+        turns = joint.kind.turns
         reach = float(_TURN) if turns else float(moving.mesh.box.size[:2].max())
         poses = [transform_points(motion(v), points) for v in np.linspace(0.0, reach, _POSES if turns else 2)]
     steps = [np.concatenate([a, b])[:, :2] for a, b in zip(poses, poses[1:] or poses, strict=False)]

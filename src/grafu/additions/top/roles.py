@@ -14,9 +14,8 @@ from jaxtyping import Float
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.joints.limits import pose_function
 from grafu.joints.plan import JointRequest
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _UPRIGHT = 0.7  # of a unit direction: what moves mostly up and down
 _COVERS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them
@@ -90,9 +89,9 @@ def _closed(joint: JointRequest, known: dict[str, Part]) -> Closed:
     members = [known[m] for m in (joint.moving, *joint.attached) if m in known]
     bodies = [p.mesh for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
     if joint.drawn_at:
-        T = pose_function(joint.axis, joint.type)(-joint.drawn_at)
+        T = joint.kind.transform(joint.axis, -joint.drawn_at)
         bodies = [mesh.transformed(T) for mesh in bodies]
     level = abs(float(joint.axis.direction[2])) < _UPRIGHT
     covers = any(p.label in _COVERS for p in members)
-    slides = joint.type is JointType.PRISMATIC and level and not covers
+    slides = joint.kind.slides and level and not covers
     return Closed(joint.moving, tuple(bodies), slides, joint)

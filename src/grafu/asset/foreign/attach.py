@@ -5,11 +5,12 @@ What the input itself says of its motions is not read. Realization cannot tell w
 
 from dataclasses import replace
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.attached_parts import with_attached
 from grafu.asset.foreign.matching import Match, covered_parts, match_parts
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions
 from grafu.asset.part import AnnotatedJoint, Asset, Part
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 
 def attach_motions(asset: Asset, foreign: ForeignMotions) -> Asset:
@@ -71,8 +72,7 @@ def _labelled(asset: Asset, foreign: ForeignMotions, match: Match, joints: dict[
         elif spoken is not PartLabel.UNKNOWN and (joint is not None) >= spoken.is_movable:
             found.append(replace(part, label=spoken, labelled_by="prediction"))
         elif joint is not None:
-            turns = joint.type is JointType.REVOLUTE
-            found.append(replace(part, label=PartLabel.DOOR if turns else PartLabel.DRAWER, labelled_by="joint"))
+            found.append(replace(part, label=motion_kind(joint.type).label, labelled_by="joint"))
         else:
             found.append(part)
     return found

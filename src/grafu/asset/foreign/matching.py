@@ -12,45 +12,37 @@ from typing import final
 
 import numpy as np
 
-from grafu.articulation.articulated_object import Joint, JointLimits
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.foreign.agreement import LEAST_OVERLAP, Agreement, Comparison, label_disagrees
 from grafu.asset.foreign.frames import FrameGuess, drawn_together, fitted_frames, known_frames, tilted_frames
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, JointFrame
 from grafu.asset.part import Asset, Part
 from grafu.errors import AssetError
-from grafu.geometry.arrays import Mat4, Vec3
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.transform import scale_of, transform_points
+from grafu.geometry.transform import scale_of
 from grafu.vocabulary import JointType, PartLabel
 
 _SIDEWAYS = 0.8  # how much of setting off to the front it is to set off sideways, or out behind
-_A_LITTLE = 1e-3  # radians or metres: how far a joint is moved to see where the part sets off
 
 
-def strangeness(kind: JointType, axis: Axis, lower: float, upper: float, box: Box, whole: Box) -> float:
+def strangeness(joint_type: JointType, axis: Axis, lower: float, upper: float, box: Box, whole: Box) -> float:
     """Returns from 0 (as expected) to 1 how odd a joint is for a part with this box of an object with that box.
 
     Half of it is where the part sets off to; of a hinge the other half is how far its axis runs from the part, or
     how much across the part's plane.
     """
     sense = 1.0 if abs(upper) >= abs(lower) else -1.0
-    x, y, z = _sets_off(kind, axis, sense * _A_LITTLE, box.center).tolist()
-    lifts = z if kind is JointType.REVOLUTE and box.thin_axis == 2 else -1.0
+    kind = motion_kind(joint_type)
+    x, y, z = kind.sets_off(axis, box.center, sense).tolist()
+    lifts = z if kind.turns and box.thin_axis == 2 else -1.0
     out_behind = _SIDEWAYS * y if box.center[1] > whole.center[1] else -1.0
     backwards = (1.0 - max(-y, lifts, _SIDEWAYS * abs(x), out_behind)) / 2
-    if kind is not JointType.REVOLUTE:
+    if not kind.turns:
         return backwards
     across = abs(float(axis.direction[box.thin_axis]))
     return 0.5 * backwards + 0.5 * max(min(_distance(axis, box) / max(box.diagonal, 1e-12), 1.0), across)
-
-
-def _sets_off(kind: JointType, axis: Axis, value: float, point: Vec3) -> Vec3:
-    """Returns the unit direction in which a point sets off; zero where it turns on the spot."""
-    motion = Joint("", kind, "", "", axis, JointLimits(0.0, 0.0)).motion(value)
-    step = transform_points(motion, point[None])[0] - point
-    length = float(np.linalg.norm(step))
-    return step / length if length > 1e-12 else np.zeros(3)
 
 
 def _distance(axis: Axis, box: Box) -> float:
@@ -99,12 +91,12 @@ class Match:
         if joint.code is not None:
             back = np.linalg.inv(T)
             axis = joint.code.axis_on(Box.around(box.corners() @ back[:3, :3].T + back[:3, 3]))
-        turns = joint.type is JointType.REVOLUTE
-        length = 1.0 if turns else scale_of(T)
+        kind = motion_kind(joint.type)
+        length = kind.length_scale(scale_of(T))
         return ForeignJoint(
             joint.part,
             joint.type,
-            axis.transformed(T, rotational=turns),
+            kind.mapped_axis(axis, T),
             joint.lower * length,
             joint.upper * length,
             joint.limited,

@@ -13,6 +13,7 @@ from typing import Final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import moving_kinds
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart, JointFrame
 from grafu.asset.obj_parser import parse_obj, triangulate
 from grafu.asset.options import LoadOptions
@@ -24,7 +25,6 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, invert
-from grafu.vocabulary import JointType
 
 UP_ROTATIONS: Final[Mapping[str, Mat3]] = MappingProxyType(
     {
@@ -186,19 +186,17 @@ def _parent(part: int, parents: Mapping[int, int], filled: Container[int]) -> st
 
 def _joints(part: int, arrays: Arrays, notes: list[str]) -> list[ForeignJoint]:
     """Returns the joint of a part, or none; of a part that turns and slides, the turn is kept."""
-    turns, slides = (bool(arrays[key][part]) for key in ("is_part_revolute", "is_part_prismatic"))
-    if turns and slides:
+    kinds = [kind for kind in moving_kinds() if arrays[f"is_part_{kind.word('particulate')}"][part]]
+    if not kinds:
+        return []
+    kind = next((kind for kind in kinds if kind.turns), kinds[0])
+    if len(kinds) > 1:
         notes.append(f"{_name(part)} is predicted to turn and to slide: only the turn is read")
-    if turns:
-        line = arrays["revolute_plucker"][part].astype(np.float64)
-        axis = _axis(part, line[:3], line[3:], notes)
-        low, high = arrays["revolute_range"][part].astype(np.float64).tolist()
-        return [ForeignJoint(_name(part), JointType.REVOLUTE, axis, low, high)] if axis else []
-    if slides:
-        axis = _axis(part, arrays["prismatic_axis"][part].astype(np.float64), np.zeros(3), notes)
-        low, high = arrays["prismatic_range"][part].astype(np.float64).tolist()
-        return [ForeignJoint(_name(part), JointType.PRISMATIC, axis, low, high)] if axis else []
-    return []
+    word = kind.word("particulate")
+    line = arrays[f"{word}_{'plucker' if kind.turns else 'axis'}"][part].astype(np.float64)
+    axis = _axis(part, line[:3], line[3:] if kind.turns else np.zeros(3), notes)
+    low, high = arrays[f"{word}_range"][part].astype(np.float64).tolist()
+    return [ForeignJoint(_name(part), kind.type, axis, low, high)] if axis else []
 
 
 def _axis(part: int, direction: Vec3, moment: Vec3, notes: list[str]) -> Axis | None:

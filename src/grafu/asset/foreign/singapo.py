@@ -4,13 +4,13 @@ Hinge ranges are degrees from 0, slides lengths from 0; the end may be negative.
 and they lie in its box, they stand for it. It matches nothing.
 """
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import kind_named
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
 from grafu.asset.json_files import finite, read_json, spelled
 from grafu.asset.labels import label_of
@@ -22,10 +22,9 @@ from grafu.geometry.arrays import Scalars
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 TREES: Final = ("diffuse_tree", "arti_tree")
-_TYPES: Final = {"revolute": JointType.REVOLUTE, "continuous": JointType.REVOLUTE, "prismatic": JointType.PRISMATIC}
 _WORDS: Final = {"base": PartLabel.UNKNOWN, "tray": PartLabel.DRAWER, "wheel": PartLabel.MISC}
 _EXPECTED = "SINGAPO's or CAGE's object.json, whose `diffuse_tree` or `arti_tree` lists parts with `aabb` and `joint`"
 _LARGEST = 1e9  # of a coordinate: beyond, a number is none
@@ -139,7 +138,8 @@ def _joint(part: str, joint: Json, where: str, notes: list[str]) -> ForeignJoint
     kind = kind if isinstance(kind, str) else spelled(kind)
     if kind == "fixed":
         return None
-    if kind not in _TYPES:
+    moves = kind_named("singapo", kind)
+    if moves is None:
         if kind != "screw":
             raise UnreadableAsset(
                 f"{where}: `type` must be fixed, revolute, prismatic, screw or continuous: got {kind!r}"
@@ -153,6 +153,5 @@ def _joint(part: str, joint: Json, where: str, notes: list[str]) -> ForeignJoint
         return None
     low, high = _vector(joint, "range", 2, where).tolist()
     limited = kind != "continuous" and low != high
-    if kind != "prismatic":
-        low, high = math.radians(low), math.radians(high)
-    return ForeignJoint(part, _TYPES[kind], Axis(origin, direction), low, high, limited)
+    low, high = moves.from_degrees(low), moves.from_degrees(high)
+    return ForeignJoint(part, moves.type, Axis(origin, direction), low, high, limited)

@@ -11,7 +11,6 @@ import numpy as np
 from grafu.articulation.articulated_object import Joint, JointLimits
 from grafu.export.blend.layout import AFTER, CHILD, ID, KIND, LOWER, OPEN, PARENT, TYPE, UPPER, Key, Kind
 from grafu.geometry.arrays import Vec3
-from grafu.vocabulary import JointType
 
 Empty = Any
 """A `bpy.types.Object`; Blender's own types are made when it runs."""
@@ -23,10 +22,10 @@ def describe_joint(empty: Empty, joint: Joint) -> None:
     empty[KIND], empty[ID], empty[TYPE] = Kind.JOINT.value, joint.id, joint.type.value
     empty[PARENT], empty[CHILD], empty[AFTER] = joint.parent, joint.child, json.dumps(list(joint.after))
     empty[LOWER], empty[UPPER] = float(joint.limits.lower), float(joint.limits.upper)
-    unit = "ANGLE" if joint.type is JointType.REVOLUTE else "DISTANCE"
-    for name in (LOWER, UPPER):
-        empty.id_properties_ui(name).update(min=0.0, subtype=unit, description=f"The joint's {name} limit")
-    if joint.type is not JointType.FIXED:
+    if joint.kind.moves:
+        for name in (LOWER, UPPER):
+            about = f"The joint's {name} limit"
+            empty.id_properties_ui(name).update(min=0.0, subtype=joint.kind.word("blender"), description=about)
         empty[OPEN] = 0.0
         about = "How far the joint is open: 0 closed, 1 at its limit"
         empty.id_properties_ui(OPEN).update(min=0.0, max=1.0, default=0.0, subtype="FACTOR", description=about)
@@ -45,13 +44,12 @@ def drive_link(link: Empty, empty: Empty, joint: Joint) -> None:
     The link's own axes stay parallel to the object frame at rest, whatever way the joint's empty points.
     """
     direction = [float(v) for v in joint.axis.direction]
-    if joint.type is JointType.REVOLUTE:
+    if joint.kind.turns:
         link.rotation_mode = "AXIS_ANGLE"
         link.rotation_axis_angle = (0.0, *direction)
-        _drive(link, ("rotation_axis_angle", 0), empty, 1.0)
-    elif joint.type is JointType.PRISMATIC:
-        for index in np.flatnonzero(direction):
-            _drive(link, ("location", int(index)), empty, direction[index])
+        _drive(link, ("rotation_axis_angle", 0), empty, joint.kind.turn)
+    for index in np.flatnonzero(joint.kind.shift * joint.axis.direction):
+        _drive(link, ("location", int(index)), empty, joint.kind.shift * direction[index])
 
 
 def key_joint(empty: Empty, keys: tuple[Key, ...]) -> None:

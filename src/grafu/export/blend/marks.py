@@ -10,6 +10,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.articulation.articulated_object import JointLimits
+from grafu.articulation.motion_kind import motion_kind
 from grafu.export.blend.layout import KIND, LOWER, OPEN, TYPE, UPPER, Kind
 from grafu.geometry.box import Box
 from grafu.vocabulary import JointType
@@ -30,7 +31,7 @@ class MotionMarks:
     now: np.ndarray
 
 
-def motion_marks(kind: JointType, limits: JointLimits, value: float, box: Box) -> MotionMarks:
+def motion_marks(joint_type: JointType, limits: JointLimits, value: float, box: Box) -> MotionMarks:
     """Returns the marks of a joint at a value (radians or metres).
 
     `box` is that of what moves, closed, in the joint's frame.
@@ -38,11 +39,12 @@ def motion_marks(kind: JointType, limits: JointLimits, value: float, box: Box) -
     Raises:
         ValueError: if the joint is fixed.
     """
-    if kind is JointType.REVOLUTE:
+    kind = motion_kind(joint_type)
+    if kind.turns:
         return _turn(limits, value, box)
-    if kind is JointType.PRISMATIC:
+    if kind.slides:
         return _slide(limits, value, box)
-    raise ValueError("`kind` must be revolute or prismatic: got fixed")
+    raise ValueError("`joint_type` must be one that moves: got fixed")
 
 
 def _turn(limits: JointLimits, value: float, box: Box) -> MotionMarks:

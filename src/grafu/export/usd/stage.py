@@ -5,7 +5,6 @@ the root's is the object frame, and a fixed joint holds it to the prim above, wh
 are degrees, as OpenUSD has them.
 """
 
-from math import degrees, radians
 from typing import Any, final
 
 import numpy as np
@@ -13,13 +12,14 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.mass import MassProperties
+from grafu.articulation.motion_kind import MotionKind
 from grafu.articulation.physics import JointDynamics, physics_of
 from grafu.export.usd.config import UsdConfig
 from grafu.export.usd.looks import Siblings, UsdLooks, identifier
 from grafu.export.usd.meshes import add_collision, add_surface, quaternion
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.version import __version__
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _AXES = (UsdPhysics.Tokens.x, UsdPhysics.Tokens.y, UsdPhysics.Tokens.z)
 
@@ -110,31 +110,30 @@ class _StageBuilder:
         _join(joint, self._top, self._paths[self._object.root], np.zeros(3), np.eye(3))
 
     def _add_joint(self, joint: Joint) -> None:
-        path, still = self._joints[joint.id], joint.type is JointType.FIXED or joint.limits.range <= 0
-        turns = joint.type is JointType.REVOLUTE
-        kind = UsdPhysics.FixedJoint if still else UsdPhysics.RevoluteJoint if turns else UsdPhysics.PrismaticJoint
-        prim = self._define(kind, path, joint.id)
+        path, still = self._joints[joint.id], not joint.kind.moves or joint.limits.range <= 0
+        schema = UsdPhysics.FixedJoint if still else getattr(UsdPhysics, joint.kind.word("usd"))
+        prim = self._define(schema, path, joint.id)
         along, R = _frame(joint.axis.direction)
         offset = self._physics.origins[joint.child] - self._physics.origins[joint.parent]
-        _join(kind(prim), self._paths[joint.parent], self._paths[joint.child], offset, np.eye(3) if still else R)
+        _join(schema(prim), self._paths[joint.parent], self._paths[joint.child], offset, np.eye(3) if still else R)
         if still:
             return
-        made = kind(prim)
+        made = schema(prim)
         made.CreateAxisAttr(_AXES[along])
-        made.CreateLowerLimitAttr(degrees(joint.limits.lower) if turns else joint.limits.lower)
-        made.CreateUpperLimitAttr(degrees(joint.limits.upper) if turns else joint.limits.upper)
-        self._add_resistance(prim, self._physics.dynamics[joint.id], turns)
+        made.CreateLowerLimitAttr(joint.kind.in_degrees(joint.limits.lower))
+        made.CreateUpperLimitAttr(joint.kind.in_degrees(joint.limits.upper))
+        self._add_resistance(prim, self._physics.dynamics[joint.id], joint.kind)
         if joint.after:
             before = prim.CreateRelationship("grafu:after")
             before.SetTargets([self._joints[other] for other in joint.after])
 
-    def _add_resistance(self, prim: Usd.Prim, dynamics: JointDynamics, turns: bool) -> None:
+    def _add_resistance(self, prim: Usd.Prim, dynamics: JointDynamics, kind: MotionKind) -> None:
         """Adds a drive that only damps, and what PhysX knows beside it; whoever gives it stiffness has a servo."""
-        way = "angular" if turns else "linear"
+        way = kind.word("usd drive")
         drive = UsdPhysics.DriveAPI.Apply(prim, way)
         drive.CreateTypeAttr(UsdPhysics.Tokens.force)
         drive.CreateStiffnessAttr(0.0)
-        drive.CreateDampingAttr(radians(dynamics.damping) if turns else dynamics.damping)  # for each degree per second
+        drive.CreateDampingAttr(kind.from_degrees(dynamics.damping))  # for each degree per second
         drive.CreateMaxForceAttr(dynamics.effort)
         drive.CreateTargetPositionAttr(0.0)
         drive.CreateTargetVelocityAttr(0.0)
@@ -145,7 +144,7 @@ class _StageBuilder:
         values = {
             "staticFrictionEffort": dynamics.friction,
             "dynamicFrictionEffort": dynamics.friction,
-            "maxJointVelocity": degrees(dynamics.velocity) if turns else dynamics.velocity,
+            "maxJointVelocity": kind.in_degrees(dynamics.velocity),
             "armature": self._config.armature * inertia,
         }
         for name, value in values.items():

@@ -19,7 +19,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
-from grafu.joints.limits import PoseFunction, in_the_way, is_free, pose_function, swept_box
+from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
 from grafu.scene.border import BorderFrame, part_axes
 from grafu.scene.scene import JointMotion, Obstacle, Scene
@@ -52,7 +52,7 @@ class Neighbour:
     @cached_property
     def _motion(self) -> PoseFunction:
         assert self.joint_motion is not None
-        return pose_function(self.joint_motion.axis, self.joint_motion.type)
+        return self.joint_motion.kind.along(self.joint_motion.axis)
 
     @cached_property
     def _swept(self) -> Box:

@@ -16,11 +16,10 @@ from grafu.joints.hinge.candidates import PinCandidate, fit_hinge, hinge_heights
 from grafu.joints.hinge.hardware import InstalledHinge, Site, install, judged_hinge
 from grafu.joints.hinge.pivot import pivot_ends
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
-from grafu.joints.limits import in_the_way, pose_function
+from grafu.joints.limits import in_the_way
 from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.joints.plan import PIVOT
 from grafu.templates.template import Gallery, HingeModel
-from grafu.vocabulary import JointType
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _LEAST_SHARE = 0.3  # an opening below this share of the wanted one is no motion
@@ -155,7 +154,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         door_rays=search.door_rays,
         obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
         neighbours=search.bodies_around,
-        motion=cache(pose_function(judged.axis, JointType.REVOLUTE)),
+        motion=cache(judged.axis.rotation),
         upper=upper,
         depth=search.depth,
         anchor=search.config.anchor * unit,

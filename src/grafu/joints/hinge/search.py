@@ -30,7 +30,6 @@ from grafu.joints.limits import (
     all_blockers,
     free_opening,
     in_the_way,
-    pose_function,
     sweep,
     swept_box,
     widest_free,
@@ -38,7 +37,6 @@ from grafu.joints.limits import (
 from grafu.joints.plan import PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Obstacle, Scene
-from grafu.vocabulary import JointType
 
 _SLIM = 0.5  # barrel radius of a slim hinge, a share of what suits the door
 _LOOSER = 4.0  # seams and steps for a class that is forced: support blocks bridge what remains
@@ -210,11 +208,11 @@ class DoorSearch:
 
     def met_at_rest(self) -> tuple[str, ...]:
         """Returns what the door cuts into before it has moved at all."""
-        return sweep(self.body, pose_function(self.best().axis, JointType.REVOLUTE), 0.0, self.obstacles, 1).blockers
+        return sweep(self.body, self.best().axis.rotation, 0.0, self.obstacles, 1).blockers
 
     def widest(self, axis: Axis, reach: float) -> float:
         """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
-        motion = pose_function(axis, JointType.REVOLUTE)
+        motion = axis.rotation
         near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
         return widest_free(self.body, motion, reach, near, self.config.fine_poses)
 
@@ -223,7 +221,7 @@ class DoorSearch:
 
     def _judge(self, pin: PinCandidate) -> JudgedPin:
         axis = self.frame.axis_at(pin.x, pin.y)
-        motion = pose_function(axis, JointType.REVOLUTE)
+        motion = axis.rotation
         box = swept_box(self.box, motion, self.wanted)
         poses = self.config.coarse_poses
         free, share = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)

@@ -18,7 +18,6 @@ from grafu.joints.limits import (
     all_blockers,
     free_opening,
     in_the_way,
-    pose_function,
     sweep,
     swept_box,
     widest_free,
@@ -28,7 +27,7 @@ from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, 
 from grafu.joints.rail.spots import front_only_region
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _FLAT = 0.2  # a board is thinner than this share of its smaller side
 _FLUSH = 1e-3  # metres by which an attached part may stand out and still count as behind a drawer's front side
@@ -67,7 +66,7 @@ class DrawerSearch:
     @property
     def motion(self) -> PoseFunction:
         """The motion from rest at a travel in metres."""
-        return pose_function(self.axis, JointType.PRISMATIC)
+        return self.axis.shift
 
     @cached_property
     def static_rays(self) -> RayCaster:

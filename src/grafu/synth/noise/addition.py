@@ -9,12 +9,13 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.sampling.chance import between, chance
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 
 @final
@@ -50,7 +51,7 @@ def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     still = [p for p in asset.parts if p.label.is_support]
     for joint in asset.joints:
         along = int(np.argmax(np.abs(joint.axis.direction)))
-        if joint.type is JointType.REVOLUTE or along == 2 or abs(joint.axis.direction[along]) < 0.999:
+        if motion_kind(joint.type).turns or along == 2 or abs(joint.axis.direction[along]) < 0.999:
             continue
         body = _body(asset.part(joint.part), along, float(joint.axis.direction[along]))
         if body is None:

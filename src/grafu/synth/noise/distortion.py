@@ -9,12 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Points, Vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation
-from grafu.vocabulary import JointType
 
 STRAIGHT = 0.93  # mean largest component of a face normal: 1 for boards along the axes, 0.87 for a door at 30 degrees
 
@@ -53,7 +53,7 @@ def ajar(asset: Asset, part_id: str, share: float) -> Asset:
         raise ValueError(f"`share` must be in 0..1: got {share}")
     joint = next(j for j in asset.joints if j.part == part_id)
     amount = share * joint.upper
-    T = joint.axis.rotation(amount) if joint.type is JointType.REVOLUTE else joint.axis.shift(amount)
+    T = motion_kind(joint.type).transform(joint.axis, amount)
     shorter = replace(joint, upper=joint.upper - amount)
     return replace(
         asset,
@@ -89,10 +89,9 @@ def _moved(part: Part, T: Mat4) -> Part:
 
 
 def _stretched_joint(joint: AnnotatedJoint, T: Mat4) -> AnnotatedJoint:
-    if joint.type is JointType.REVOLUTE:
-        return replace(joint, axis=joint.axis.transformed(T))
-    growth = float(np.linalg.norm(T[:3, :3] @ joint.axis.direction))
-    axis = joint.axis.transformed(T, rotational=False)
+    kind = motion_kind(joint.type)
+    growth = kind.length_scale(float(np.linalg.norm(T[:3, :3] @ joint.axis.direction)))
+    axis = kind.mapped_axis(joint.axis, T)
     return replace(joint, axis=axis, lower=joint.lower * growth, upper=joint.upper * growth)
 
 

@@ -14,13 +14,14 @@ from typing import Final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, translation
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 
 def with_sheets(asset: Asset, where: Collection[str] = ()) -> Asset:
@@ -116,8 +117,7 @@ def with_shifted(asset: Asset, part_id: str, offset: Vec3) -> Asset:
         replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) if p.id in moving else p for p in asset.parts
     )
     joints = (
-        replace(j, axis=j.axis.transformed(T, rotational=j.type is JointType.REVOLUTE)) if j.part in moving else j
-        for j in asset.joints
+        replace(j, axis=motion_kind(j.type).mapped_axis(j.axis, T)) if j.part in moving else j for j in asset.joints
     )
     return replace(asset, parts=tuple(parts), joints=tuple(joints))
 

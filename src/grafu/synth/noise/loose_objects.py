@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from jaxtyping import Float
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -24,7 +25,7 @@ from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import BIRCH, STEEL
 from grafu.synth.pieces.shapes import turned
 from grafu.synth.sampling.chance import between, chance, count
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 Boxes = Float[np.ndarray, "_ 2 3"]  # lows and highs
 SAME = 0.0002  # metres within which two boxes are one: what is there already is not put there again
@@ -58,7 +59,7 @@ def _swept_boxes(asset: Asset) -> Boxes:
     for joint in asset.joints:
         moving = [p for p in asset.parts if joint.part in (p.id, p.rides_on)]
         boxes = [s.mesh.box for part in moving for s in part.surfaces]
-        if joint.type is JointType.PRISMATIC:
+        if motion_kind(joint.type).slides:
             ends = np.array([(b.low, b.high) for b in boxes])
             way = joint.axis.direction * joint.upper
             found.append(
@@ -212,7 +213,7 @@ def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     for joint in asset.joints:
         box = asset.part(joint.part).box
         way = joint.axis.direction
-        if joint.type is JointType.REVOLUTE:
+        if motion_kind(joint.type).turns:
             way = np.cross(way, box.center - joint.axis.point)
         if way[int(np.argmax(np.abs(way)))] * -1 < 0.9 * float(np.linalg.norm(way)) or np.argmax(np.abs(way)) != 1:
             continue  # only on fronts that face -Y

@@ -9,13 +9,14 @@ from itertools import pairwise
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.pieces.finish import surface_of
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _FRONT_ZONE = 0.03  # metres behind a drawer's front within which its boards belong to the front itself
 
@@ -91,7 +92,7 @@ def with_box_apart(asset: Asset, drawer_id: str) -> Asset:
     They are labelled misc: none of them is a panel of the case. Boards that do not reach the front stay with one that
     does. A drawer that is a front alone stays as it is.
     """
-    slides = [j.axis.direction for j in asset.joints if j.part == drawer_id and j.type is JointType.PRISMATIC]
+    slides = [j.axis.direction for j in asset.joints if j.part == drawer_id and motion_kind(j.type).slides]
     if not slides:
         return asset
     drawer, slide = asset.part(drawer_id), slides[0]

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.edit import centred
 from grafu.asset.part import IDENTITY_FRAME, AnnotatedJoint, Asset, Part, PartSource
 from grafu.geometry.appearance import Material, Surface
@@ -27,7 +28,7 @@ class PieceMotion:
 
     def transformed(self, T: Mat4) -> "PieceMotion":
         """Returns the motion mapped by a rigid T."""
-        return replace(self, axis=self.axis.transformed(T, rotational=self.type is JointType.REVOLUTE))
+        return replace(self, axis=motion_kind(self.type).mapped_axis(self.axis, T))
 
 
 @final

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.motion_kind import motion_kind
 from grafu.articulation.sweep import values_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.edges import Hinge, Rail
@@ -21,7 +22,7 @@ from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.synth.specimen import DefectKind, Specimen
 from grafu.synth.truth.clashes import articulated_of, clashes_of
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 FaultKind = Literal[
     "collision",  # a moving part cuts into another on its way, those it waits for being open
@@ -117,10 +118,9 @@ def _label_faults(whole: Asset) -> Iterator[Fault]:
     for part in whole.parts:
         if joints[part.id] != part.label.is_movable:
             yield Fault("label", (part.id,), f"a {part.label} with {joints[part.id]} joints")
-    expected = {JointType.REVOLUTE: PartLabel.DOOR, JointType.PRISMATIC: PartLabel.DRAWER}
     for joint in whole.joints:
         label = whole.part(joint.part).label
-        if label.is_movable and expected.get(joint.type) is not label:
+        if label.is_movable and motion_kind(joint.type).label is not label:
             yield Fault("label", (joint.part,), f"a {label} with a {joint.type} joint")
 
 
@@ -151,9 +151,9 @@ def _limit_faults(whole: Asset) -> Iterator[Fault]:
     for joint in whole.joints:
         if joint.lower != 0.0:
             yield Fault("limit", (joint.part,), f"from {joint.lower:.3f}, not from 0")
-        if joint.type is JointType.REVOLUTE and not DOOR_OPENING[0] <= joint.upper <= DOOR_OPENING[1]:
+        if motion_kind(joint.type).turns and not DOOR_OPENING[0] <= joint.upper <= DOOR_OPENING[1]:
             yield Fault("limit", (joint.part,), f"opens by {joint.upper:.3f} rad")
-        if joint.type is JointType.PRISMATIC:
+        if motion_kind(joint.type).slides:
             yield from _slide_faults(whole, joint, still)
 
 
@@ -176,9 +176,9 @@ def _size_faults(whole: Asset) -> Iterator[Fault]:
     for joint in whole.joints:
         size = whole.part(joint.part).box.size
         across = float(np.median(size))  # of a board, the shorter of the two sides that are seen
-        if joint.type is JointType.REVOLUTE and across < LEAST_DOOR:
+        if motion_kind(joint.type).turns and across < LEAST_DOOR:
             yield Fault("size", (joint.part,), f"a door {across:.3f} m across")
-        if joint.type is JointType.PRISMATIC and size[2] < LEAST_DRAWER:
+        if motion_kind(joint.type).slides and size[2] < LEAST_DRAWER:
             yield Fault("size", (joint.part,), f"a drawer {size[2]:.3f} m high")
 
 
@@ -211,9 +211,9 @@ def _graph_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
     for rail in truth.rails:
         rails[rail.child].append(rail)
     for joint in whole.joints:
-        revolute = joint.type is JointType.REVOLUTE
+        turns = motion_kind(joint.type).turns
         yield from (
-            _hinge_faults(joint, hinges[joint.part], truth) if revolute else _rail_faults(joint, rails[joint.part])
+            _hinge_faults(joint, hinges[joint.part], truth) if turns else _rail_faults(joint, rails[joint.part])
         )
     yield from _attachment_faults(whole, truth)
     loose = _unreached(truth)

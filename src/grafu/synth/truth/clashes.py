@@ -18,13 +18,13 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.articulation.kinematics import all_before
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Mat4, Scalars
 from grafu.geometry.box_stack import BoxStack, box_frames, overlapping, penetrations, stacked
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.noise.tessellation import is_two_sided
-from grafu.vocabulary import JointType
 
 DEPTH = 0.001  # metres that parts may sink into one another: below what a modeller sees, above rounding
 POSES = 10  # of a turning part; a part that slides along its own edges is followed without gaps
@@ -34,7 +34,7 @@ _BOX_FACES = 12
 
 def joint_motion(joint: AnnotatedJoint, value: float) -> Mat4:
     """Returns the 4x4 motion of a part from rest at a joint value, radians or metres."""
-    return joint.axis.rotation(value) if joint.type is JointType.REVOLUTE else joint.axis.shift(value)
+    return motion_kind(joint.type).transform(joint.axis, value)
 
 
 def clashes_of(asset: Asset) -> "Clashes":
@@ -172,7 +172,7 @@ class _Path:
 
     def __init__(self, joint: AnnotatedJoint, boxes: BoxStack) -> None:
         slides = np.zeros(len(boxes), dtype=bool)
-        if joint.type is JointType.PRISMATIC:
+        if motion_kind(joint.type).slides:
             along = np.abs(np.einsum("nij,i->nj", boxes.rotations, joint.axis.direction))
             slides = along.max(axis=1) > 1.0 - 1e-9
         turning = np.flatnonzero(~slides)

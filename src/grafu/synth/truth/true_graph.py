@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.point_distance import point_triangle_distances
@@ -18,7 +19,7 @@ from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 PIN_SAMPLES = np.linspace(0.1, 0.9, 5)  # shares of a door's border: its ends are where other parts are nearest
 RAIL_SAMPLES = np.linspace(0.25, 0.9, 4)  # shares of a drawer's depth: the front itself often laps the case
@@ -76,10 +77,10 @@ def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, stil
     if not still:
         return []
     touching = set(graph.neighbours[part.id])
-    if joint.type is JointType.REVOLUTE and part.label is PartLabel.DOOR:
+    if motion_kind(joint.type).turns and part.label is PartLabel.DOOR:
         border, sign = axis_to_hinge(part.box, joint.axis)
         return [Hinge(_door_mount(joint, part, still, touching), part.id, border, sign)]
-    if joint.type is JointType.PRISMATIC and part.label is PartLabel.DRAWER:
+    if motion_kind(joint.type).slides and part.label is PartLabel.DRAWER:
         slide = axis_to_rail(joint.axis)
         return [Rail(mount, part.id, slide) for mount in _drawer_mounts(joint, part, still, touching)]
     return []

@@ -91,5 +91,6 @@ class Controls {
 }
 
 function amount(joint, value) {
-  return joint.type === "revolute" ? `${((value * 180) / Math.PI).toFixed(0)}°` : `${(value * 100).toFixed(1)} cm`;
+  const [factor, digits, suffix] = joint.shown;
+  return `${(value * factor).toFixed(digits)}${suffix}`;
 }

@@ -50,8 +50,9 @@ class Joints {
   }
 
   motion(index) {
-    const { type, axis } = this.joints[index], value = this.values[index];
-    return type === "revolute" ? turn(axis[0], axis[1], value) : shift(times(axis[1], value));
+    const { motion: [turned, shifted], axis } = this.joints[index], value = this.values[index];
+    const about = turned ? turn(axis[0], axis[1], turned * value) : IDENTITY;
+    return shifted ? product(shift(times(axis[1], shifted * value)), about) : about;
   }
 
   // Moves all joints, stage after stage, to open (true) or closed; `again` is called when that is done.

@@ -21,8 +21,8 @@ class Overlay {
     const above = poses[this.scene.links[link].parent];
     const drawn = (line) => {
       const [p, d] = line, near = add(p, times(d, dot(minus(seen.center, p), d)));
-      const from = joint.type === "prismatic" ? seen.center : near, half = 0.62 * seen.size;
-      return [times(d, joint.type === "prismatic" ? 0 : -half), times(d, half)].map((by) => {
+      const from = joint.motion[0] ? near : seen.center, half = 0.62 * seen.size;
+      return [times(d, joint.motion[0] ? -half : 0), times(d, half)].map((by) => {
         const moved = mapped(above, add(from, by)), clip = mapped(matrix, moved);
         return [(0.5 + clip[0] / clip[3] / 2) * width, (0.5 - clip[1] / clip[3] / 2) * height];
       });
