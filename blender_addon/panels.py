@@ -155,6 +155,8 @@ class GRAFU_PT_additions(_ResultPanel, bpy.types.Panel):
             layout.template_list("GRAFU_UL_additions", "", session, "additions", session, "addition_index", rows=3)
         else:
             layout.label(text="Nothing was added")
+        if session.left_out:
+            draw_text(context, layout, f"Left out:\n{session.left_out}")
 
 
 class GRAFU_PT_interior(_ResultPanel, bpy.types.Panel):

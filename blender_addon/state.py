@@ -18,6 +18,7 @@ from bpy.props import (
 )
 
 KIND, ID = "grafu", "id"
+_LISTED = 8  # things that were left out, in the sidebar
 LEVELS = [("ok", "ok", ""), ("warning", "warning", ""), ("error", "error", "")]
 _shown: dict = {}  # by the scene's name, the slot that was shown last: a click on a lamp changes no panel
 
@@ -90,6 +91,7 @@ class GRAFU_Session(bpy.types.PropertyGroup):
     joint_index: IntProperty(update=_chosen)
     addition_index: IntProperty()
     part_index: IntProperty()
+    left_out: StringProperty(description="What was to be added and was not, each with the reason")
     furnished: StringProperty(description="The compartments of which something was chosen")
     colours: BoolProperty()
 
@@ -197,6 +199,7 @@ def store(session, settings, report_json: str, interior_json: str, made) -> None
     session.is_filling = True
     _fill_joints(session, settings, report, made)
     _fill_additions(session, settings, report)
+    session.left_out = _left_out(report)
     session.parts.clear()
     for part in report.parts:
         row = session.parts.add()
@@ -208,6 +211,15 @@ def store(session, settings, report_json: str, interior_json: str, made) -> None
     )
     session.joint_index = next((k for k, row in enumerate(session.joints) if row.part == chosen), 0)
     session.is_filling = False
+
+
+def _left_out(report) -> str:
+    """Returns what was to be added and was not, a line each; of many, how many more."""
+    from grafu.pipeline.triage import left_out
+
+    lines = left_out(report)
+    more = [f"and {len(lines) - _LISTED} more: see report.json"] if len(lines) > _LISTED else []
+    return "\n".join([*lines[:_LISTED], *more])
 
 
 def _fill_joints(session, settings, report, made) -> None:

@@ -30,6 +30,7 @@ from grafu import errors
 from grafu.asset import options
 from grafu.export.formats import FORMATS
 from grafu.pipeline import inspection, report_schema
+from grafu.refusal import Reason
 
 DOCS = Path(__file__).parent.parent / "docs"
 
@@ -45,7 +46,7 @@ field is never removed or given another meaning within a version of the form; fi
 ERRORS_HEAD = """\
 # Errors
 
-<!-- drawn by scripts/docs.py from src/grafu/errors.py -->
+<!-- drawn by scripts/docs.py from src/grafu/errors.py and src/grafu/refusal.py -->
 
 Everything that grafu raises on purpose is one of these. The message is one line: what was given, what was expected, how
 to fix it. The command prints it on stderr and exits with 2; with several inputs the others go on, and it exits with 1.
@@ -53,8 +54,8 @@ to fix it. The command prints it on stderr and exits with 2; with several inputs
 REASONS_HEAD = """\
 ## Reasons, not errors
 
-A part that cannot be made to move is no exception: it stands in `skipped` of the [report](report.md), with one of these
-reasons, and the rest of the piece is built.
+A part that cannot be made to move, or a thing that cannot be added, is no exception: it stands in `skipped` of the
+[report](report.md) with one of these reasons as its `cause`, and the rest of the piece is built.
 """
 
 
@@ -184,7 +185,8 @@ def report_page() -> str:
 def errors_page() -> str:
     """Returns docs/errors.md."""
     tree = "\n".join(branch(errors.FunctionalizationError, 0))
-    reasons = "\n".join(f"- `{reason.value}`" for reason in report_schema.SkipReason)
+    rows = "\n".join(f"| `{reason.value}` | {reason.sentence} |" for reason in Reason)
+    reasons = f"| reason | in a sentence |\n|---|---|\n{rows}"
     return f"{ERRORS_HEAD}\n```text\n{tree}\n```\n\n{REASONS_HEAD}\n{reasons}\n"
 
 

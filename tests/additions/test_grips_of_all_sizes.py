@@ -10,10 +10,11 @@ from test_recessed_grips import DRAWER_MOTION, scene_of
 
 from grafu.additions.grip.carve import carve_grip
 from grafu.additions.grip.config import GripConfig, GripKind
-from grafu.additions.grip.outcome import Carved, GripRefusal
+from grafu.additions.grip.outcome import Carved
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import rotation_matrix
+from grafu.refusal import Reason
 from small_scenes import box
 
 SIZES = st.tuples(st.floats(0.03, 2.0), st.floats(0.004, 0.06), st.floats(0.03, 2.0))
@@ -29,7 +30,7 @@ def test_a_grip_is_sound_and_keeps_its_margins_or_is_refused(size, grip, depth, 
     wish = vec3(spot[0] * size[0], 0.0, spot[1] * size[2])
     result = carve_grip(scene_of(board, DRAWER_MOTION), "drawer", config, wish)
     if not isinstance(result, Carved):
-        assert result.reason in (GripRefusal.TOO_SMALL, GripRefusal.TOO_THIN, GripRefusal.TOO_THICK)
+        assert result.reason in (Reason.TOO_SMALL, Reason.TOO_THIN, Reason.TOO_THICK)
         return
     assert_sound(board, result)
     assert result.part.mesh.is_closed

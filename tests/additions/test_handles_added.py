@@ -9,11 +9,12 @@ import trimesh
 from front_scenes import cabinet, scaled, scene_of, with_parts, without_handles
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.grasp import find_grasps
-from grafu.additions.handle.place import Handles, NoHandle, add_handles, bodies_without
+from grafu.additions.handle.place import Handles, add_handles, bodies_without
 from grafu.asset.part import Asset
 from grafu.errors import TemplateError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.intersection import MeshCollider
+from grafu.refusal import Reason
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
 from grafu.synth.samples import KINDS
 from grafu.templates.handles import HANDLES
@@ -174,7 +175,7 @@ def test_a_door_too_small_for_anything_is_refused():
     sliver = box("door", (0.0, -0.02, 0.0), (0.012, 0.0, 0.6))
     found = scene_of(scene(sliver, box("side", (-0.02, 0.0, 0.0), (0.0, 0.6, 1.0)), joints=(hinged("door"),)))
     refused = add_handles(found, {m: replace(g, kind="none") for m, g in find_grasps(found).items()}).refused
-    assert [(r.moving, r.reason) for r in refused] == [("door", NoHandle.TOO_SMALL)]
+    assert [(r.part, r.reason) for r in refused] == [("door", Reason.TOO_SMALL)]
 
 
 def test_a_door_right_behind_something_is_refused_and_says_what_is_in_the_way():
@@ -184,7 +185,7 @@ def test_a_door_right_behind_something_is_refused_and_says_what_is_in_the_way():
     screen = box("screen", (around.low[0], y - 0.02, around.low[2]), (around.high[0], y - 0.004, around.high[2]))
     found = scene_of(with_parts(asset, screen))
     handles = add_handles(found, find_grasps(found))
-    assert [(r.moving, r.reason) for r in handles.refused] == [("door", NoHandle.BLOCKED)]
+    assert [(r.part, r.reason) for r in handles.refused] == [("door", Reason.IN_THE_WAY)]
     assert "screen" in handles.refused[0].why
 
 
@@ -194,7 +195,7 @@ def test_a_pane_alone_carries_no_handle():
     pane = next(s for s in door.surfaces if s.material.base_color[3] < 0.95)
     glass = replace(door, surfaces=tuple(replace(s, material=pane.material) for s in door.surfaces))
     handles = added(replace(asset, parts=tuple(glass if p is door else p for p in asset.parts)))
-    assert [(r.moving, r.reason) for r in handles.refused] == [("door", NoHandle.NO_GROUND)]
+    assert [(r.part, r.reason) for r in handles.refused] == [("door", Reason.NO_GROUND)]
 
 
 @pytest.mark.parametrize("factor", [0.1, 10.0])

@@ -10,13 +10,14 @@ from grip_judge import assert_sound, least_wall
 
 from grafu.additions.grip.carve import carve_grip
 from grafu.additions.grip.config import GripConfig, GripKind
-from grafu.additions.grip.outcome import Carved, GripRefusal, Refused
+from grafu.additions.grip.outcome import Carved
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import JointMotion, MovingBody, Scene
 from grafu.vocabulary import JointType
 from judging import realized_kind, swept_collisions
@@ -50,9 +51,9 @@ def carved(scene: Scene, moving: str, config: GripConfig, spot=None) -> Carved:
     return result
 
 
-def reason(scene: Scene, moving: str, config: GripConfig) -> GripRefusal:
+def reason(scene: Scene, moving: str, config: GripConfig) -> Reason:
     result = carve_grip(scene, moving, config)
-    assert isinstance(result, Refused), result.kind
+    assert isinstance(result, Refusal), result.kind
     return result.reason
 
 
@@ -152,7 +153,7 @@ def test_a_sliding_door_is_gripped_at_the_edge_that_trails():
 def test_a_sheet_takes_a_hole_and_a_notch_but_no_groove():
     sheet = replace(DOOR, surfaces=(Surface(TriangleMesh(vec4_sheet(), np.array([[0, 1, 2], [0, 2, 3]]))),))
     scene = scene_of(sheet, DOOR_MOTION)
-    assert reason(scene, "door", of_kind(GripKind.GROOVE)) is GripRefusal.NO_THICKNESS
+    assert reason(scene, "door", of_kind(GripKind.GROOVE)) is Reason.NO_THICKNESS
     for kind in (GripKind.HOLE, GripKind.EDGE):
         result = carved(scene, "door", of_kind(kind))
         assert result.volume == 0.0
@@ -179,32 +180,32 @@ def test_a_hollow_board_of_sheets_is_lined_where_it_is_cut(kind):
 
 
 REFUSALS = {
-    "motion unknown": (lambda: replace(scene_of(DOOR, DOOR_MOTION), joint_motions={}), "auto", GripRefusal.NO_MOTION),
+    "motion unknown": (lambda: replace(scene_of(DOOR, DOOR_MOTION), joint_motions={}), "auto", Reason.NO_MOTION),
     "a slat": (
         lambda: scene_of(box("door", (0.0, -0.02, 0.0), (0.03, 0.0, 0.6)), DOOR_MOTION), GripKind.GROOVE,
-        GripRefusal.TOO_SMALL,
+        Reason.TOO_SMALL,
     ),
     "a board of three millimetres": (
         lambda: scene_of(box("door", (0.0, -0.003, 0.0), (0.4, 0.0, 0.6)), DOOR_MOTION), GripKind.GROOVE,
-        GripRefusal.TOO_THIN,
+        Reason.TOO_THIN,
     ),
     "a solid drawer": (
-        lambda: scene_of(drawer().part("drawer"), DRAWER_MOTION), GripKind.HOLE, GripRefusal.TOO_THICK,
+        lambda: scene_of(drawer().part("drawer"), DRAWER_MOTION), GripKind.HOLE, Reason.TOO_THICK,
     ),
     "glass": (
         lambda: scene_of(with_material(DOOR, Material("glass", (1.0, 1.0, 1.0, 0.3))), DOOR_MOTION), "auto",
-        GripRefusal.GLASS,
+        Reason.GLASS,
     ),
     "a board right behind": (
         lambda: scene_of(DOOR, DOOR_MOTION, box("panel", (0.0, 0.002, 0.0), (0.4, 0.02, 0.6))), GripKind.HOLE,
-        GripRefusal.NO_FINGER_ROOM,
+        Reason.NO_FINGER_ROOM,
     ),
     "a board right before": (
         lambda: scene_of(DOOR, DOOR_MOTION, box("panel", (0.0, -0.03, 0.0), (0.4, -0.022, 0.6))), GripKind.GROOVE,
-        GripRefusal.NO_FINGER_ROOM,
+        Reason.NO_FINGER_ROOM,
     ),
     "a plate all over": (
-        lambda: scene_of(DOOR, DOOR_MOTION, hardware=(("door", PLATE),)), "auto", GripRefusal.TAKEN,
+        lambda: scene_of(DOOR, DOOR_MOTION, hardware=(("door", PLATE),)), "auto", Reason.TAKEN,
     ),
 }  # fmt: skip
 
@@ -270,7 +271,7 @@ def test_made_furniture_is_carved_soundly_or_not_at_all(name, kind):
 def test_every_front_of_made_furniture_takes_some_grip(name):
     scene = final_scene(name)
     bare = replace(scene, moving_bodies={m.id: MovingBody(m.id, (m.id,)) for m in scene.moving_bodies.values()})
-    refused = [r for m in bare.joint_motions if isinstance(r := carve_grip(bare, m, GripConfig()), Refused)]
+    refused = [r for m in bare.joint_motions if isinstance(r := carve_grip(bare, m, GripConfig()), Refusal)]
     assert refused == []
 
 

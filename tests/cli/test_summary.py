@@ -8,8 +8,8 @@ from obj_inputs import CABINET, write_cabinet
 
 from grafu.cli.job import Failed, Job, JobOptions, Succeeded, run_job
 from grafu.cli.summary import print_results
-from grafu.joints.report import SkipReason
 from grafu.pipeline.report_schema import SkippedRecord
+from grafu.refusal import Reason
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +61,7 @@ def test_what_happened_to_the_input_is_told_but_not_without_end(
 
 
 def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys: pytest.CaptureFixture[str]) -> None:
-    skipped = tuple(SkippedRecord(request=f"part_{k}", reason=SkipReason.NO_ROOM, detail="narrow") for k in range(3))
+    skipped = tuple(SkippedRecord(request=f"part_{k}", reason=Reason.NO_ROOM, detail="narrow") for k in range(3))
     print_results([replace(topless, report=topless.report.model_copy(update={"skipped": skipped}))])
     said = capsys.readouterr().out
 
@@ -72,7 +72,7 @@ def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys
 def test_what_somebody_stopped_is_told_as_asked_and_of_many_it_is_nothing_to_look_at(
     topless: Succeeded, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    skip = SkippedRecord(request="door_9", reason=SkipReason.REJECTED, detail="it was decided")
+    skip = SkippedRecord(request="door_9", reason=Reason.REJECTED, detail="it was decided")
     stopped = replace(topless, report=topless.report.model_copy(update={"skipped": (skip,)}))
     print_results([stopped])
     row = next(line for line in capsys.readouterr().out.splitlines() if "door_9" in line)

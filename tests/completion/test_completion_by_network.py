@@ -16,10 +16,11 @@ from grafu.completion.rule_scene import RuleScene
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import KINDS, LABELS
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.refusal import Refusal
 from grafu.vocabulary import EdgeKind, PartLabel
 from network_answers import FREE, SURE, Answers
 
@@ -236,8 +237,8 @@ def test_what_nothing_seen_carries_moves_as_a_carpenter_finds() -> None:
     scene = RuleScene(completion.completed)
     hung, run = (rule(completion.completed.node(i), scene) for rule, i in ((hang_door, "door"), (run_drawer, "drawer")))
 
-    assert not isinstance(hung, RefusedMotion)
-    assert not isinstance(run, RefusedMotion)
+    assert not isinstance(hung, Refusal)
+    assert not isinstance(run, Refusal)
     assert set(completion.completed.hinges) | set(completion.completed.rails) == {*hung[0], *run[0]}
     assert {d.question for d in completion.decisions if d.part == "door"} == {"border", "sign", "mount"}
     assert {d.by for d in completion.decisions if d.question != "parent"} == {"rule"}

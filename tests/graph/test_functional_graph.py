@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import (
     as_contacts,
@@ -19,6 +19,7 @@ from grafu.graph.edit import (
     without_nodes,
 )
 from grafu.graph.functional_graph import FunctionalGraph, PartNode, joined_groups
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 LABELS = {
@@ -176,7 +177,9 @@ def test_scaling_scales_boxes():
 def test_a_completion_leaves_no_movable_part_in_silence():
     with pytest.raises(GraphError, match=r"\['drawer'\] have neither"):
         GraphCompletion(graph(), graph(EDGES[0]), "rule")
-    assert GraphCompletion(graph(), graph(EDGES[0]), "rule", refused=(RefusedMotion("drawer", "stuck"),)).refused
+    assert GraphCompletion(
+        graph(), graph(EDGES[0]), "rule", refused=(Refusal("drawer", Reason.NO_MOTION, "stuck"),)
+    ).refused
 
 
 def test_a_completion_accounts_for_every_node():

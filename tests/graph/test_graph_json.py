@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Contact, Hinge, Rail
 from grafu.graph.edit import as_contacts
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -23,6 +23,7 @@ from grafu.graph.official_json import (
 )
 from grafu.graph.serialize import completion_from_json, completion_to_json, dump_json, graph_from_json, graph_to_json
 from grafu.graph.serialize import load_json as load
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 numbers = st.floats(-3, 3, allow_nan=False)
@@ -58,7 +59,9 @@ def test_our_form_round_trips_exactly(border, sign, axis, x, cloud, word):
 def test_a_completion_round_trips_exactly():
     full = graph()
     decisions = (Decision("door", "mount", "zz side", 1 / 3, "drawer", 0.1, "rule"),)
-    completion = GraphCompletion(as_contacts(full), full, "rule", (), decisions, (RefusedMotion("knob", "why not"),))
+    completion = GraphCompletion(
+        as_contacts(full), full, "rule", (), decisions, (Refusal("knob", Reason.NO_MOTION, "why not"),)
+    )
     text = dump_json(completion_to_json(completion))
     assert completion_from_json(load(text)) == completion
     assert graph_from_json(load(text)) == full
@@ -260,7 +263,7 @@ def test_a_prediction_is_anchored_to_its_input():
     assert completion.completed.node("door").box == given_graph.node("door").box
     assert completion.completed.hinges == (Hinge("zz side", "door", 1, 1),)
     assert completion.completed.attachments == (Attached("drawer", "slot04_handle"),)
-    assert completion.refused == (RefusedMotion("drawer", "the prediction states no motion"),)
+    assert completion.refused == (Refusal("drawer", Reason.NO_MOTION, "the prediction states no motion"),)
 
 
 def test_a_prediction_refuses_a_slot_used_twice_or_missing():

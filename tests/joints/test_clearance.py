@@ -7,7 +7,7 @@ import pytest
 
 from grafu.articulation.articulated_object import VisualRole
 from grafu.joints.config import RealizationConfig
-from grafu.joints.report import SkipReason
+from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door
 from grafu.synth.noise import edits
@@ -73,8 +73,8 @@ def test_without_trimming_parts_stay_and_the_trouble_is_told(kind):
     assert clearances(result) == []
     assert all(visuals(result)[p.id].surfaces == p.surfaces for p in asset.parts)
     (stuck,) = {o.moving for o in realized_kind(kind).report.installed if o.clearances}
-    told = {s.request: s.reason for s in result.report.skipped}
-    assert told.get(stuck) is SkipReason.BLOCKED or installed(result)[stuck].collision_share > 0
+    told = {s.part: s.reason for s in result.report.skipped}
+    assert told.get(stuck) is Reason.BLOCKED or installed(result)[stuck].collision_share > 0
 
 
 @pytest.mark.parametrize("sunk", [0.001, 0.004])

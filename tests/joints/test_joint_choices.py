@@ -12,7 +12,8 @@ from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import JointChoice
 from grafu.joints.realize import Realized, realize
-from grafu.joints.report import Installed, Skipped
+from grafu.joints.report import Installed
+from grafu.refusal import Refusal
 from grafu.vocabulary import MechanismClass
 from judging import GALLERY, hardware, made_kind, swept_collisions
 from small_scenes import DOOR, SIDE, box, drawer, hinged, scene
@@ -25,9 +26,9 @@ def chosen(asset: Asset, **choices: JointChoice) -> Realized:
     return realize(with_choices(plan_from_annotation(asset), choices, asset, GALLERY), asset, GALLERY)
 
 
-def outcome(result: Realized, part: str) -> Installed | Skipped:
+def outcome(result: Realized, part: str) -> Installed | Refusal:
     found = [o for o in result.report.installed if o.moving == part]
-    return found[0] if found else next(o for o in result.report.skipped if o.request == part)
+    return found[0] if found else next(o for o in result.report.skipped if o.part == part)
 
 
 def clean(result: Realized, part: str) -> bool:
@@ -42,8 +43,8 @@ def test_a_forced_class_is_built_and_free_or_refused_by_name(kind, mechanism):
     result = chosen(asset, door_1=JointChoice(mechanism=mechanism))
     made = outcome(result, "door_1")
     assert outcome(result, "door_2").template
-    if isinstance(made, Skipped):
-        assert f"class {mechanism}" in made.detail
+    if isinstance(made, Refusal):
+        assert f"class {mechanism}" in made.why
     else:
         assert made.mechanism is mechanism
         assert clean(result, "door_1")
@@ -76,8 +77,8 @@ def test_more_hinges_than_find_room_are_refused_not_left_out():
     board = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.04))
     wall = box("side", (-0.02, 0.0, 0.0), (0.0, 0.4, 0.04))
     made = outcome(chosen(scene(board, wall, joints=(hinged(),)), door=JointChoice(count=12)), "door")
-    assert isinstance(made, Skipped)
-    assert "12 of them" in made.detail
+    assert isinstance(made, Refusal)
+    assert "12 of them" in made.why
 
 
 def test_scale_makes_hinges_larger_and_keeps_the_door_free():
@@ -119,7 +120,7 @@ def test_flipping_hangs_the_door_on_its_other_border_and_opens_to_the_same_side(
 
 def test_a_door_with_nothing_on_its_other_border_is_not_flipped_into_the_air():
     made = outcome(chosen(scene(DOOR, SIDE, joints=(hinged(),)), door=JointChoice(flipped=True)), "door")
-    assert isinstance(made, Skipped) or made.mount == "side"
+    assert isinstance(made, Refusal) or made.mount == "side"
 
 
 @pytest.mark.parametrize("mechanism", [MechanismClass.CENTRE, MechanismClass.CORNER])

@@ -11,7 +11,8 @@ from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import JointChoice, Supports
 from grafu.joints.realize import Realized, realize
-from grafu.joints.report import Installed, Skipped
+from grafu.joints.report import Installed
+from grafu.refusal import Refusal
 from grafu.vocabulary import MechanismClass
 from judging import GALLERY, hardware, swept_collisions
 from small_scenes import DOOR, SIDE, box, drawer, hinged, scene, sliding
@@ -81,8 +82,8 @@ def test_without_supports_rails_stand_where_they_touch_walls_and_nowhere_else():
     assert isinstance(near.report.outcomes[0], Installed)
     assert not supports_of(near)
     far = built(closed_case(), Supports.NONE)
-    assert isinstance(far.report.outcomes[0], Skipped)
-    assert "supports: none" in far.report.outcomes[0].detail
+    assert isinstance(far.report.outcomes[0], Refusal)
+    assert "supports: none" in far.report.outcomes[0].why
 
 
 @pytest.mark.parametrize("supports", list(Supports))

@@ -6,9 +6,9 @@ import pytest
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.realize import realize
-from grafu.joints.report import SkipReason
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import JointType
 from judging import GALLERY, installed, made_kind, realized
 from small_scenes import DOOR, LEFT_EDGE, SIDE, box, hinged, scene, sliding
@@ -22,15 +22,15 @@ CAGE = (
     box("before", (-0.05, -0.12, 0.0), (0.45, -0.03, 0.6)),
     box("behind", (-0.05, 0.01, 0.0), (0.45, 0.12, 0.6)),
 )
-NOWHERE = {SkipReason.NO_FACING_SURFACES, SkipReason.NO_ROOM}
+NOWHERE = {Reason.NO_FACING_SURFACES, Reason.NO_ROOM}
 
 
-def skipped(asset) -> dict[str, SkipReason]:
+def skipped(asset) -> dict[str, Reason]:
     result = realized(asset)
     root = result.object.link(result.object.root)
-    reasons = {s.request: s.reason for s in result.report.skipped}
+    reasons = {s.part: s.reason for s in result.report.skipped}
     assert reasons.keys() <= {v.name for v in root.visuals}  # it stands with the static body
-    assert all(s.detail and "\n" not in s.detail for s in result.report.skipped)
+    assert all(s.why and "\n" not in s.why for s in result.report.skipped)
     return reasons
 
 
@@ -50,24 +50,24 @@ def test_moving_bodies_cannot_carry_one_another():
 
 
 def test_a_door_walled_in_on_all_sides_is_blocked():
-    assert skipped(scene(DOOR, *CAGE, joints=(hinged(),))) == {"door": SkipReason.BLOCKED}
+    assert skipped(scene(DOOR, *CAGE, joints=(hinged(),))) == {"door": Reason.BLOCKED}
 
 
 @pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])
 def test_parts_that_slide_up_or_down_are_unsupported(direction):
     asset = scene(DOOR, SIDE, joints=(sliding("door", direction),))
-    assert skipped(asset) == {"door": SkipReason.UNSUPPORTED}
+    assert skipped(asset) == {"door": Reason.UNSUPPORTED}
 
 
 def test_a_sliding_door_with_nothing_above_or_below_has_no_room():
     asset = scene(DOOR, SIDE, joints=(sliding("door", (1.0, 0.0, 0.0)),))
-    assert skipped(asset) == {"door": SkipReason.NO_ROOM}
+    assert skipped(asset) == {"door": Reason.NO_ROOM}
 
 
 def test_a_part_without_a_motion_says_so():
     result = realized(scene(DOOR, SIDE))
-    assert [(s.request, s.reason) for s in result.report.skipped] == [("door", SkipReason.NO_MOTION)]
-    assert result.report.skipped[0].detail == "the input states no joint for it"
+    assert [(s.part, s.reason) for s in result.report.skipped] == [("door", Reason.NO_MOTION)]
+    assert result.report.skipped[0].why == "the input states no joint for it"
 
 
 def test_one_blocked_door_does_not_cost_the_others():
@@ -88,9 +88,9 @@ def test_a_plan_of_nothing_leaves_everything_as_it_was():
 
 
 def test_refusals_are_reported_in_their_own_words():
-    plan = RealizationPlan(refused=(Refusal("door", "nobody knows"),))
+    plan = RealizationPlan(refused=(Refusal("door", Reason.NO_MOTION, "nobody knows"),))
     (outcome,) = realize(plan, scene(DOOR, SIDE), GALLERY).report.skipped
-    assert (outcome.request, outcome.reason, outcome.detail) == ("door", SkipReason.NO_MOTION, "nobody knows")
+    assert (outcome.part, outcome.reason, outcome.why) == ("door", Reason.NO_MOTION, "nobody knows")
 
 
 def test_the_first_of_two_requests_for_a_part_counts():

@@ -9,11 +9,12 @@ from hypothesis import strategies as st
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.graph.completion import GraphCompletion, RefusedMotion
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import as_contacts, with_edges, without_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.metrics.graph_accuracy import GraphAccuracy, Share, graph_accuracy, total_accuracy
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 from small_graphs import cabinet
 
@@ -50,7 +51,7 @@ def test_the_non_functional_graph_has_its_nodes_and_contacts_alone() -> None:
 
 def test_a_completion_counts_as_its_completed_graph() -> None:
     still = as_contacts(TRUTH)
-    refused = tuple(RefusedMotion(n.id, "none") for n in still.nodes if n.label.is_movable)
+    refused = tuple(Refusal(n.id, Reason.NO_MOTION, "none") for n in still.nodes if n.label.is_movable)
     assert graph_accuracy(GraphCompletion(still, still, "rule", refused=refused), TRUTH) == graph_accuracy(still, TRUTH)
 
 

@@ -8,12 +8,13 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import parse_graph
 from grafu.pipeline.built_graph import as_built
+from grafu.refusal import Reason, Refusal
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door
 from grafu.vocabulary import PartLabel
@@ -33,7 +34,7 @@ def expected(model: Asset, *nodes: PartNode) -> GraphCompletion:
     larger = FunctionalGraph(graph.model_id, (*graph.nodes, *nodes), graph.edges)
     handles = [Attached(door_of(model), n.id) for n in nodes if n.label is PartLabel.HANDLE]
     decisions = tuple(Decision(n.id, "exists", "yes", 0.75) for n in nodes)
-    refused = (RefusedMotion(door_of(model), "it was not asked"),)
+    refused = (Refusal(door_of(model), Reason.NO_MOTION, "it was not asked"),)
     return GraphCompletion(
         graph, with_edges(larger, handles), "network", tuple(n.id for n in nodes), decisions, refused
     )
@@ -83,7 +84,7 @@ def test_what_was_expected_and_not_built_is_gone_with_all_that_was_said_of_it() 
     assert built.added == ()
     assert built.completed == built.input
     assert built.decisions == ()
-    assert built.refused == (RefusedMotion(door_of(model), "it was not asked"),)
+    assert built.refused == (Refusal(door_of(model), Reason.NO_MOTION, "it was not asked"),)
 
 
 def test_what_was_added_and_not_expected_has_no_decisions() -> None:

@@ -10,11 +10,11 @@ from grafu.export.formats import export
 from grafu.geometry.budget import Budget, present_budget
 from grafu.joints import build_all
 from grafu.joints.build_all import joint_share
-from grafu.joints.report import SkipReason
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.processes.cache import content_key
+from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
@@ -34,7 +34,7 @@ def run(asset: Asset, budget: Budget, on_stage=lambda _: None) -> Functionalized
 
 
 def too_complex(found: Functionalized) -> set[str]:
-    return {skip.request for skip in report_of(found).skipped if skip.reason is SkipReason.TOO_COMPLEX}
+    return {skip.request for skip in report_of(found).skipped if skip.reason is Reason.TOO_COMPLEX}
 
 
 def test_a_budget_that_holds_all_changes_nothing(asset: Asset) -> None:

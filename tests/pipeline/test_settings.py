@@ -182,7 +182,7 @@ def test_a_handle_that_finds_no_room_is_told_with_what_took_its_place():
     said = {}
     for count in (1, 2):
         result = run(sideboard, base.with_front("door_1", HandleChoice("bail", count)))
-        said[count] = [s.detail for s in result.fittings.skipped if s.request == "door_1"]
+        said[count] = [s.why for s in result.fittings.skipped if s.part == "door_1"]
         styles = {style for name, style in added(result).items() if name.startswith("handle")}
         assert styles == {"bail"} if not said[count] else any(f"it got `{style}`" in said[count][0] for style in styles)
     assert not said[1]
@@ -207,7 +207,7 @@ def test_compartments_get_what_is_chosen_for_each(asset):
     shelves = [a.part for a in result.additions if a.part.label is PartLabel.SHELF]
     assert [round(float(p.box.size[2]), 4) for p in shelves] == [0.01, 0.01]
     beyond = run(asset, BASE.with_compartment(len(found), CompartmentChoice(shelves=1)))
-    assert any(f"compartment {len(found) + 1}" in s.request for s in beyond.fittings.skipped)
+    assert any(f"compartment {len(found) + 1}" in s.part for s in beyond.fittings.skipped)
 
 
 def test_corrected_labels_change_what_is_built_and_say_who_said_so(asset):

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
-from grafu.joints.report import SkipReason
 from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
@@ -23,6 +22,7 @@ from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import LEAST_CONFIDENCE, LEAST_OPENING, MOST_CARVED, verdict_of
+from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
@@ -62,7 +62,7 @@ def without_joint(report: Report, part: str) -> Report:
 
 
 def skipped(report: Report, joint: JointRecord, size: float) -> Report:
-    reasons = [reason for reason in SkipReason if reason not in (SkipReason.REJECTED, SkipReason.NOT_ADDED)]
+    reasons = [reason for reason in Reason if reason is not Reason.REJECTED]
     skip = SkippedRecord(request=joint.part, reason=reasons[int(size * (len(reasons) - 1))], detail="")
     left = without_joint(report, joint.part)
     return left.model_copy(update={"skipped": (*left.skipped, skip)})

@@ -8,11 +8,12 @@ from page_reader import PageReader
 
 from grafu.cli.job import Job, JobOptions, Succeeded
 from grafu.cli.summary import print_results
-from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
-from grafu.pipeline.report_schema import SkippedRecord
+from grafu.pipeline.report_schema import NOT_ADDED, SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import verdict_of
+from grafu.refusal import Asked, Reason
+from grafu.viewer.report_tables import not_built_table
 from grafu.viewer.run_table import RunEntry, functionalized_run
 
 PRAISE = ("Everything works", "Nothing was skipped", "all else that was asked for was built")
@@ -92,11 +93,18 @@ def test_hinges_that_were_added_are_not_said_to_be_nothing(made):
 
 def test_the_verdict_is_escaped(made):
     attack = "<img src=x onerror='window.hurt=1'>"
-    skip = SkippedRecord(request=attack, reason=SkipReason.NOT_ADDED, detail=attack)
+    skip = SkippedRecord(request=attack, reason=NOT_ADDED, detail=attack)
     read = page_with(made, skipped=(skip,))
 
     assert verdict_of(made.report.model_copy(update={"skipped": (skip,)})).lines[0].kind is FaultKind.NOT_BUILT
     assert [image for image in read.all("img") if "onerror" in image] == []
+
+
+def test_why_something_was_not_added_stands_in_a_sentence(made):
+    skip = SkippedRecord(request="door", reason=NOT_ADDED, detail="no edge", what=Asked.GRASP, cause=Reason.TOO_SMALL)
+    rows = not_built_table(made.report.model_copy(update={"skipped": (skip,)}))
+    assert Reason.TOO_SMALL.sentence in rows
+    assert "no edge" in rows
 
 
 def test_of_a_run_the_red_come_before_the_yellow_before_the_green(made):

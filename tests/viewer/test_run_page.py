@@ -4,11 +4,12 @@ import pytest
 from made_models import ATTACK
 from page_reader import PageReader
 
-from grafu.joints.report import SkipReason
-from grafu.pipeline.report_schema import SkippedRecord
+from grafu.pipeline.report_schema import NOT_ADDED, SkippedRecord
+from grafu.refusal import Reason
 from grafu.viewer.run_page import binned, run_page
 from grafu.viewer.run_table import Column, Figure, Run, RunEntry, RunRow, RunTable, functionalized_run
 
+REASONS = (*Reason, NOT_ADDED)
 COLUMNS = (
     Column("model"),
     Column("note"),
@@ -115,7 +116,7 @@ def test_reports_become_rows(made):
 
 def test_what_somebody_stopped_is_no_fault(made):
     first, *rest = made.report.joints
-    skips = {why: SkippedRecord(request=first.part, reason=why, detail="") for why in SkipReason}
+    skips = {why: SkippedRecord(request=first.part, reason=why, detail="") for why in REASONS}
     entries = [
         RunEntry(why, made.report.model_copy(update={"joints": tuple(rest), "skipped": (skip,)}))
         for why, skip in skips.items()
@@ -123,10 +124,10 @@ def test_what_somebody_stopped_is_no_fault(made):
     rows = {row.cells[0]: row for row in functionalized_run("Run", entries).tables[0].rows}
     figures = {figure.what: figure.value for figure in functionalized_run("Run", entries).figures}
 
-    assert {name for name, row in rows.items() if not row.flagged} == {SkipReason.REJECTED}
-    assert rows[SkipReason.REJECTED].cells[1:3] == ("green", "")
-    assert (figures["green"], figures["red"]) == ("1", str(len(SkipReason) - 1))
-    assert figures["doors and drawers that stand still"] == str(len(SkipReason) - 1)
+    assert {name for name, row in rows.items() if not row.flagged} == {Reason.REJECTED}
+    assert rows[Reason.REJECTED].cells[1:3] == ("green", "")
+    assert (figures["green"], figures["red"]) == ("1", str(len(REASONS) - 1))
+    assert figures["doors and drawers that stand still"] == str(len(REASONS) - 1)
 
 
 def test_a_run_without_rows_is_a_page():

@@ -2,11 +2,11 @@
 
 import pytest
 
-from grafu.joints.report import SkipReason
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.deficiencies import DeficiencyKind
-from grafu.pipeline.report_schema import AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
+from grafu.pipeline.report_schema import NOT_ADDED, AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
 from grafu.pipeline.words import counted, listed
+from grafu.refusal import Reason
 from grafu.viewer.wording import (
     added,
     axis_words,
@@ -69,16 +69,16 @@ def test_what_was_built_is_no_longer_lacking(made):
 def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
     door = made.report.joints[0].part
     lack = DeficiencyRecord(kind=DeficiencyKind.HINGE, part=door, detail="")
-    skips = {reason: SkippedRecord(request=door, reason=reason, detail="") for reason in SkipReason}
+    skips = {reason: SkippedRecord(request=door, reason=reason, detail="") for reason in (*Reason, NOT_ADDED)}
     changes = {"joints": made.report.joints[1:], "deficiencies": (lack,)}
 
     def said(reason):
         return made.report.model_copy(update={**changes, "skipped": (skips[reason],)})
 
-    assert facts(said(SkipReason.REJECTED)).endswith(f"As asked, {door} stands still.")
-    assert still_lacking(said(SkipReason.REJECTED)) == ()
-    assert "As asked" not in facts(said(SkipReason.BLOCKED))
-    assert still_lacking(said(SkipReason.BLOCKED)) == (lack,)
+    assert facts(said(Reason.REJECTED)).endswith(f"As asked, {door} stands still.")
+    assert still_lacking(said(Reason.REJECTED)) == ()
+    assert "As asked" not in facts(said(Reason.BLOCKED))
+    assert still_lacking(said(Reason.BLOCKED)) == (lack,)
 
 
 def test_counts_and_lists_are_words():

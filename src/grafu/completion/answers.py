@@ -11,12 +11,13 @@ from grafu.completion.rows import slides_past
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.votes import Ranking
 from grafu.geometry.budget import present_budget
-from grafu.graph.completion import Decision, Question, RefusedMotion
+from grafu.graph.completion import Decision, Question
 from grafu.graph.edges import Edge
 from grafu.graph.functional_graph import PartNode
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
-MotionAnswer = tuple[tuple[Edge, ...], tuple[Decision, ...]] | RefusedMotion
+MotionAnswer = tuple[tuple[Edge, ...], tuple[Decision, ...]] | Refusal
 """The edges of a moving part with the confidence of each choice; or why there are none."""
 
 _DECIDING = 0.9  # of the time that is left: with so many doors, some decided are worth more than none
@@ -30,7 +31,7 @@ class Motions:
 
     edges: tuple[Edge, ...]
     decisions: tuple[Decision, ...]
-    refused: tuple[RefusedMotion, ...]
+    refused: tuple[Refusal, ...]
 
 
 def move_parts(
@@ -43,16 +44,16 @@ def move_parts(
     budget = present_budget().share(_DECIDING)
     edges: list[Edge] = []
     decisions: list[Decision] = []
-    refused: list[RefusedMotion] = []
+    refused: list[Refusal] = []
     stated = {hinge.child for hinge in scene.graph.hinges} | {rail.child for rail in scene.graph.rails}
     for node in scene.graph.labelled(PartLabel.DOOR, PartLabel.DRAWER):
         if node.id in stated:
             continue
         if budget.left == 0:
-            refused.append(RefusedMotion(node.id, _TIME_IS_UP, is_too_complex=True))
+            refused.append(Refusal(node.id, Reason.TOO_COMPLEX, _TIME_IS_UP))
             continue
         answer = _hung(node, scene, hang) if node.label is PartLabel.DOOR else run(node)
-        if isinstance(answer, RefusedMotion):
+        if isinstance(answer, Refusal):
             refused.append(answer)
         else:
             edges += answer[0]
@@ -70,4 +71,6 @@ def _hung(door: PartNode, scene: RuleScene, hang: Callable[[PartNode], MotionAns
     other = slides_past(door, scene)
     if other is None:
         return hang(door)
-    return RefusedMotion(door.id, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built")
+    return Refusal(
+        door.id, Reason.NO_MOTION, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built"
+    )

@@ -15,10 +15,11 @@ from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
 from grafu.completion.view import View
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.refusal import Refusal
 from grafu.vocabulary import PartLabel
 
 
@@ -29,7 +30,7 @@ class DecodedGraph:
 
     view: View
     decisions: tuple[Decision, ...]
-    refused: tuple[RefusedMotion, ...]
+    refused: tuple[Refusal, ...]
 
     @property
     def held(self) -> frozenset[str]:
@@ -52,7 +53,7 @@ def decode_graph(
     decisions: tuple[Decision, ...] = ()
     known = {edge.child for edge in view.graph.attachments}
     found: list[Attached] = []
-    refused: list[RefusedMotion] = []
+    refused: list[Refusal] = []
     for handle in view.graph.labelled(PartLabel.HANDLE):
         if handle.id in known:
             continue
@@ -60,7 +61,7 @@ def decode_graph(
             found.append(Attached(parents[handle.id], handle.id))
             continue
         answer = choose_parent(handle, view)
-        if isinstance(answer, RefusedMotion):
+        if isinstance(answer, Refusal):
             refused.append(answer)
         else:
             found.append(answer[0])

@@ -14,7 +14,7 @@ from grafu.completion.rows import across_axis, pair_side, row_size
 from grafu.completion.rule_scene import CARRIES, RuleScene, offset_share
 from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, RefusedMotion
+from grafu.graph.completion import Decision
 from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import (
@@ -25,6 +25,7 @@ from grafu.graph.motion import (
     sign_for_opening,
     signed_axis,
 )
+from grafu.refusal import Reason, Refusal
 
 # Parts farther than this share of the object from a border carry nothing there.
 _REACH = 0.1
@@ -39,12 +40,16 @@ _EDGE, _UPRIGHT = 0.5, 0.7
 def hang_door(door: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the hinge of a door with the confidence of each choice, or why it gets none."""
     if not scene.supports:
-        return RefusedMotion(door.id, "there is no static part to hang it on: label the parts that stand still")
+        return Refusal(
+            door.id, Reason.NO_MOTION, "there is no static part to hang it on: label the parts that stand still"
+        )
     thin = door.box.thin_axis
     front, border = vote_front(door, scene), vote_border(door, scene)
     mount = vote_mount(door, border.choice, scene)
     if mount is None:
-        return RefusedMotion(door.id, "no static part is near enough to any of its borders to carry a hinge")
+        return Refusal(
+            door.id, Reason.NO_MOTION, "no static part is near enough to any of its borders to carry a hinge"
+        )
     sign = sign_for_opening(thin, border.choice, front.choice)
     flipped = "" if front.runner_up is None else str(1 - sign)
     decisions = (

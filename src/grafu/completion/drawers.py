@@ -10,10 +10,10 @@ from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.rule_scene import CARRIES, RuleScene
 from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
-from grafu.graph.completion import RefusedMotion
 from grafu.graph.edges import Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import code_to_direction, opposite, signed_axis
+from grafu.refusal import Reason, Refusal
 
 _DIRECTIONS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
 _NEAR = 0.03  # shares of the object
@@ -24,11 +24,13 @@ _LEAST_FLANK = 0.05
 def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer with the confidence of each choice, or why it gets none."""
     if not scene.supports:
-        return RefusedMotion(drawer.id, "there is no static part to run it on: label the parts that stand still")
+        return Refusal(
+            drawer.id, Reason.NO_MOTION, "there is no static part to run it on: label the parts that stand still"
+        )
     way = vote_direction(drawer, scene)
     mounts = _flanks(drawer, way.choice, scene) or _nearest(drawer, scene)
     if not mounts:
-        return RefusedMotion(drawer.id, "no static part is near enough to carry a rail")
+        return Refusal(drawer.id, Reason.NO_MOTION, "no static part is near enough to carry a rail")
     rails = tuple(Rail(mount.choice, drawer.id, way.choice) for mount in mounts)
     decisions = (decision_of(drawer.id, "mount", mount) for mount in mounts)
     return rails, (decision_of(drawer.id, "slide", way), *decisions)

@@ -8,10 +8,11 @@ import numpy as np
 from grafu.completion.rule_scene import NodeBoxes
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
-from grafu.graph.completion import Decision, RefusedMotion
+from grafu.graph.completion import Decision
 from grafu.graph.edges import Attached
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 # A handle farther than this share of the object from every door and drawer belongs to none of them.
@@ -26,7 +27,7 @@ class Attachments:
 
     graph: FunctionalGraph
     decisions: tuple[Decision, ...]
-    refused: tuple[RefusedMotion, ...]
+    refused: tuple[Refusal, ...]
 
 
 def attach_handles(graph: FunctionalGraph) -> Attachments:
@@ -35,14 +36,14 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
     held = {edge.child for edge in graph.attachments}
     edges: list[Attached] = []
     decisions: list[Decision] = []
-    refused: list[RefusedMotion] = []
+    refused: list[Refusal] = []
     for handle in graph.labelled(PartLabel.HANDLE):
         if handle.id in held:
             continue
         misfits = _misfits(handle, movable, graph) if movable.nodes else []
         ranked = sorted(zip(misfits, (n.id for n in movable.nodes), strict=True), key=lambda item: item[0])
         if not ranked or ranked[0][0] > _FAR:
-            refused.append(RefusedMotion(handle.id, _NO_PARENT))
+            refused.append(Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT))
             continue
         edges.append(Attached(ranked[0][1], handle.id))
         decisions.append(_decision(handle, ranked))

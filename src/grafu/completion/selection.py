@@ -24,10 +24,11 @@ from grafu.completion.view import View
 from grafu.completion.votes import Ranking, chosen_of, ranking_of
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL
-from grafu.graph.completion import BY_BOTH, BY_RULE, Decision, RefusedMotion
+from grafu.graph.completion import BY_BOTH, BY_RULE, Decision
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
+from grafu.refusal import Reason, Refusal
 
 _LEAST = 1e-3  # what the rule did not vote for stays possible
 
@@ -57,17 +58,19 @@ SOME_CHANCE = 0.05  # of being the parent, where no edge says so
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
-def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | RefusedMotion:
+def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | Refusal:
     """Returns the door or drawer that a handle is fixed to, or why there is none."""
     if not len(view.moving_bodies):
-        return RefusedMotion(handle.id, _NO_PARENT)
+        return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.unit]
     if not len(slots):
-        return RefusedMotion(handle.id, _NO_PARENT)
+        return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     shares, none = parent_shares(view.place[handle.id], slots, view)
     attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
     if none >= view.config.no_parent and attached.max() < 0.5:
-        return RefusedMotion(handle.id, f"the network takes it for decoration ({none:.2f}): it is on no door or drawer")
+        return Refusal(
+            handle.id, Reason.NO_MOTION, f"the network takes it for decoration ({none:.2f}): it is on no door or drawer"
+        )
     ranking = ranking_of(view.ids(slots), shares)
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
 
@@ -90,13 +93,15 @@ def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
     outwards. `scene` is the same graph with its handles attached: where they sit says which face is the front.
     """
     if not len(view.supports):
-        return RefusedMotion(door.id, _NO_SUPPORT)
+        return Refusal(door.id, Reason.NO_MOTION, _NO_SUPPORT)
     slot, slots = view.place[door.id], view.within_reach(door, view.supports)
     hinged = view.probabilities.edge[slot, slots, HINGE]
     if hinged.max() < view.config.sure and (answer := _on_given(hang_door(door, scene), view)) is not None:
         return answer
     if hinged.max() < view.config.least_edge:
-        return RefusedMotion(door.id, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}")
+        return Refusal(
+            door.id, Reason.NO_MOTION, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}"
+        )
     mounts = softmax(view.probabilities.mount[slot, slots]) * hinged
     motions = view.probabilities.hinge[slot, slots]
     motion = np.einsum("k,kbs->bs", mounts, motions)
@@ -119,13 +124,13 @@ def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
 def choose_rails(drawer: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer, on two flanks where two parts carry it, or why it gets none."""
     if not len(view.supports):
-        return RefusedMotion(drawer.id, _NO_SUPPORT)
+        return Refusal(drawer.id, Reason.NO_MOTION, _NO_SUPPORT)
     slot, slots = view.place[drawer.id], view.within_reach(drawer, view.supports)
     railed = view.probabilities.edge[slot, slots, RAIL]
     if railed.max() < view.config.least_edge:
         answer = _on_given(run_drawer(drawer, scene), view)
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
-        return RefusedMotion(drawer.id, why) if answer is None else answer
+        return Refusal(drawer.id, Reason.NO_MOTION, why) if answer is None else answer
     shares = railed @ view.probabilities.slide[slot, slots]
     slide = chosen_of(SIGNED_AXES, shares, leaned_way(drawer, shares, view.config.outward, scene))
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
@@ -144,7 +149,7 @@ def _by(ranking: Ranking[Any]) -> str:
 
 def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
     """Returns the rule's answer without what hangs on parts that the input lacks; None where nothing is left."""
-    if isinstance(answer, RefusedMotion):
+    if isinstance(answer, Refusal):
         return None
     edges, decisions = answer
     kept = tuple(edge for edge in edges if isinstance(edge, Hinge | Rail) and edge.parent in view.given)

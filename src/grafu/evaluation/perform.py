@@ -85,7 +85,7 @@ def method_facts(task: MethodTask) -> MethodFacts:
     result = made_by(task.method, asset, task.model.id)
     raw = raw_object(result.asset, result.plan)
     measures = measure_parts(raw, truth, asset.unit), measure_parts(result.object, truth, asset.unit)
-    skipped = {skip.request: f"{skip.reason.value}: {skip.detail}" for skip in result.report.skipped}
+    skipped = {skip.part: f"{skip.reason.value}: {skip.why}" for skip in result.report.skipped}
     parts = []
     for part, bare, fixed in zip(truth, *measures, strict=True):
         judged = judge_motion(raw, asset, part)

@@ -16,10 +16,10 @@ from grafu.errors import GraphError
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.graph.completion import RefusedMotion
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import axis_to_hinge, axis_to_rail, signed_axis
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 _NOT_STATED = "the annotation states no joint for it"
@@ -34,7 +34,7 @@ class AnnotatedEdges:
     """
 
     edges: tuple[Attached | Hinge | Rail, ...]
-    refused: tuple[RefusedMotion, ...]
+    refused: tuple[Refusal, ...]
 
 
 def annotated_edges(asset: Asset, graph: FunctionalGraph) -> AnnotatedEdges:
@@ -53,7 +53,7 @@ def annotated_edges(asset: Asset, graph: FunctionalGraph) -> AnnotatedEdges:
             refused.pop(part, None)
         except GraphError as error:
             refused[part] = str(error)
-    return AnnotatedEdges(tuple(edges), tuple(RefusedMotion(part, why) for part, why in refused.items()))
+    return AnnotatedEdges(tuple(edges), tuple(Refusal(part, Reason.NO_MOTION, why) for part, why in refused.items()))
 
 
 def _attachments(asset: Asset, graph: FunctionalGraph) -> Iterable[Attached]:

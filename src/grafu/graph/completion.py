@@ -5,6 +5,7 @@ from typing import Literal, final
 
 from grafu.errors import GraphError
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.refusal import Refusal
 
 BY_RULE, BY_BOTH = "rule", "network and rule"
 """`Decision.by`: a rule answers in the network's place, or leans its choice."""
@@ -39,19 +40,6 @@ class Decision:
 
 
 @final
-@dataclass(frozen=True, slots=True)
-class RefusedMotion:
-    """A movable part that is left static, and why, in words.
-
-    `is_too_complex` says that there was no time to decide how it moves: another run, with more time, may.
-    """
-
-    part: str
-    why: str
-    is_too_complex: bool = False
-
-
-@final
 @dataclass(frozen=True, repr=False)
 class GraphCompletion:
     """A completed graph and how it came about.
@@ -69,7 +57,7 @@ class GraphCompletion:
     source: str
     added: tuple[str, ...] = ()
     decisions: tuple[Decision, ...] = ()
-    refused: tuple[RefusedMotion, ...] = ()
+    refused: tuple[Refusal, ...] = ()
 
     def __repr__(self) -> str:
         return f"<GraphCompletion by {self.source}: {self.completed!r}, {len(self.added)} nodes added>"

@@ -12,7 +12,7 @@ import numpy as np
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.transform import quaternion_matrix
-from grafu.graph.completion import GraphCompletion, RefusedMotion
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
 from grafu.graph.json_values import Json, read_list, read_object, read_text, read_vector
@@ -25,6 +25,7 @@ from grafu.graph.official_motion import (
     read_hinge,
     read_rail,
 )
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 _DIGITS = 6  # the authors' builder rounds to micrometres
@@ -89,7 +90,7 @@ def prediction_from_official(data: Json, given: FunctionalGraph) -> GraphComplet
     reading = _read_edges(given.model_id, tuple(named.values()) + lost, {"edges": renamed})
     moved = {h.child for h in reading.graph.hinges} | {r.child for r in reading.graph.rails}
     still = [n.id for n in reading.graph.nodes if n.label.is_movable and n.id not in moved]
-    refused = tuple(RefusedMotion(i, "the prediction states no motion") for i in still)
+    refused = tuple(Refusal(i, Reason.NO_MOTION, "the prediction states no motion") for i in still)
     added = tuple(n.id for n in reading.graph.nodes if n.id not in given)
     return GraphCompletion(given, reading.graph, "official prediction", added, (), refused)
 

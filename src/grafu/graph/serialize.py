@@ -29,11 +29,12 @@ import numpy as np
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.completion import Decision, GraphCompletion, Question, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion, Question
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.json_values import Json, read_code, read_list, read_object, read_score, read_text, read_vector
 from grafu.graph.official_motion import motion_fields, node_to_material
+from grafu.refusal import Reason, Refusal
 from grafu.visible import writable
 from grafu.vocabulary import EdgeKind, PartLabel
 
@@ -57,7 +58,7 @@ def completion_to_json(completion: GraphCompletion) -> dict[str, Any]:
             "source": completion.source,
             "added": list(completion.added),
             "decisions": [asdict(d) for d in completion.decisions],
-            "refused": [asdict(r) for r in completion.refused],
+            "refused": [_refusal_to_json(r) for r in completion.refused],
             "input": graph_to_json(completion.input),
         }
     }
@@ -196,6 +197,12 @@ def _decision_from_json(data: Json) -> Decision:
     )
 
 
-def _refusal_from_json(data: Json) -> RefusedMotion:
+def _refusal_to_json(refusal: Refusal) -> Json:
+    is_too_complex = refusal.reason is Reason.TOO_COMPLEX
+    return {"part": refusal.part, "why": refusal.why, "is_too_complex": is_too_complex}
+
+
+def _refusal_from_json(data: Json) -> Refusal:
     part, why = read_text(data, "part", "a refusal"), read_text(data, "why", "a refusal")
-    return RefusedMotion(part, why, is_too_complex=data.get("is_too_complex") is True)
+    is_too_complex = data.get("is_too_complex") is True
+    return Refusal(part, Reason.TOO_COMPLEX if is_too_complex else Reason.NO_MOTION, why)

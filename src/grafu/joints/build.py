@@ -19,7 +19,8 @@ from grafu.joints.placement import Placement
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
-from grafu.joints.report import Clearance, Skipped, SkipReason
+from grafu.joints.report import Clearance
+from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
@@ -40,7 +41,7 @@ class Built:
     wanted: float
 
 
-def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
+def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
     """Returns the joint as built, or why it could not be; a chosen opening may be wider than doors have by default."""
     opening = request.choice.opening
     if opening is not None:
@@ -48,10 +49,10 @@ def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     return _BUILDERS[request.type](request, scene, gallery, config)
 
 
-def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
+def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
     search = door_search(request, scene, config)
     if not search.has_pins:
-        return Skipped(request.moving, SkipReason.NO_ROOM, f"what stands around it allows no {request.choice}")
+        return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")
     clearances: tuple[Clearance, ...] = ()
     share = search.best().free / search.wanted
     if share < 1.0:
@@ -72,10 +73,10 @@ def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
     return place_hinges(door_search(search.request, search.scene, search.config, met), gallery) if met else None
 
 
-def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Skipped:
+def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
     search = drawer_search(request, scene, config)
     if search is None:
-        return Skipped(request.moving, SkipReason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
+        return Refusal(request.moving, Reason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
     clearances: tuple[Clearance, ...] = ()
     share = search.free_share()
     if share < 1.0:
@@ -107,7 +108,7 @@ def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearan
     return (placement, scene, clearances) if placement else None
 
 
-_BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationConfig], Built | Skipped]] = {
+_BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationConfig], Built | Refusal]] = {
     JointType.REVOLUTE: _build_door,
     JointType.PRISMATIC: _build_drawer,
 }
@@ -118,18 +119,18 @@ def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path
     return Path(request.moving, request.kind.along(axis), reach, axes, request.kind.turns)
 
 
-def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Skipped:
+def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Refusal:
     """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     if not any(o.collider.box.overlaps(box, config.contact * scene.unit) for o in scene.static_obstacles):
         detail = f"no static part is near enough to carry a {what}"
-        return Skipped(request.moving, SkipReason.NO_FACING_SURFACES, detail)
+        return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < 0.3:
         detail = "it cannot move freely about any candidate axis, not even with the clearance allowed"
-        return Skipped(request.moving, SkipReason.BLOCKED, detail)
+        return Refusal(request.moving, Reason.BLOCKED, detail)
     detail = f"no {what} finds a hold on both sides without cutting into parts"
-    return Skipped(request.moving, SkipReason.NO_ROOM, detail)
+    return Refusal(request.moving, Reason.NO_ROOM, detail)
 
 
 def _built(request: JointRequest, found: _Found, wanted: float) -> Built:

@@ -18,8 +18,8 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.search import door_search
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.search import drawer_search
-from grafu.joints.report import Skipped, SkipReason
 from grafu.processes.cache import Cache
+from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
 
@@ -50,7 +50,7 @@ _TIMES_EVEN = 8  # a hard joint may take so many times an even part of the time 
 _MOST = 0.5  # and at most so much of it,
 _LEAST = 0.05  # and in any case so much: of very many joints some are built, rather than none
 
-Outcomes = tuple[list[Built], list[Skipped], Scene]
+Outcomes = tuple[list[Built], list[Refusal], Scene]
 
 
 def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
@@ -76,7 +76,7 @@ def build_fairly(
     budget = present_budget().share(_TRY)
     with budget.in_force():
         first = _build_all(requests, replace(scene, joint_motions=joint_motions), gallery, config, cache)
-        left = {skip.request for skip in first[1] if skip.reason is not SkipReason.TOO_COMPLEX} & joint_motions.keys()
+        left = {skip.part for skip in first[1] if skip.reason is not Reason.TOO_COMPLEX} & joint_motions.keys()
         asked = [request for request in requests if request.moving in left and request.kind.turns]
         if not asked or not first[0] or budget.left == 0:
             return first
@@ -90,10 +90,10 @@ def _build_all(
 ) -> Outcomes:
     """Returns the joints built, those that were not, and the scene with all hardware."""
     built: list[Built] = []
-    skipped: list[Skipped] = []
+    skipped: list[Refusal] = []
     for k, request in enumerate(requests):
         outcome = _build(request, len(requests) - k, scene, gallery, config, cache)
-        if isinstance(outcome, Skipped):
+        if isinstance(outcome, Refusal):
             skipped.append(outcome)
             scene = replace(
                 scene,
@@ -109,10 +109,10 @@ def _build_all(
 
 def _build(
     request: JointRequest, left: int, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
-) -> Built | Skipped:
+) -> Built | Refusal:
     """Returns one joint of those `left` to build, or why it could not be built."""
     work = partial(cache.value, "joint", build_joint, request, scene, gallery, config)
-    return within(joint_share(left), work, partial(Skipped, request.moving, SkipReason.TOO_COMPLEX))
+    return within(joint_share(left), work, partial(Refusal, request.moving, Reason.TOO_COMPLEX))
 
 
 def joint_share(left: int) -> float:

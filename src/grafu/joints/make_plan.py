@@ -13,11 +13,11 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
-from grafu.graph.completion import GraphCompletion, RefusedMotion
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.joints.carried import carried_parts
-from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
-from grafu.joints.report import SkipReason
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.refusal import Reason, Refusal
 
 # A limit on the other side of the drawn pose that is less than this share of the wider one is play, not motion.
 _PLAY = 0.25
@@ -33,7 +33,7 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
     requests = tuple(_from_joint(joint, asset) for joint in asset.joints)
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
     refused = tuple(
-        Refusal(part.id, f"{who} states no joint for it")
+        Refusal(part.id, Reason.NO_MOTION, f"{who} states no joint for it")
         for part in asset.parts
         if part.label.is_movable and part.id not in stated
     )
@@ -61,13 +61,8 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
         rides = attached.get(child, ())
         requests.append(JointRequest(child, edges[0].joint_type, axis, completion.source, None, mounts, rides))
     moved = {part for _, part in carried}
-    refused = tuple(_refusal(r) for r in completion.refused if r.part not in moved)
+    refused = tuple(r for r in completion.refused if r.part not in moved)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
-
-
-def _refusal(refused: RefusedMotion) -> Refusal:
-    reason = SkipReason.TOO_COMPLEX if refused.is_too_complex else SkipReason.NO_MOTION
-    return Refusal(refused.part, refused.why, reason)
 
 
 def attached_to(asset: Asset, attachments: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:

@@ -21,8 +21,8 @@ from grafu.joints.limits import in_the_way, sweep, swept_box
 from grafu.joints.order import Order
 from grafu.joints.placement import Placement
 from grafu.joints.plan import JointRequest
-from grafu.joints.report import Skipped, SkipReason
 from grafu.processes.cache import Cache
+from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
@@ -43,7 +43,7 @@ class Measured:
     figures: Mapping[str, Figures]
     orders: Mapping[str, Order]
     scene: Scene
-    skipped: tuple[Skipped, ...] = ()
+    skipped: tuple[Refusal, ...] = ()
 
 
 def measure_all(
@@ -51,22 +51,20 @@ def measure_all(
 ) -> Measured:
     """Returns what was measured on each joint; one that takes more than its share of the time is taken out again."""
     figures: dict[str, Figures] = {}
-    skipped: list[Skipped] = []
+    skipped: list[Refusal] = []
     for k, one in enumerate(built):
         name = one.request.moving
         work = partial(_measured, one, orders[name].upper, scene, config, cache)
-        found: Figures | Skipped = within(
-            joint_share(len(built) - k), work, partial(Skipped, name, SkipReason.TOO_COMPLEX)
-        )
-        if isinstance(found, Skipped):
+        found: Figures | Refusal = within(joint_share(len(built) - k), work, partial(Refusal, name, Reason.TOO_COMPLEX))
+        if isinstance(found, Refusal):
             skipped.append(found)
         else:
             figures[name] = found
-    return _without({skip.request for skip in skipped}, Measured(tuple(built), figures, orders, scene, tuple(skipped)))
+    return _without({skip.part for skip in skipped}, Measured(tuple(built), figures, orders, scene, tuple(skipped)))
 
 
-def _too_complex(name: str, why: str) -> Figures | Skipped:
-    return Skipped(name, SkipReason.TOO_COMPLEX, why)
+def _too_complex(name: str, why: str) -> Figures | Refusal:
+    return Refusal(name, Reason.TOO_COMPLEX, why)
 
 
 def _without(gone: set[str], measured: Measured) -> Measured:
@@ -84,7 +82,7 @@ def _without(gone: set[str], measured: Measured) -> Measured:
     return replace(measured, built=built, orders=orders, scene=replace(measured.scene, hardware=hardware))
 
 
-def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Skipped:
+def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Refusal:
     """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
     moving = built.request.moving
     motion = built.request.kind.along(built.placement.axis)

@@ -7,7 +7,7 @@ from typing import final
 
 from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.geometry.axis import Axis
-from grafu.joints.report import SkipReason
+from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
 
 PIVOT = "pivot"
@@ -106,22 +106,8 @@ class JointRequest:
 
 @final
 @dataclass(frozen=True)
-class Refusal:
-    """A movable part for which no joint is requested: the reason, and why, in words.
-
-    The reason is `NO_MOTION`, `TOO_COMPLEX` where there was no time to decide, or `REJECTED` where the user wants the
-    part to stand still.
-    """
-
-    part: str
-    why: str
-    reason: SkipReason = SkipReason.NO_MOTION
-
-
-@final
-@dataclass(frozen=True)
 class RealizationPlan:
-    """Everything to build on one asset."""
+    """Everything to build on one asset; `refused` are the movable parts for which no joint is requested."""
 
     joints: tuple[JointRequest, ...] = ()
     refused: tuple[Refusal, ...] = ()

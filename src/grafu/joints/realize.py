@@ -25,8 +25,8 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.joint_choice import short_of_chosen
 from grafu.joints.measuring import Measured, measure_all
 from grafu.joints.order import BuiltJoint, Order, order_joints, stand_aside
-from grafu.joints.plan import AUTOMATIC, JointRequest, RealizationPlan, Refusal
-from grafu.joints.report import Clearance, Installed, RealizationReport, Skipped
+from grafu.joints.plan import AUTOMATIC, JointRequest, RealizationPlan
+from grafu.joints.report import Clearance, Installed, RealizationReport
 from grafu.processes.cache import NO_CACHE, Cache
 from grafu.scene.border import part_axes
 from grafu.scene.scene import JointMotion, MovingBody, Scene
@@ -62,7 +62,7 @@ def realize(
     free = tuple(replace(request, choice=AUTOMATIC) for request in requests)
     scene, closed = cache.value("closed", _closed_scene, asset, free, config)
     built, failed, scene = build_fairly(requests, scene, gallery, config, cache)
-    skipped = [*(_refused(refusal) for refusal in plan.refused), *failed]
+    skipped = [*plan.refused, *failed]
     order = partial(cache.value, "order", _orders, tuple(built), scene, config)
     orders = within(_ORDERING, order, partial(_without_order, built))
     measured = measure_all(built, orders, scene, config, cache)
@@ -74,10 +74,6 @@ def realize(
     final = _final_scene(scene, built, measured.orders).afresh()
     forget_large_shapes()
     return Realized(articulated, RealizationReport((*installed, *skipped), timings), final)
-
-
-def _refused(refusal: Refusal) -> Skipped:
-    return Skipped(refusal.part, refusal.reason, refusal.why)
 
 
 def _final_scene(scene: Scene, built: Sequence[Built], orders: Mapping[str, Order]) -> Scene:

@@ -1,24 +1,11 @@
-"""The outcome of each request: installed with its figures, or skipped with a reason from a closed list."""
+"""The outcome of each request: installed with its figures, or refused with a reason."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import final
 
 from grafu.geometry.axis import Axis
+from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
-
-
-class SkipReason(StrEnum):
-    """Why something that was asked for could not be built."""
-
-    NO_FACING_SURFACES = "no facing surfaces"  # nothing static near enough to carry a mechanism
-    NO_ROOM = "no room"  # a mechanism would cut into parts
-    BLOCKED = "blocked"  # the part cannot move freely about any candidate axis
-    NO_MOTION = "no motion"  # its motion is unknown
-    REJECTED = "rejected"  # the user fixed the part
-    UNSUPPORTED = "unsupported motion"  # a kind of motion that is not built (drawers that slide up or down)
-    TOO_COMPLEX = "too complex"  # the work on it would take more time or memory than its share of the budget
-    NOT_ADDED = "not added"  # a part that is missing finds no place: a top, a handle, a shelf
 
 
 @final
@@ -71,17 +58,7 @@ class Installed:
     wanted: float | None = None
 
 
-@final
-@dataclass(frozen=True, slots=True)
-class Skipped:
-    """A request that was not built, why, and what would help."""
-
-    request: str
-    reason: SkipReason
-    detail: str = ""
-
-
-Outcome = Installed | Skipped
+Outcome = Installed | Refusal
 
 
 @final
@@ -98,6 +75,6 @@ class RealizationReport:
         return tuple(o for o in self.outcomes if isinstance(o, Installed))
 
     @property
-    def skipped(self) -> tuple[Skipped, ...]:
+    def skipped(self) -> tuple[Refusal, ...]:
         """The requests that were not built."""
-        return tuple(o for o in self.outcomes if isinstance(o, Skipped))
+        return tuple(o for o in self.outcomes if isinstance(o, Refusal))

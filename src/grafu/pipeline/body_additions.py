@@ -10,14 +10,14 @@ from grafu.additions.carcass.missing_panels import missing_panels
 from grafu.additions.drawer_box.complete import DrawerBoxes, complete_drawers, with_attached
 from grafu.additions.top.complete import TopVerdict, missing_tops
 from grafu.additions.top.config import DEFAULT_TOP
-from grafu.additions.top.replace import ReplacedTop, replace_top
+from grafu.additions.top.replace import ReplacedTop, no_top, replace_top
 from grafu.additions.top.unwanted import why_no_top
 from grafu.asset.part import Asset
 from grafu.geometry.box import Box
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.plan import RealizationPlan
-from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.addition_config import AdditionConfig
+from grafu.refusal import Refusal
 from grafu.vocabulary import PartLabel
 
 
@@ -35,7 +35,7 @@ class Body:
     carcass: CarcassCompletion
     drawers: DrawerBoxes
     additions: tuple[Addition, ...]
-    skipped: tuple[Skipped, ...]
+    skipped: tuple[Refusal, ...]
     removed: frozenset[str] = frozenset()
 
 
@@ -55,10 +55,7 @@ def complete_body(asset: Asset, completion: GraphCompletion, plan: RealizationPl
     else:
         carcass = complete_carcass(grown.parts, plan, config.carcass)
     carcass = replace(carcass, additions=_kept(carcass.additions, config))
-    skipped = [Skipped(r.part, SkipReason.NOT_ADDED, r.why) for r in carcass.refused]
-    skipped += [Skipped(r.part, SkipReason.NOT_ADDED, f"no drawer box: {r.why}") for r in drawers.refused]
-    if chosen.refused:
-        skipped.append(Skipped(PartLabel.TOP_PANEL.value, SkipReason.NOT_ADDED, chosen.refused))
+    skipped = [*carcass.refused, *drawers.refused, *([chosen.refused] if chosen.refused else [])]
     additions = (*above, *drawers.additions, *carcass.additions)
     return Body(_with(grown, carcass.additions), plan, top, carcass, drawers, additions, tuple(skipped), removed)
 
@@ -76,7 +73,7 @@ def _top(asset: Asset, completion: GraphCompletion, plan: RealizationPlan, confi
         return ReplacedTop(replace(top, covered=True, why=unwanted, addition=None, others=()))
     if config.top is None:
         return ReplacedTop(replace(top, addition=None, others=()))
-    return ReplacedTop(top, frozenset(), top.why if top.missing and top.addition is None else "")
+    return ReplacedTop(top, frozenset(), no_top(top.why) if top.missing and top.addition is None else None)
 
 
 def _unwanted_top(asset: Asset, plan: RealizationPlan, predicted: Box | None) -> str:

@@ -11,7 +11,7 @@ from grafu.additions.grip.outcome import Carved
 from grafu.additions.handle.grasp import Grasp, find_grasps
 from grafu.additions.handle.place import Handles, add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
-from grafu.additions.interior.furnish import Furnished, RefusedInterior
+from grafu.additions.interior.furnish import Furnished
 from grafu.additions.interior.request import InteriorKind, PanelHint
 from grafu.additions.interior.turned import furnish_scene
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
@@ -19,9 +19,9 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.intersection import forget_large_shapes
 from grafu.graph.completion import GraphCompletion
-from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.front_choices import fit_fronts, without_replaced
+from grafu.refusal import Refusal
 from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
@@ -40,7 +40,7 @@ class Fittings:
     additions: tuple[Addition, ...] = ()
     carved: tuple[Carved, ...] = ()
     grasps: Mapping[str, Grasp] = field(default_factory=dict)
-    skipped: tuple[Skipped, ...] = ()
+    skipped: tuple[Refusal, ...] = ()
     removed: frozenset[str] = frozenset()
     before_interiors: Scene | None = None
 
@@ -66,11 +66,11 @@ def add_fittings(
     scene, kept = _accepted(handles, config)
     carved, failed = _grips(scene, wanting, config.grips)
     scene = scene.replaced([one.part for one in carved])
-    skipped = [Skipped(m, SkipReason.NOT_ADDED, f"nothing to grasp it by: {why}") for m, why in failed.items()]
+    skipped = [*failed]
     fronts = fit_fronts(scene, config, _handle_hints(completion), own)
     skipped += fronts.skipped
     inside = _interior(fronts.scene, completion, config)
-    skipped += [_refused_interior(one) for one in inside.refused]
+    skipped += inside.refused
     panels = tuple(addition for addition in inside.additions if addition.part.id not in config.rejected)
     scene = replace(fronts.scene, parts={**fronts.scene.parts, **{panel.part.id: panel.part for panel in panels}})
     additions = (*kept, *fronts.additions, *panels)
@@ -113,30 +113,34 @@ def _handles(
     config: AdditionConfig,
     own: Mapping[str, HandleTemplate],
     reliefs: Reliefs,
-) -> tuple[Handles, dict[str, str]]:
-    """Returns the handles, and the moving bodies that still need a grip, with the reason."""
+) -> tuple[Handles, dict[str, Refusal | None]]:
+    """Returns the handles, and the moving bodies that still need a grip, with the refusal of a handle."""
     if config.handles is None:
         wanting = bodies_without(scene, grasps) if config.grips is not None else ()
-        return Handles((), (), scene), dict.fromkeys(wanting, "")
+        return Handles((), (), scene), dict.fromkeys(wanting)
     found = add_handles(scene, grasps, config.handles, _handle_hints(completion), own, reliefs)
-    return found, {refused.moving: refused.why for refused in found.refused}
+    return found, {refused.part: refused for refused in found.refused}
 
 
 def _grips(
-    scene: Scene, wanting: Mapping[str, str], config: GripConfig | None
-) -> tuple[tuple[Carved, ...], dict[str, str]]:
-    """Returns what was carved, and the moving bodies that cannot be grasped yet, with all reasons."""
-    if config is None:
-        return (), dict(wanting)
+    scene: Scene, wanting: Mapping[str, Refusal | None], config: GripConfig | None
+) -> tuple[tuple[Carved, ...], tuple[Refusal, ...]]:
+    """Returns what was carved, and the refusals of bodies that cannot be grasped yet."""
     carved: list[Carved] = []
-    failed: dict[str, str] = {}
-    for moving, why in wanting.items():
-        made = carve_grip(scene, moving, config)
+    failed: list[Refusal] = []
+    for moving, no_handle in wanting.items():
+        made = None if config is None else carve_grip(scene, moving, config)
         if isinstance(made, Carved):
             carved.append(made)
         else:
-            failed[moving] = "; ".join(text for text in (why, f"no grip: {made.reason} ({made.detail})") if text)
-    return tuple(carved), failed
+            failed += [_no_grasp(*(one for one in (no_handle, made) if one is not None))]
+    return tuple(carved), tuple(failed)
+
+
+def _no_grasp(first: Refusal, *others: Refusal) -> Refusal:
+    """Returns several refusals of one front as one, with the reason of the first."""
+    said = "; ".join((first.why, *(other.why for other in others)))
+    return Refusal(first.part, first.reason, f"nothing to grasp it by: {said}", first.what)
 
 
 def _interior(scene: Scene, completion: GraphCompletion, config: AdditionConfig) -> Furnished:
@@ -158,9 +162,3 @@ def _panel_hints(completion: GraphCompletion) -> list[PanelHint]:
     nodes = (completion.completed.node(name) for name in completion.added)
     inner = (PartLabel.SHELF, PartLabel.DIVIDER)
     return [PanelHint(node.id, node.label, node.box) for node in nodes if node.label in inner]
-
-
-def _refused_interior(one: RefusedInterior) -> Skipped:
-    what = "interior" if one.label is None else one.label.value
-    where = "" if one.compartment is None else f" of compartment {one.compartment + 1}"
-    return Skipped(f"{what}{where}", SkipReason.NOT_ADDED, one.why)

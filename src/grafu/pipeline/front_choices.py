@@ -12,8 +12,8 @@ from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.grasp import Grasp
 from grafu.additions.handle.place import add_handles
 from grafu.geometry.arrays import Vec3
-from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
@@ -30,7 +30,7 @@ class Fronts:
     scene: Scene
     additions: tuple[Addition, ...] = ()
     carved: tuple[Carved, ...] = ()
-    skipped: tuple[Skipped, ...] = ()
+    skipped: tuple[Refusal, ...] = ()
 
 
 def without_replaced(scene: Scene, fronts: Mapping[str, HandleChoice]) -> tuple[Scene, frozenset[str]]:
@@ -76,10 +76,11 @@ def _fitted(
     missing = {moving: Grasp(moving, "none", 1.0, "a handle was chosen")}
     found = add_handles(done.scene, missing, wanted, hints, own)
     chosen = tuple(replace(addition, why="it was chosen") for addition in found.additions)
-    skipped = tuple(_skipped(moving, refused.why) for refused in found.refused)
+    skipped = tuple(_not_chosen(refused) for refused in found.refused)
     others = sorted({addition.style for addition in chosen} - {choice.style})
     if choice.style and others:
-        skipped += (_skipped(moving, f"`{choice.style}` finds no room; it got `{'`, `'.join(others)}`"),)
+        why = f"`{choice.style}` finds no room; it got `{'`, `'.join(others)}`"
+        skipped += (_not_chosen(Refusal(moving, Reason.OTHER_STYLE, why, Asked.GRASP)),)
     return Fronts(found.scene, (*done.additions, *chosen), done.carved, (*done.skipped, *skipped))
 
 
@@ -89,8 +90,8 @@ def _carved(done: Fronts, moving: str, choice: HandleChoice, config: GripConfig)
     made = carve_grip(done.scene, moving, config)
     if isinstance(made, Carved):
         return replace(done, scene=done.scene.replaced([made.part]), carved=(*done.carved, made))
-    return replace(done, skipped=(*done.skipped, _skipped(moving, f"no grip: {made.reason} ({made.detail})")))
+    return replace(done, skipped=(*done.skipped, _not_chosen(made)))
 
 
-def _skipped(moving: str, why: str) -> Skipped:
-    return Skipped(moving, SkipReason.NOT_ADDED, f"what it was to be grasped by: {why}")
+def _not_chosen(refusal: Refusal) -> Refusal:
+    return replace(refusal, why=f"what it was to be grasped by: {refusal.why}")

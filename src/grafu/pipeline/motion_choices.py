@@ -13,14 +13,14 @@ from grafu.completion.handles import attach_handles
 from grafu.errors import GraphError, OptionError
 from grafu.geometry.box import Box
 from grafu.graph.annotated import joint_edges
-from grafu.graph.completion import Decision, GraphCompletion, RefusedMotion
+from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
 from grafu.joints.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
-from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan, Refusal
-from grafu.joints.report import SkipReason
+from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 USER = "user"
@@ -83,7 +83,7 @@ def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, 
     decisions = tuple(d for d in completion.decisions if d.part != part.id or d.question not in _OF_MOTIONS)
     refused = tuple(r for r in completion.refused if r.part != part.id)
     if choice.moves is Moves.FIXED:
-        left = (RefusedMotion(part.id, REJECTED),) if graph.node(part.id).label.is_movable else ()
+        left = (Refusal(part.id, Reason.REJECTED, REJECTED),) if graph.node(part.id).label.is_movable else ()
         return replace(completion, completed=graph, decisions=decisions, refused=(*refused, *left))
     graph = relabelled(graph, {part.id: part.label})
     axis = axis_of_motion(part, choice, asset.box)
@@ -93,7 +93,10 @@ def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, 
         edges = joint_edges(joint, graph, [n for n in graph.nodes if n.label.is_support and n.id not in moving])
     except GraphError as error:
         return replace(
-            completion, completed=graph, decisions=decisions, refused=(*refused, RefusedMotion(part.id, str(error)))
+            completion,
+            completed=graph,
+            decisions=decisions,
+            refused=(*refused, Refusal(part.id, Reason.NO_MOTION, str(error))),
         )
     told = tuple(_decision(edge) for edge in edges[:1])
     return replace(completion, completed=with_edges(graph, edges), decisions=(*decisions, *told), refused=refused)
@@ -152,7 +155,7 @@ def plan_with_motions(
     requests = [_without_attached(request, sorted(moving_bodies - {request.moving})) for request in requests]
     refused = tuple(r for r in plan.refused if r.part not in motions)
     still = (p for p, c in motions.items() if c.moves is Moves.FIXED and (p in moved or asset.part(p).label.is_movable))
-    rejected = tuple(Refusal(part, REJECTED, SkipReason.REJECTED) for part in still)
+    rejected = tuple(Refusal(part, Reason.REJECTED, REJECTED) for part in still)
     return RealizationPlan((*kept, *requests), (*refused, *rejected))
 
 

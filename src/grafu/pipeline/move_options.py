@@ -42,7 +42,7 @@ def _still(result: Functionalized, moving: set[str]) -> list[Part]:
     """Returns the parts of the input that do not move and are called doors or drawers, were to move, or may be one."""
     known = {node.id: node.label for node in result.completion.completed.nodes}
     named = {name for name, label in known.items() if label.is_movable}
-    named |= {skip.request for skip in result.report.skipped}
+    named |= {skip.part for skip in result.report.skipped}
     named |= {d.part for d in result.completion.decisions if d.question == "label" and d.runner_up in _MOVABLE}
     handles = {name for name, label in known.items() if label is PartLabel.HANDLE}
     return [part for part in result.asset.parts if part.id in named - moving - handles - result.removed]

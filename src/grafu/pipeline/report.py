@@ -13,6 +13,7 @@ from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.move_options import move_options
 from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
 from grafu.pipeline.report_schema import (
+    NOT_ADDED,
     AddedRecord,
     ClearanceRecord,
     Grasp,
@@ -23,6 +24,7 @@ from grafu.pipeline.report_schema import (
     SkippedRecord,
 )
 from grafu.pipeline.verdict import verdict_of
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
 
@@ -51,8 +53,8 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         joints=_joint_records(result),
         added=_added_records(result),
         skipped=tuple(
-            SkippedRecord(request=s.request, reason=s.reason, detail=s.detail)
-            for s in (*result.report.skipped, *result.body.skipped, *result.fittings.skipped)
+            skipped_record(refusal)
+            for refusal in (*result.report.skipped, *result.body.skipped, *result.fittings.skipped)
         ),
         notes=result.notes,
         guesses=guesses_of(result.completion, result.decided),
@@ -60,6 +62,18 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         timings={stage: round(seconds, 4) for stage, seconds in timings.items()},
     )
     return report.model_copy(update={"verdict": verdict_of(report)})
+
+
+def skipped_record(refusal: Refusal) -> SkippedRecord:
+    """Returns the record of a refusal."""
+    told = refusal.what is Asked.JOINT or refusal.reason is Reason.TOO_COMPLEX
+    return SkippedRecord(
+        request=refusal.part,
+        reason=refusal.reason if told else NOT_ADDED,
+        detail=refusal.why,
+        what=refusal.what,
+        cause=refusal.reason,
+    )
 
 
 def with_notes(report: Report, *notes: str) -> Report:

@@ -3,20 +3,21 @@
 Lengths are metres, angles radians, points and directions in the output's frame (Z up, front -Y) unless said otherwise.
 """
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
 from grafu.graph.completion import Question
-from grafu.joints.report import SkipReason
 from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.motion_source import MotionSource
+from grafu.refusal import Asked, Reason
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
 
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
 Share = Annotated[float, Field(ge=0, le=1)]
+NOT_ADDED: Final = "not added"
 Grasp = Literal["handle", "recess", "edge", "none"]
 
 
@@ -149,8 +150,22 @@ class SkippedRecord(ReportRecord):
     """A request that was not built."""
 
     request: str = Field(description="the part that was to move, or what was to be added")
-    reason: SkipReason = Field(description="why, from a closed list")
-    detail: str = Field(description="why, in words")
+    reason: Reason | Literal["not added"] = Field(
+        description="the cause of a joint; `not added` for what was to be added, save what is too complex"
+    )
+    detail: str = Field(description="what was found, in words")
+    what: Asked | None = Field(
+        default=None,
+        description="what was asked for: joint, top, carcass board, drawer box, grasp, interior, additions (several)",
+    )
+    cause: Reason | None = Field(
+        default=None, description="why, from the [list of reasons](errors.md#reasons-not-errors)"
+    )
+
+    @property
+    def sentence(self) -> str:
+        """The cause in one plain sentence; empty in reports that state none."""
+        return "" if self.cause is None else self.cause.sentence
 
 
 class MotionRecord(ReportRecord):

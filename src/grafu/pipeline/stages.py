@@ -19,15 +19,15 @@ from grafu.additions.top.complete import TopVerdict
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.geometry.budget import Budget, within
-from grafu.graph.completion import GraphCompletion, RefusedMotion
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.realize import Realized, realize
-from grafu.joints.report import Skipped, SkipReason
 from grafu.pipeline.body_additions import Body
 from grafu.pipeline.fittings import Fittings
 from grafu.processes.limits import give_back_unused
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery
 
@@ -51,21 +51,21 @@ def _bare(parsing: ParsingConfig, make: Callable[[ParsingConfig], T], _: str) ->
 
 def without_network(graph: FunctionalGraph, why: str) -> GraphCompletion:
     """Returns the graph as the rule completes it; where that is too much, too, every door and drawer is refused."""
-    refused = tuple(RefusedMotion(node.id, why, is_too_complex=True) for node in graph.nodes if node.label.is_movable)
+    refused = tuple(Refusal(node.id, Reason.TOO_COMPLEX, why) for node in graph.nodes if node.label.is_movable)
     still = partial(GraphCompletion, graph, graph, "rule", (), (), refused)
     return within(_HALF, partial(complete_by_rule, graph), lambda _: still())
 
 
 def bare_body(asset: Asset, plan: RealizationPlan, why: str) -> Body:
     """Returns the asset as it is, nothing added."""
-    skipped = (Skipped("top and drawer boxes", SkipReason.TOO_COMPLEX, why),)
+    skipped = (Refusal("top and drawer boxes", Reason.TOO_COMPLEX, why, Asked.ADDITIONS),)
     return Body(asset, plan, TopVerdict(True, 1.0, why), CarcassCompletion(), DrawerBoxes(), (), skipped)
 
 
 def without_joints(plan: RealizationPlan, asset: Asset, why: str) -> Realized:
     """Returns the asset as one rigid body: none of the plan's joints is built."""
     still = realize(RealizationPlan((), plan.refused), asset, Gallery((), ()))
-    skipped = (Skipped(request.moving, SkipReason.TOO_COMPLEX, why) for request in plan.joints)
+    skipped = (Refusal(request.moving, Reason.TOO_COMPLEX, why) for request in plan.joints)
     return replace(still, report=replace(still.report, outcomes=(*skipped, *still.report.outcomes)))
 
 
@@ -73,7 +73,7 @@ def bare_fittings(scene: Scene, why: str) -> Fittings:
     """Returns the scene as it is, nothing added; what can be grasped is known of what has a handle by name alone."""
     found = {moving: held_by_label(scene, moving) for moving in scene.moving_bodies}
     grasps = {moving: grasp for moving, grasp in found.items() if grasp is not None}
-    skipped = (Skipped("handles, grips and interiors", SkipReason.TOO_COMPLEX, why),)
+    skipped = (Refusal("handles, grips and interiors", Reason.TOO_COMPLEX, why, Asked.ADDITIONS),)
     return Fittings(scene, grasps=grasps, skipped=skipped)
 
 

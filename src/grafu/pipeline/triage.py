@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
-from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
-from grafu.pipeline.report_schema import FaultRecord, Report
+from grafu.pipeline.report_schema import NOT_ADDED, FaultRecord, Report
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
+from grafu.refusal import Asked
 
 
 class Level(StrEnum):
@@ -74,11 +74,18 @@ def not_built(after: Report, part: str) -> tuple[str, ...]:
 
 def _why_not(report: Report, part: str, otherwise: str) -> str:
     skips = [skip for skip in report.skipped if skip.request == part]
-    first = min(skips, key=lambda skip: skip.reason is SkipReason.NOT_ADDED, default=None)  # of the joint itself
-    return f"{part}: {otherwise if first is None else first.detail or first.reason.value}"
+    first = min(skips, key=lambda skip: skip.reason == NOT_ADDED, default=None)  # of the joint itself
+    return f"{part}: {otherwise if first is None else first.detail or str(first.reason)}"
+
+
+def left_out(report: Report) -> tuple[str, ...]:
+    """Returns what was to be added and was not: each with the reason in a sentence, and what was found."""
+    skips = (skip for skip in report.skipped if skip.reason == NOT_ADDED or skip.what is Asked.ADDITIONS)
+    return tuple(f"{skip.request}: {' '.join(said for said in (skip.sentence, skip.detail) if said)}" for skip in skips)
 
 
 def newly_skipped(before: Report, after: Report) -> tuple[str, ...]:
     """Returns what was asked for and not built after a change, and was no matter before it: each with the reason."""
     known = {(skip.request, skip.detail) for skip in before.skipped}
-    return tuple(f"{s.request}: {s.detail}" for s in after.skipped if (s.request, s.detail) not in known)
+    new = (skip for skip in after.skipped if (skip.request, skip.detail) not in known)
+    return tuple(f"{skip.request}: {skip.detail or skip.sentence}" for skip in new)

@@ -9,10 +9,18 @@ from math import prod
 from typing import Final
 
 from grafu.articulation.motion_kind import motion_kind
-from grafu.joints.report import SkipReason
 from grafu.pipeline.faults import Colour, FaultKind
-from grafu.pipeline.report_schema import FaultRecord, GuessRecord, JointRecord, Report, SkippedRecord, VerdictRecord
+from grafu.pipeline.report_schema import (
+    NOT_ADDED,
+    FaultRecord,
+    GuessRecord,
+    JointRecord,
+    Report,
+    SkippedRecord,
+    VerdictRecord,
+)
 from grafu.pipeline.words import counted, listed, percent
+from grafu.refusal import Reason
 from grafu.vocabulary import PartLabel
 
 LEAST_CONFIDENCE: Final = 0.8
@@ -45,12 +53,18 @@ def verdict_of(report: Report) -> VerdictRecord:
 
 def not_built(report: Report) -> tuple[SkippedRecord, ...]:
     """Returns what was asked for and could not be built; what the user fixed is no fault."""
-    return tuple(skip for skip in report.skipped if skip.reason is not SkipReason.REJECTED)
+    return tuple(skip for skip in report.skipped if skip.reason is not Reason.REJECTED)
 
 
 def stopped(report: Report) -> tuple[str, ...]:
     """Returns the parts that stand still because the user fixed them."""
-    return tuple(skip.request for skip in report.skipped if skip.reason is SkipReason.REJECTED)
+    return tuple(skip.request for skip in report.skipped if skip.reason is Reason.REJECTED)
+
+
+def reason_of(report: Report, fault: FaultRecord) -> str:
+    """Returns the reason for something that was not built, in a plain sentence; empty where the report states none."""
+    told = (skip for skip in report.skipped if skip.request == fault.part and skip.detail in fault.why)
+    return next((skip.sentence for skip in told), "")
 
 
 def still_fronts(report: Report) -> dict[str, str]:
@@ -60,7 +74,7 @@ def still_fronts(report: Report) -> dict[str, str]:
     carried = {part.id for part in report.parts if part.link in moving}
     fronts = [p.id for p in report.parts if p.category.is_movable and p.link]
     wanted = {
-        skip.request: f"{skip.reason}: {skip.detail}" if skip.detail else skip.reason.value
+        skip.request: f"{skip.reason}: {skip.detail}" if skip.detail else str(skip.reason)
         for skip in reversed(not_built(report))
         if _is_motion(skip) and category.get(skip.request, PartLabel.HANDLE) is not PartLabel.HANDLE
     }
@@ -78,7 +92,7 @@ def _faults(report: Report) -> Iterator[FaultRecord]:
     yield from _carved(report)
     for skip in not_built(report):
         if not (_is_motion(skip) and skip.request in still):
-            yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.reason.value)
+            yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.sentence or str(skip.reason))
     yield from (_fault(report, "", FaultKind.NOTED, note, "") for note in report.notes)
     if not (report.joints or still or stopped(report)):
         yield _fault(report, "", FaultKind.NOTHING_MOVES, "no part is a door or a drawer")
@@ -86,7 +100,7 @@ def _faults(report: Report) -> Iterator[FaultRecord]:
 
 def _is_motion(skip: SkippedRecord) -> bool:
     """Whether a skip is of a part's motion, not of something that was to be added to it."""
-    return skip.reason is not SkipReason.NOT_ADDED
+    return skip.reason != NOT_ADDED
 
 
 def _fault(report: Report, part: str, kind: FaultKind, why: str, option: str | None = None) -> FaultRecord:

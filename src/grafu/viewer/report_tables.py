@@ -12,8 +12,9 @@ from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
-from grafu.pipeline.verdict import stopped, verdict_of
+from grafu.pipeline.verdict import reason_of, stopped, verdict_of
 from grafu.pipeline.words import counted, listed, percent
+from grafu.refusal import Reason
 from grafu.viewer.shell import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
 
@@ -80,9 +81,12 @@ def _hardware(joint: JointRecord) -> str:
 
 def not_built_table(report: Report) -> Html:
     """Returns one row per door or drawer without a joint, request that was not built, and part that was stopped."""
-    rows = [(f.part, f.kind.value, f.why) for f in verdict_of(report).lines if f.kind in _NOT_BUILT]
-    rows += [(part, "as asked", "it was decided that it stands still") for part in stopped(report)]
-    columns = ("part or request", "what", "why")
+    faults = [fault for fault in verdict_of(report).lines if fault.kind in _NOT_BUILT]
+    rows = [(fault.part, fault.kind.value, reason_of(report, fault), fault.why) for fault in faults]
+    rows += [
+        (part, "as asked", Reason.REJECTED.sentence, "it was decided that it stands still") for part in stopped(report)
+    ]
+    columns = ("part or request", "what", "reason", "what was found")
     none = "Every door and drawer has its joint, and all else that was asked for was built."
     return plain_rows(columns, rows, "Not built") if rows else tag("p", none, class_="none")
 

@@ -26,7 +26,8 @@ from grafu.geometry.cells import meeting, pieces_in
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
-from grafu.joints.plan import RealizationPlan, Refusal
+from grafu.joints.plan import RealizationPlan
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 _SPREAD = np.linspace(-0.4, 0.4, 9)  # shares of a bay's side around a spot from which walls are felt for
@@ -162,7 +163,8 @@ def complete_carcass(
         for panel in [whole] if together else group:
             board = _board(panel, room, config)
             if board is None:
-                refused.append(Refusal(panel.moving_bodies[0], f"no {panel.what.value}: {_NO_ROOM}"))
+                why = f"no {panel.what.value}: {_NO_ROOM}"
+                refused.append(Refusal(panel.moving_bodies[0], Reason.NO_ROOM, why, Asked.BOARD))
                 continue
             room = rooms[id(panel.view)] = room.with_board(board)
             additions.append(_addition(panel, board, around, taken))

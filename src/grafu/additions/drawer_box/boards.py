@@ -17,6 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame
+from grafu.refusal import Reason, Refusal
 
 _LET_IN = 2e-4  # metres by which a board is let into what it is fixed to, so that the two hold together
 _TO_FRONT = 0.05  # metres, and share of the depth, over which a board is lengthened to meet a front that is hollow
@@ -52,7 +53,7 @@ def boards_to_complete(
     frame: DrawerFrame,
     config: DrawerBoxConfig,
     room: Box | None = None,
-) -> Mapping[BoardName, Box] | str:
+) -> Mapping[BoardName, Box] | Refusal:
     """Returns the boards that an incomplete box lacks, or why they cannot be told.
 
     `room` is the free space behind the front: walls on a mere bottom keep within it.
@@ -60,7 +61,7 @@ def boards_to_complete(
     y = mesh.vertices[:, 1]
     behind = mesh.vertices[y > verdict.inner_front + 0.25 * (frame.depth - verdict.inner_front)]
     if len(behind) < 3:
-        return "the boards that are there do not show how long the box is"
+        return Refusal("", Reason.NOT_CLEAR, "the boards that are there do not show how long the box is")
     there = Box.around(behind)
     low, high = np.array(there.low), np.array(there.high)
     low[1], high[1] = verdict.inner_front, frame.depth
@@ -74,7 +75,7 @@ def boards_to_complete(
         low[0], high[:2] = max(low[0], room.low[0]), np.minimum(high[:2], room.high[:2])
         high[2] = max(high[2], room.high[2])
     if np.any(high - low < 2.5 * wall):
-        return "the boards that are there leave no room for others between them"
+        return Refusal("", Reason.NO_ROOM, "the boards that are there leave no room for others between them")
     outer = Box(low, high)
     inner = np.array([low[0] + wall, high[0] - wall, high[1] - wall])
     for name, k in sides:
@@ -84,7 +85,7 @@ def boards_to_complete(
         inner[2] = _inner_face(caster, outer, 1, 1, inner[2])
     lift = _top_of_bottom(caster, outer) - float(low[2]) - _LET_IN if not has_walls(verdict) else 0.0
     if lift > 0.7 * float(outer.size[2]):
-        return "above the bottom that is there is no room for walls"
+        return Refusal("", Reason.NO_ROOM, "above the bottom that is there is no room for walls")
     lifted = Outline(Box(vec3(low[0], low[1], low[2] + lift), high), inner)
     between = (wall if "side_left" in verdict.missing else 0.0, wall if "side_right" in verdict.missing else 0.0)
     return _boards(lifted, verdict.missing, between, caster, frame, config)

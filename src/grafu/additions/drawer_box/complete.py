@@ -26,9 +26,10 @@ from grafu.geometry.cells import pieces_in, spans_of
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import translation
-from grafu.joints.plan import JointRequest, RealizationPlan, Refusal
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame, drawer_frame, is_shallow
 from grafu.joints.rail.search import carried_mesh, slides_in_its_plane
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -153,24 +154,28 @@ def drawer_box(
     """
     frame, mesh = _framed(request, around.scene)
     if frame is None or mesh is None or not verdict.missing:
-        return Refusal(request.moving, "nothing is missing behind it")
+        return _of(request, Refusal("", Reason.NOT_MISSING, "nothing is missing behind it"))
     still, others = around.triangles(request, frame)
     caster = RayCaster(mesh)
-    room: Room | str | None = None
+    room: Room | Refusal | None = None
     if verdict.kind == "front only" or not has_walls(verdict):
         front = replace(frame, depth=verdict.inner_front)
         room = find_room(caster, front, still, others, config, around.limit_behind(request, front))
-    if isinstance(room, str):
-        return Refusal(request.moving, room)
+    if isinstance(room, Refusal):
+        return _of(request, room)
     if verdict.kind == "front only" and room is not None:
-        boards: Mapping[BoardName, Box] | str = boards_in_room(room.box, caster, frame, config)
+        boards: Mapping[BoardName, Box] | Refusal = boards_in_room(room.box, caster, frame, config)
     else:
         boards = boards_to_complete(verdict, mesh, caster, frame, config, room.box if room else None)
-        if not isinstance(boards, str):
+        if not isinstance(boards, Refusal):
             boards = _free(boards, np.concatenate([still, others]))
-    if isinstance(boards, str):
-        return Refusal(request.moving, boards)
+    if isinstance(boards, Refusal):
+        return _of(request, boards)
     return _additions(boards, verdict, request, frame, around, set(taken))
+
+
+def _of(request: JointRequest, refusal: Refusal) -> Refusal:
+    return replace(refusal, part=request.moving, why=f"no drawer box: {refusal.why}", what=Asked.DRAWER_BOX)
 
 
 def _framed(request: JointRequest, scene: Scene) -> tuple[DrawerFrame | None, TriangleMesh | None]:
@@ -200,12 +205,12 @@ def _space_behind(frame: DrawerFrame, around: Surroundings, request: JointReques
     return max(float(low[met, 1].min()) - frame.depth, 0.0) if met.any() else 0.0
 
 
-def _free(boards: Mapping[BoardName, Box], obstacles: np.ndarray) -> Mapping[BoardName, Box] | str:
+def _free(boards: Mapping[BoardName, Box], obstacles: np.ndarray) -> Mapping[BoardName, Box] | Refusal:
     """Returns the boards, or which of them something stands in the way of."""
     for name, board in boards.items():
         inside = board.grown(-min(5e-4, 0.1 * float(board.size.min())))
         if len(pieces_in(obstacles, inside, (4, 4, 4)).low):
-            return f"something stands where its {name.replace('_', ' ')} would be"
+            return Refusal("", Reason.IN_THE_WAY, f"something stands where its {name.replace('_', ' ')} would be")
     return boards
 
 

@@ -17,6 +17,7 @@ from grafu.geometry.cells import Pieces, largest_rectangles, meeting, nearest_de
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame
+from grafu.refusal import Reason, Refusal
 
 _COLUMNS = (32, 16)  # across and upwards
 _SLICES = 6  # along the way into the cabinet
@@ -42,7 +43,7 @@ def find_room(
     others: np.ndarray,
     config: DrawerBoxConfig,
     limit: float = float("inf"),
-) -> Room | str:
+) -> Room | Refusal:
     """Returns the room behind a front, or why there is none.
 
     Args:
@@ -55,7 +56,7 @@ def find_room(
     """
     end = min(_end_of(still, frame), limit)
     if end <= frame.depth:
-        return "nothing stands behind the front that could carry a box"
+        return Refusal("", Reason.NO_SUPPORT, "nothing stands behind the front that could carry a box")
     half = np.array([frame.width / 2, frame.height / 2]) - min(_INSIDE, 0.01 * frame.height)
     around = Box(vec3(-half[0], 0.5 * frame.depth, -half[1]), vec3(half[0], end, half[1]))
     near = _near(np.concatenate([still, others]), around)
@@ -63,14 +64,14 @@ def find_room(
     seen = float(RayCaster(near).along(columns, vec3(0.0, 1.0, 0.0)).max()) + float(around.low[1])
     end = min(end, seen + _INSIDE)
     if end - frame.depth < config.least_depth * min(frame.width, frame.height):
-        return _SHALLOW.format(max(end - frame.depth, 0.0))
+        return Refusal("", Reason.NO_ROOM, _SHALLOW.format(max(end - frame.depth, 0.0)))
     around = Box(around.low, vec3(half[0], end, half[1]))
     pieces = pieces_in(near.triangles, around, (_COLUMNS[0], _SLICES, _COLUMNS[1]))
     depths = nearest_depths(pieces, around, _COLUMNS, (0, 2, 1), end)
     depths = np.where(_covered(front, frame, columns), depths, frame.depth)
     seed = _best_rectangle(depths, around, frame)
     if seed is None:
-        return "the space right behind the front is not free"
+        return Refusal("", Reason.IN_THE_WAY, "the space right behind the front is not free")
     free = _widened(seed, around, pieces, frame)
     return _with_clearance(free, frame, config)
 
@@ -156,7 +157,7 @@ def _widened(seed: Box, around: Box, pieces: Pieces, frame: DrawerFrame) -> Box:
     return Box(low, high)
 
 
-def _with_clearance(free: Box, frame: DrawerFrame, config: DrawerBoxConfig) -> Room | str:
+def _with_clearance(free: Box, frame: DrawerFrame, config: DrawerBoxConfig) -> Room | Refusal:
     """Returns the room for a box within a free space, or what it is too small in."""
     side = min(config.side_gap, config.side_share * frame.width)
     height, depth = float(free.size[2]), float(free.high[1]) - frame.depth
@@ -168,11 +169,14 @@ def _with_clearance(free: Box, frame: DrawerFrame, config: DrawerBoxConfig) -> R
     low = vec3(float(free.low[0]) + side, frame.depth, float(free.low[2]) + under)
     far = vec3(float(free.high[0]) - side, float(free.high[1]) - behind, high)
     if far[0] - low[0] < config.least_width * frame.width:
-        return f"only {max(far[0] - low[0], 0.0):.3f} m of the front's {frame.width:.3f} m of width are free behind it"
+        return _narrow(float(far[0] - low[0]), frame.width, "width")
     if far[1] - low[1] < config.least_depth * min(frame.width, frame.height):
-        return _SHALLOW.format(max(float(far[1] - low[1]), 0.0))
+        return Refusal("", Reason.NO_ROOM, _SHALLOW.format(max(float(far[1] - low[1]), 0.0)))
     if far[2] - low[2] < config.least_depth * frame.height:
-        return (
-            f"only {max(far[2] - low[2], 0.0):.3f} m of the front's {frame.height:.3f} m of height are free behind it"
-        )
+        return _narrow(float(far[2] - low[2]), frame.height, "height")
     return Room(Box(low, far))
+
+
+def _narrow(free: float, whole: float, side: str) -> Refusal:
+    why = f"only {max(free, 0.0):.3f} m of the front's {whole:.3f} m of {side} are free behind it"
+    return Refusal("", Reason.NO_ROOM, why)

@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.additions.grip.config import GripConfig, GripKind
 from grafu.additions.grip.ground import Site, front_part, site_of
-from grafu.additions.grip.outcome import Carved, GripRefusal, Refused
+from grafu.additions.grip.outcome import Carved
 from grafu.additions.grip.place import levelled, spots
 from grafu.additions.grip.shape import Cut, cutters, front_of, lining, tilted, union
 from grafu.additions.likeness import surface_like
@@ -22,6 +22,7 @@ from grafu.geometry.bodywork import CutOut, cut_out
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -30,7 +31,7 @@ _SAME = 1e-6  # metres
 _FULL = 0.5  # of the box around a groove: less was cut where what looked solid is not
 
 
-def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refused:
+def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refusal:
     """Returns the moving body's front with a grip, or why it takes none.
 
     Args:
@@ -45,7 +46,7 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     moving = scene.moving_bodies[moving_id]
     joint_motion = scene.joint_motions.get(moving_id)
     if joint_motion is None:
-        return Refused(moving_id, GripRefusal.NO_MOTION)
+        return _no_grip(moving_id, Reason.NO_MOTION)
     scale = min(1.0, scene.unit / _FURNITURE)
     front = front_of(scene.parts[moving.id].mesh, joint_motion, config)
     part = front_part(scene, moving_id, front)
@@ -53,21 +54,25 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
         local = Box.around(front.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
         front = replace(front, box=local)
     site = site_of(scene, moving_id, front, part, scale)
-    reasons: list[tuple[GripKind, Counter[GripRefusal]]] = []
+    reasons: list[tuple[GripKind, Counter[Reason]]] = []
     for kind in config.kinds:
-        met: Counter[GripRefusal] = Counter()
+        met: Counter[Reason] = Counter()
         for cut in spots(front, config, kind, scale, spot):
             found = levelled(site, cut, config)
-            made = found if isinstance(found, GripRefusal) else _carved(site, found)
+            made = found if isinstance(found, Reason) else _carved(site, found)
             if isinstance(made, Carved):
                 return made
             met[made] += 1
-        reasons.append((kind, met or Counter({GripRefusal.TOO_SMALL: 1})))
+        reasons.append((kind, met or Counter({Reason.TOO_SMALL: 1})))
     told = "; ".join(f"{kind}: {', '.join(reason for reason, _ in met.most_common())}" for kind, met in reasons)
-    return Refused(moving_id, reasons[-1][1].most_common(1)[0][0], told)
+    return _no_grip(moving_id, reasons[-1][1].most_common(1)[0][0], told)
 
 
-def _carved(site: Site, cut: Cut) -> Carved | GripRefusal:
+def _no_grip(moving_id: str, reason: Reason, told: str = "") -> Refusal:
+    return Refusal(moving_id, reason, f"no grip: {reason} ({told})", Asked.GRASP)
+
+
+def _carved(site: Site, cut: Cut) -> Carved | Reason:
     """Returns the part less the grip, unless that would harm it."""
     front = site.front
     hulls = [ConvexSolid.around(_in_object(site, cut, np.asarray(solid.vertices))) for solid in cutters(cut)]
@@ -77,13 +82,13 @@ def _carved(site: Site, cut: Cut) -> Carved | GripRefusal:
     left = cut_out(site.body, solids, whole)
     expected = cut.size.length * cut.size.width * cut.size.depth
     if cut.kind is GripKind.GROOVE and not cut.is_hollow and left.volume < _FULL * expected:
-        return GripRefusal.NO_THICKNESS
+        return Reason.NO_THICKNESS
     surfaces = tuple(s for s in left.surfaces if not s.is_empty)
     if not left.is_whole or not surfaces:
-        return GripRefusal.WOULD_BREAK
+        return Reason.WOULD_BREAK
     part = replace(site.part, surfaces=(*surfaces, *_walls(site, cut, left)))
     if not _has_same_box(site.part, part):
-        return GripRefusal.WOULD_BREAK
+        return Reason.WOULD_BREAK
     size = np.array([cut.size.length, cut.size.width, cut.size.depth])
     direction, outward = front.rotation[:, 0], front.rotation[:, 2]
     if size[1] > size[0]:

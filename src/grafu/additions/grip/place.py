@@ -8,12 +8,12 @@ import numpy as np
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripSize
 from grafu.additions.grip.ground import Grid, Ground, Site, Triangles, aside
-from grafu.additions.grip.outcome import GripRefusal
 from grafu.additions.grip.shape import Cut, Front
 from grafu.geometry.arrays import Mask, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import triangle_bounds
 from grafu.geometry.raycast import line_crossings
+from grafu.refusal import Reason
 
 _SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
 _INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn
@@ -86,7 +86,7 @@ def best_along(front: Front, scale: float) -> float:
     return min(max(reach, bottom + inset), top - inset) / up
 
 
-def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | GripRefusal:
+def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | Reason:
     """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
     ring = _margin(site.front, config, site.scale) / 2
     box = cut.box
@@ -95,16 +95,16 @@ def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | GripRefusal:
     ys = np.linspace(box.low[1] - ring, box.high[1] + over, _LINES[1])
     ground = site.ground(xs, ys)
     if not ground.is_covered or ground.is_mixed:
-        return GripRefusal.UNEVEN
+        return Reason.UNEVEN
     if not ground.is_opaque.all():
-        return GripRefusal.GLASS
+        return Reason.GLASS
     x, y = (grid.reshape(-1) for grid in np.meshgrid(xs, ys, indexing="ij"))
     cut = replace(cut, is_hollow=ground.is_hollow, tilt=_tilt(x, y, np.asarray(ground.face)))
     if max(abs(t) for t in cut.tilt) > _STEEPEST:
-        return GripRefusal.UNEVEN
+        return Reason.UNEVEN
     ground = ground.lowered(cut.lift(x, y))
     found = _groove(site, cut, ground, config) if cut.kind is GripKind.GROOVE else _through(site, cut, ground, config)
-    return found if isinstance(found, GripRefusal) else _unless_in_the_way(site, found, ground, (xs, ys), config)
+    return found if isinstance(found, Reason) else _unless_in_the_way(site, found, ground, (xs, ys), config)
 
 
 def _tilt(x: Scalars, y: Scalars, face: Scalars) -> tuple[float, float]:
@@ -114,54 +114,54 @@ def _tilt(x: Scalars, y: Scalars, face: Scalars) -> tuple[float, float]:
     return float(along), float(across)
 
 
-def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
+def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | Reason:
     """Returns a groove as deep as the front allows."""
     if float(ground.thickness.min()) <= 1e-3 * site.scale:
-        return GripRefusal.NO_THICKNESS
+        return Reason.NO_THICKNESS
     face = float(np.median(ground.face))
     room = float((face - ground.back).min())
     depth = min(cut.size.depth, config.depth_share * room, room - config.wall * site.scale)
     if depth < _SHALLOW * site.scale:
-        return GripRefusal.TOO_THIN
+        return Reason.TOO_THIN
     if float(np.ptp(ground.face)) > _EVEN * depth:
-        return GripRefusal.UNEVEN
+        return Reason.UNEVEN
     top = float(ground.face.max()) + _EVEN * depth
     return replace(cut, size=replace(cut.size, depth=depth), top=top, face=face, bottom=face - depth)
 
 
-def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | GripRefusal:
+def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | Reason:
     """Returns a hole or notch through the first layer."""
     if float(np.ptp(ground.face)) > _STEP * site.scale:
-        return GripRefusal.UNEVEN
+        return Reason.UNEVEN
     face, back = float(ground.face.max()), float(ground.back.min())
     if face - back > min(config.thickest * site.scale, 1.5 * cut.size.length):
-        return GripRefusal.TOO_THICK
+        return Reason.TOO_THICK
     over = 0.4 * site.seam
     bottom = back - over
     if float(np.ptp(ground.back)) > 2 * _STEP * site.scale or np.any(ground.beneath > bottom):
-        return GripRefusal.UNEVEN
+        return Reason.UNEVEN
     size = replace(cut.size, depth=max(face - back, 1e-6))
     return replace(cut, size=size, top=face + over, face=face, bottom=bottom)
 
 
 def _unless_in_the_way(
     site: Site, cut: Cut, ground: Ground, grid: tuple[Grid, Grid], config: GripConfig
-) -> Cut | GripRefusal:
+) -> Cut | Reason:
     """Returns the grip, unless something sits on it or leaves fingers no room; `ground` lies level."""
     scale, near = site.scale, cut.box.grown(_CLEAR * site.scale)
     low, high = (*near.low[:2], cut.bottom + site.seam), (*near.high[:2], cut.face + _AWAY * scale)
     if _meets(site.attached, Box(np.array(low), np.array(high))):
-        return GripRefusal.TAKEN
+        return Reason.TAKEN
     x, y = (values.reshape(-1) for values in np.meshgrid(*grid, indexing="ij"))
     inside, lift = _within(cut, x, y), cut.lift(x, y)
     before = (cut.face, cut.face + _BEFORE * scale)
     if _met([site.still], grid, before, lift)[inside].any():
-        return GripRefusal.NO_FINGER_ROOM
+        return Reason.NO_FINGER_ROOM
     if cut.kind is GripKind.GROOVE:
         return cut
     room = (cut.bottom - config.finger_room * scale, cut.bottom)
     met = _met([site.still, site.others, site.attached], grid, room, lift) | (ground.beneath > room[0])
-    return cut if (~met)[inside].mean() >= _SHOWN else GripRefusal.NO_FINGER_ROOM
+    return cut if (~met)[inside].mean() >= _SHOWN else Reason.NO_FINGER_ROOM
 
 
 def _within(cut: Cut, x: Scalars, y: Scalars) -> Mask:

@@ -1,11 +1,10 @@
 """Adds handles to doors and drawers that cannot be grasped: chosen, sized, set flush, clear through all motions.
 
-A handle that finds no place is refused with a reason from a closed list; nothing that can be grasped gets another one.
+A handle that finds no place is refused with a reason; nothing that can be grasped gets another one.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from typing import final
 
 from grafu.additions.addition import Addition, added_part, free_ids
@@ -19,6 +18,7 @@ from grafu.additions.likeness import surface_like
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import MovingBody, Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
@@ -31,31 +31,13 @@ _LOOKED_AT = 60  # spots for one size before the next size is tried
 _BLOCKED = 150  # places in which something was in the way, before a front is given up
 
 
-class NoHandle(StrEnum):
-    """Why a moving body gets no handle."""
-
-    TOO_SMALL = "too small"  # no handle fits the front, however small
-    NO_GROUND = "no ground"  # nowhere does the front offer a foot an even, solid surface
-    BLOCKED = "blocked"  # wherever it sits, something is in its way or it is in something's way
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Refused:
-    """A moving body that gets no handle, and why, in a word and in words."""
-
-    moving: str
-    reason: NoHandle
-    why: str
-
-
 @final
 @dataclass(frozen=True, eq=False)
 class Handles:
     """The handles that were added, the moving bodies that got none, and the scene with the handles attached."""
 
     additions: tuple[Addition, ...]
-    refused: tuple[Refused, ...]
+    refused: tuple[Refusal, ...]
     scene: Scene
 
 
@@ -89,10 +71,10 @@ def add_handles(
     task = _Task(style, siblings, config, hints or {}, reliefs)
     around = surroundings_of(scene)
     additions: list[Addition] = []
-    refused: list[Refused] = []
+    refused: list[Refusal] = []
     for moving in wanting:
         found = _handles_for(scene, moving, around, task)
-        if isinstance(found, Refused):
+        if isinstance(found, Refusal):
             refused.append(found)
             continue
         additions += found
@@ -122,7 +104,7 @@ class _Task:
     reliefs: Reliefs
 
 
-def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refused:
+def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refusal:
     """Returns the handle of one moving body, two on a wide drawer, or why there is none."""
     relief = task.reliefs.of(moving)
     ground = ground_of(scene, moving, relief)
@@ -144,14 +126,14 @@ def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -
             if blocked >= _BLOCKED:
                 return _blocked(moving, met)
     if not tried:
-        return Refused(moving, NoHandle.TOO_SMALL, "its front is smaller than the smallest handle")
+        return Refusal(moving, Reason.TOO_SMALL, "its front is smaller than the smallest handle", Asked.GRASP)
     if not met:
-        return Refused(moving, NoHandle.NO_GROUND, "its front has no even, solid place for a handle's foot")
+        return Refusal(moving, Reason.NO_GROUND, "its front has no even, solid place for a handle's foot", Asked.GRASP)
     return _blocked(moving, met)
 
 
-def _blocked(moving: str, met: str) -> Refused:
-    return Refused(moving, NoHandle.BLOCKED, f"wherever a handle sits, {met} is in the way")
+def _blocked(moving: str, met: str) -> Refusal:
+    return Refusal(moving, Reason.IN_THE_WAY, f"wherever a handle sits, {met} is in the way", Asked.GRASP)
 
 
 def _few(spots: Iterable[Spot]) -> Iterator[Spot]:

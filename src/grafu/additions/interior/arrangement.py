@@ -16,6 +16,7 @@ from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import Sizes
 from grafu.additions.interior.request import PanelHint
 from grafu.geometry.box import Box
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 _ALIKE = 0.7  # of the smaller side, by which two compartments of one column overlap: things in one make it narrower
@@ -140,28 +141,26 @@ def _overlap(one: Box, other: Box, axis: int) -> float:
 
 _NEAR = 0.5  # of a compartment's own size, outside of which a hint means another one
 
-Lost = tuple[PanelHint, str]
-
 
 def placed_hints(
     compartments: Sequence[Compartment], hints: Sequence[PanelHint], sizes: Sizes
-) -> tuple[list[Arrangement], list[Lost]]:
-    """Returns what each compartment gets, and the hints that have no place, with the reason in words."""
+) -> tuple[list[Arrangement], list[Refusal]]:
+    """Returns what each compartment gets, and the refusals of hints that have no place."""
     middles: list[dict[PartLabel, list[float]]] = [{PartLabel.SHELF: [], PartLabel.DIVIDER: []} for _ in compartments]
-    lost: list[Lost] = []
+    lost: list[Refusal] = []
     for hint in hints:
         number = _home(compartments, hint)
         if number is None:
-            lost.append((hint, "lies in no compartment"))
+            lost.append(_lost(hint, Reason.NO_COMPARTMENT, "lies in no compartment"))
             continue
         compartment, present = compartments[number], middles[number][hint.label]
         axis = 2 if hint.label is PartLabel.SHELF else compartment.side_axis
         if axis == 2 and compartment.is_chest:
-            lost.append((hint, "is a shelf in a chest that opens upwards"))
+            lost.append(_lost(hint, Reason.UNSUITABLE, "is a shelf in a chest that opens upwards"))
             continue
         at = _nearest_place(float(hint.box.center[axis]), compartment.box, axis, present, sizes)
         if at is None:
-            lost.append((hint, "finds no room beside what is there"))
+            lost.append(_lost(hint, Reason.NO_ROOM, "finds no room beside what is there"))
             continue
         present.append(at)
     found = [
@@ -169,6 +168,10 @@ def placed_hints(
         for m in middles
     ]
     return found, lost
+
+
+def _lost(hint: PanelHint, reason: Reason, why: str) -> Refusal:
+    return Refusal(hint.label.value, reason, f"`{hint.id}` {why}", Asked.INTERIOR)
 
 
 def _home(compartments: Sequence[Compartment], hint: PanelHint) -> int | None:

@@ -29,6 +29,7 @@ from grafu.additions.likeness import surface_like
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -38,21 +39,11 @@ _INSETS = 5  # depths at which a panel is tried
 
 @final
 @dataclass(frozen=True)
-class RefusedInterior:
-    """Something that was asked for and not built: the compartment's number (None: the whole object), and why."""
-
-    compartment: int | None
-    label: PartLabel | None
-    why: str
-
-
-@final
-@dataclass(frozen=True)
 class Furnished:
     """The panels that were added, and what was not, and why."""
 
     additions: tuple[Addition, ...] = ()
-    refused: tuple[RefusedInterior, ...] = ()
+    refused: tuple[Refusal, ...] = ()
 
 
 @final
@@ -80,12 +71,13 @@ def furnish(
     if request.kind is InteriorKind.NONE and not chosen:
         return Furnished()
     if not compartments:
-        return Furnished((), (RefusedInterior(None, None, why_inapplicable(scene)),))
+        return Furnished((), (refused_panel(None, None, Reason.NO_COMPARTMENT, why_inapplicable(scene)),))
     sizes = config.sizes(scene.unit)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
     wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
     beyond = [k for k in chosen if k >= len(compartments)]
-    refused += [RefusedInterior(k, None, f"there is no such compartment, only {len(compartments)}") for k in beyond]
+    why = f"there is no such compartment, only {len(compartments)}"
+    refused += [refused_panel(k, None, Reason.NO_COMPARTMENT, why) for k in beyond]
     chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
     if all(arrangement == Arrangement() for arrangement in wanted):
         return Furnished((), tuple(refused))
@@ -99,15 +91,15 @@ def furnish(
                 panels.append(outcome)
             else:
                 refused.append(outcome)
-    refused += _fewer_than_chosen(panels, chosen, {(one.compartment, one.label) for one in refused})
+    refused += _fewer_than_chosen(panels, chosen, {one.part for one in refused})
     return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
 
 
 def _fewer_than_chosen(
     panels: Sequence[_Panel],
     chosen: Mapping[int, CompartmentChoice],
-    told: Collection[tuple[int | None, PartLabel | None]],
-) -> list[RefusedInterior]:
+    told: Collection[str],
+) -> list[Refusal]:
     """Returns the compartments that took fewer panels than were chosen for them, unless that was told."""
     found = []
     for number, choice in chosen.items():
@@ -115,9 +107,9 @@ def _fewer_than_chosen(
         cells = made[PartLabel.DIVIDER] + 1
         wanted = {PartLabel.DIVIDER: choice.dividers, PartLabel.SHELF: choice.shelves * cells}
         found += [
-            RefusedInterior(number, label, f"there is room for {made[label]} only")
+            refused_panel(number, label, Reason.FEWER, f"there is room for {made[label]} only")
             for label, count in wanted.items()
-            if made[label] < count and (number, label) not in told
+            if made[label] < count and _named(number, label) not in told
         ]
     return found
 
@@ -139,6 +131,16 @@ def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> W
     return Walls((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
 
 
+def refused_panel(compartment: int | None, label: PartLabel | None, reason: Reason, why: str) -> Refusal:
+    """Returns the refusal of panels of a kind (None: of any) in a compartment (None: in all)."""
+    return Refusal(_named(compartment, label), reason, why, Asked.INTERIOR)
+
+
+def _named(compartment: int | None, label: PartLabel | None) -> str:
+    what = "interior" if label is None else label.value
+    return what if compartment is None else f"{what} of compartment {compartment + 1}"
+
+
 def why_inapplicable(scene: Scene) -> str:
     """Returns why a scene without compartments has none, in words."""
     if any(is_drawer(scene, moving) for moving in scene.moving_bodies.values()):
@@ -152,22 +154,21 @@ def _arranged(
     sizes: Sizes,
     config: InteriorConfig,
     hints: Sequence[PanelHint],
-) -> tuple[list[Arrangement], list[RefusedInterior]]:
+) -> tuple[list[Arrangement], list[Refusal]]:
     """Returns what each compartment is to get, and what none can."""
     if request.kind is InteriorKind.NONE:
         return [Arrangement()] * len(compartments), []
     if request.kind is InteriorKind.AUTO:
         return [by_size(compartment, sizes, config.most_panels) for compartment in compartments], []
     if request.kind is InteriorKind.PREDICTED:
-        placed, lost = placed_hints(compartments, hints, sizes)
-        return placed, [RefusedInterior(None, hint.label, f"`{hint.id}` {why}") for hint, why in lost]
+        return placed_hints(compartments, hints, sizes)
     return _counted(compartments, request, sizes)
 
 
 def _counted(
     compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes
-) -> tuple[list[Arrangement], list[RefusedInterior]]:
-    refused: list[RefusedInterior] = []
+) -> tuple[list[Arrangement], list[Refusal]]:
+    refused: list[Refusal] = []
     shelves, dividers = [0] * len(compartments), [0] * len(compartments)
     for label, groups, counts, wanted in (
         (PartLabel.SHELF, stacked(compartments, sizes), shelves, request.shelves),
@@ -176,7 +177,8 @@ def _counted(
         for group in groups:
             able = [k for k in group if label is PartLabel.DIVIDER or not compartments[k].is_chest]
             if not able and wanted:
-                refused.append(RefusedInterior(group[0], label, "a chest that opens upwards takes no shelves"))
+                why = "a chest that opens upwards takes no shelves"
+                refused.append(refused_panel(group[0], label, Reason.UNSUITABLE, why))
                 continue
             axes = [2 if label is PartLabel.SHELF else compartments[k].side_axis for k in able]
             lengths = [float(compartments[k].box.size[a]) for k, a in zip(able, axes, strict=True)]
@@ -185,7 +187,7 @@ def _counted(
                 counts[k] = count
             if able and sum(given) < wanted - (len(able) - 1):
                 why = f"there is room for {sum(given) + len(able) - 1} only, with {sizes.least_pitch:.2f} m between"
-                refused.append(RefusedInterior(able[0], label, why))
+                refused.append(refused_panel(able[0], label, Reason.FEWER, why))
     return [Arrangement(s, d) for s, d in zip(shelves, dividers, strict=True)], refused
 
 
@@ -209,7 +211,7 @@ class _Maker:
         self._config = config
         self._walls = walls
 
-    def panels(self, wanted: Arrangement) -> Iterator[_Panel | RefusedInterior]:
+    def panels(self, wanted: Arrangement) -> Iterator[_Panel | Refusal]:
         """Yields the dividers, then the shelves between them, or why one is missing."""
         dividers = []
         for outcome in self._row(self._whole, PartLabel.DIVIDER, wanted.dividers, wanted.divider_at):
@@ -223,7 +225,7 @@ class _Maker:
 
     def _row(
         self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float]
-    ) -> Iterator[_Panel | RefusedInterior]:
+    ) -> Iterator[_Panel | Refusal]:
         """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
         if not (count or at):
             return
@@ -234,29 +236,29 @@ class _Maker:
         room = min(np.diff([low, *middles, high])) if middles else 0.0
         for middle in middles:
             made = self._tried(Place(compartment, label, middle, self._sizes.inset), float(room))
-            if isinstance(made, str):
-                yield RefusedInterior(self._number, label, made)
+            if isinstance(made, Refusal):
+                yield made.of(_named(self._number, label), Asked.INTERIOR)
             else:
                 self._clearing.add(f"{label.value}", made.mesh)
                 yield made
 
-    def _tried(self, place: Place, room: float) -> _Panel | str:
+    def _tried(self, place: Place, room: float) -> _Panel | Refusal:
         """Returns the panel at the place or near it, or why there is none near it."""
         depth = float(place.compartment.box.size[place.compartment.depth_axis])
         deepest = max(self._config.deepest_inset * depth, self._sizes.inset)
-        first = ""
+        first: Refusal | None = None
         for inset in np.linspace(self._sizes.inset, deepest, _INSETS):
             for nudge in _NUDGES:
                 tried = moved_to(place, place.at + nudge * room, float(inset))
                 mesh = cut_panel(tried, self._walls, self._sizes, self._config)
-                if isinstance(mesh, str):
+                if isinstance(mesh, Refusal):
                     first = first or mesh
                     continue
                 blocker = self._clearing.blocker(mesh)
                 if not blocker:
                     return _Panel(self._number, place.label, mesh, tried)
-                first = first or f"`{blocker}` is in its way"
-        return first
+                first = first or Refusal("", Reason.IN_THE_WAY, f"`{blocker}` is in its way")
+        return first or Refusal("", Reason.NO_ROOM)
 
 
 def _between(compartment: Compartment, dividers: list[Box]) -> list[Compartment]:

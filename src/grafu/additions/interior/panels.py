@@ -21,6 +21,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, opening_values, swept_box
+from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel
@@ -142,14 +143,14 @@ class Walls:
         return Walls((*self.casters, RayCaster(mesh)))
 
 
-def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | str:
+def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | Refusal:
     """Returns a panel that touches the walls at both ends, or why there is none. `walls` are the still meshes."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     inward = -1.0 if place.compartment.opening % 2 else 1.0
     front = float(box.high[depth] if inward < 0 else box.low[depth]) + inward * place.inset
     back = _back(place, walls, sizes, inward)
     if inward * (back - front) < sizes.least_side / 2:
-        return "it is too shallow"
+        return Refusal("", Reason.NO_ROOM, "it is too shallow")
     margin = 0.02 * abs(back - front)
     along = np.linspace(front + inward * margin, back - inward * margin, _ALONG)
     ends = []
@@ -157,7 +158,9 @@ def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) 
         found = _distances(place, walls, sizes, along, sense)
         edge = _edge(along, found, sizes, config)
         if edge is None:
-            return "its walls are open or uneven there" if np.isfinite(found).any() else "it has no wall to rest on"
+            if np.isfinite(found).any():
+                return Refusal("", Reason.UNEVEN, "its walls are open or uneven there")
+            return Refusal("", Reason.NO_SUPPORT, "it has no wall to rest on")
         middle = float(box.center[place.reach])
         at_front, at_back = (middle + sense * float(np.polyval(edge, end)) for end in (front, back))
         ends.append((at_front, at_back))

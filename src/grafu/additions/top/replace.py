@@ -13,6 +13,7 @@ from grafu.additions.top.config import DEFAULT_TOP, TopConfig
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.joints.plan import JointRequest
+from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 
@@ -21,12 +22,17 @@ from grafu.vocabulary import PartLabel
 class ReplacedTop:
     """The verdict on the furniture as it came with the new top, the ids of what it replaces, and why it does not.
 
-    `refused` is empty where a top was put; one that merely was missing replaces nothing.
+    `refused` is None where a top was put; one that merely was missing replaces nothing.
     """
 
     verdict: TopVerdict
     removed: frozenset[str] = frozenset()
-    refused: str = ""
+    refused: Refusal | None = None
+
+
+def no_top(why: str, reason: Reason = Reason.NO_SUPPORT) -> Refusal:
+    """Returns the refusal of a top; by default, because nothing carries a slab."""
+    return Refusal(PartLabel.TOP_PANEL.value, reason, why, Asked.TOP)
 
 
 def replace_top(
@@ -43,16 +49,17 @@ def replace_top(
     moving_bodies = tuple(moving_bodies)
     found = missing_tops(parts, moving_bodies, config, hint)
     if found.missing:
-        return ReplacedTop(found, frozenset(), "" if found.addition is not None else found.why)
+        return ReplacedTop(found, frozenset(), None if found.addition is not None else no_top(found.why))
     moving = {part for request in moving_bodies for part in (request.moving, *request.attached)}
     old = frozenset(part.id for part in parts if part.id in tops and part.id not in moving)
     if not old:
         why = "no still part of it is called a top panel: correct the category of what is to be replaced"
-        return ReplacedTop(found, frozenset(), f"it has a top, and {why}")
+        return ReplacedTop(found, frozenset(), no_top(f"it has a top, and {why}", Reason.NOTHING_REPLACED))
     made = missing_tops([part for part in parts if part.id not in old], moving_bodies, config)
     if made.addition is None:
         why = "what is left still is covered" if made.covered else made.why
-        return ReplacedTop(found, frozenset(), f"without {', '.join(sorted(old))}, {why}")
+        reason = Reason.NOT_MISSING if made.covered else Reason.NO_SUPPORT
+        return ReplacedTop(found, frozenset(), no_top(f"without {', '.join(sorted(old))}, {why}", reason))
     names = free_ids(PartLabel.TOP_PANEL.value.replace(" ", "_"), len(made.additions), {part.id for part in parts})
     first, *others = (
         replace(addition, part=replace(addition.part, id=name), why="it was chosen")

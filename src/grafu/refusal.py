@@ -1,0 +1,85 @@
+"""What was asked for and not made, and why: one value, with reasons from one closed list. It knows no furniture.
+
+docs/report.md is drawn from the two lists.
+"""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import final
+
+
+class Asked(StrEnum):
+    """What was asked for."""
+
+    JOINT = "joint"  # that a part moves
+    TOP = "top"
+    BOARD = "carcass board"  # a back or a bottom
+    DRAWER_BOX = "drawer box"
+    GRASP = "grasp"  # a handle or a recessed grip
+    INTERIOR = "interior"  # shelves and dividers
+    ADDITIONS = "additions"  # several of these at once
+
+
+class Reason(StrEnum):
+    """Why something was not made: a short word, and the same in one plain sentence."""
+
+    sentence: str
+
+    def __new__(cls, word: str, sentence: str) -> "Reason":
+        """Makes a member whose value is the word."""
+        made = str.__new__(cls, word)
+        made._value_ = word
+        made.sentence = sentence
+        return made
+
+    # of a joint
+    NO_FACING_SURFACES = "no facing surfaces", "Nothing that stands still is near enough to carry a hinge or a rail."
+    BLOCKED = "blocked", "The part cannot move freely: other parts are in its way."
+    NO_MOTION = "no motion", "How the part moves is not known."
+    REJECTED = "rejected", "The user decided that the part stands still."
+    UNSUPPORTED = "unsupported motion", "Motions of this kind are not built."
+    # of anything
+    TOO_COMPLEX = "too complex", "The work would take more time or memory than its share of the budget."
+    NO_ROOM = "no room", "There is too little room for it between other parts."
+    # of what is added
+    IN_THE_WAY = "in the way", "Something else stands where it would be, or moves through that place."
+    NO_SUPPORT = "no support", "Nothing is there that could carry it."
+    NOT_MISSING = "not missing", "Nothing of the kind is missing."
+    NOTHING_REPLACED = "nothing replaced", "No part is known as what is to be replaced."
+    NOT_CLEAR = "not clear", "What is there does not show how large it should be."
+    TOO_SMALL = "too small", "The front is too small for it."
+    NO_GROUND = "no ground", "The front has no even, solid place for the foot of a handle."
+    UNEVEN = "uneven", "The surface where it would be is uneven, or open."
+    NO_THICKNESS = "no thickness", "The front is a thin sheet, in which no groove can be cut."
+    TOO_THIN = "too thin", "The front is too thin: no wall would be left behind a groove."
+    TOO_THICK = "too thick", "The front is too thick: a hole or a notch would not come out behind it."
+    GLASS = "glass", "The front can be seen through there, and glass is not carved."
+    TAKEN = "taken", "Handles, hinges or rails are in that place."
+    NO_FINGER_ROOM = "no finger room", "Fingers would have no room: something stands right before or behind it."
+    WOULD_BREAK = "would break", "The front would come apart, or change its outline."
+    OTHER_STYLE = "other style", "The style that was chosen finds no room; another one was taken."
+    NO_COMPARTMENT = "no compartment", "There is no such space between walls."
+    UNSUITABLE = "unsuitable", "Furniture of this kind takes no such part."
+    FEWER = "fewer", "There is room for fewer than were asked for."
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Something that was asked for and not made.
+
+    `part` is the id of the part that it was for, or what was to be added ("top panel", "shelf of compartment 2"); it is
+    empty where only the caller knows. `why` says in words what was found (empty: the reason's sentence says all).
+    """
+
+    part: str
+    reason: Reason
+    why: str = ""
+    what: Asked = Asked.JOINT
+
+    def of(self, part: str, what: Asked) -> "Refusal":
+        """Returns the same refusal of something else."""
+        return replace(self, part=part, what=what)
+
+    def __str__(self) -> str:
+        return self.why or self.reason.sentence
