@@ -4,7 +4,8 @@ import bpy
 from mathutils import Matrix, Vector
 
 from . import objects
-from .state import KIND, compartments_of
+from .objects import KIND
+from .state import compartments_of
 
 _NAME = "GraFu compartments"
 

@@ -3,8 +3,9 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
+from .objects import ID
 from .run_operators import Applies
-from .state import ID, session_of, settings_of
+from .state import session_of, settings_of
 
 TURNS, SLIDES, FIXED = "turns", "slides", "fixed"
 MOVES = [

@@ -10,8 +10,7 @@ from pathlib import Path
 import bpy
 import mathutils
 
-from .state import ID, KIND
-
+KIND, ID = "grafu", "id"  # custom properties
 OBJECT, LINK, JOINT = "object", "link", "joint"  # values of the property `grafu`
 _UP = mathutils.Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))  # glTF's Y up to Blender's Z up
 

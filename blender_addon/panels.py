@@ -34,7 +34,7 @@ class GRAFU_PT_main(_Panel, bpy.types.Panel):
         """Draws it."""
         layout, session, run = self.layout, session_of(context), active_run()
         if run is not None:
-            draw_progress(layout, run.share, run.doing)
+            draw_progress(layout, run.ratio, run.doing)
             layout.operator("grafu.cancel", icon="CANCEL")
             return
         column = layout.column(align=True)

@@ -28,7 +28,7 @@ def active_run():
 
 
 class Applies:
-    """What all operators that run share.
+    """The base of all operators that start a run.
 
     Each says what it changes, `changed(context, settings)`, and may say what makes a change unfit.
     """

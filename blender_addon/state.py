@@ -17,7 +17,8 @@ from bpy.props import (
     StringProperty,
 )
 
-KIND, ID = "grafu", "id"
+from . import objects
+
 _LISTED = 8  # things that were left out, in the sidebar
 LEVELS = [("ok", "ok", ""), ("warning", "warning", ""), ("error", "error", "")]
 _shown: dict = {}  # by the scene's name, the slot that was shown last: a click on a lamp changes no panel
@@ -67,8 +68,6 @@ class GRAFU_Part(bpy.types.PropertyGroup):
 def _chosen(session, context):
     joint = session.active_joint
     if joint is not None and not session.is_filling:
-        from . import objects
-
         objects.select_part(context, session, joint.part)
 
 

@@ -3,12 +3,12 @@
 import bpy
 
 
-def draw_progress(layout, share: float, text: str) -> None:
+def draw_progress(layout, ratio: float, text: str) -> None:
     """Draws how far a run is, 0..1; before 4.0 in words."""
     if bpy.app.version >= (4, 0):
-        layout.progress(factor=share, text=text)
+        layout.progress(factor=ratio, text=text)
     else:
-        layout.label(text=f"{round(100 * share)} %  {text}", icon="TIME")
+        layout.label(text=f"{round(100 * ratio)} %  {text}", icon="TIME")
 
 
 def line_shader():

@@ -110,7 +110,7 @@ class GRAFU_OT_preview(_Shown, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
     part: StringProperty(description="The moving part; empty: that of the chosen row", options={"SKIP_SAVE"})
-    share: FloatProperty(name="Open", default=1.0, min=0.0, max=1.0, subtype="FACTOR", options={"SKIP_SAVE"})
+    ratio: FloatProperty(name="Open", default=1.0, min=0.0, max=1.0, subtype="FACTOR", options={"SKIP_SAVE"})
 
     def execute(self, context):
         """Sets the joints."""
@@ -123,13 +123,13 @@ class GRAFU_OT_preview(_Shown, bpy.types.Operator):
         if self.what == "solo" and part not in empties:
             self.report({"WARNING"}, f"`{part}` has no joint")
             return {"CANCELLED"}
-        shares = dict.fromkeys(empties, 1.0 if self.what == "all" else 0.0)
+        ratios = dict.fromkeys(empties, 1.0 if self.what == "all" else 0.0)
         if self.what == "solo":
-            shares |= dict.fromkeys(objects.waits_for(session, part), 1.0)
-            shares[part] = self.share
+            ratios |= dict.fromkeys(objects.waits_for(session, part), 1.0)
+            ratios[part] = self.ratio
         for name, empty in empties.items():
             mute_joint(empty, self.what != "animation")
-            set_open(empty, shares[name])
+            set_open(empty, ratios[name])
         if self.what == "animation":
             context.scene.frame_set(context.scene.frame_current)
         context.view_layer.update()

@@ -92,7 +92,7 @@ class _Process:
 
 
 class _Run:
-    """What runs share: how far it is, how it ended."""
+    """The base of all runs: progress and outcome."""
 
     def __init__(self, process) -> None:
         self._process = process
@@ -117,7 +117,7 @@ class _Run:
         return stages[-1] if stages else "start"
 
     @property
-    def share(self) -> float:
+    def ratio(self) -> float:
         """How far it is, 0..1, by stages."""
         return ([*STAGES].index(self.stage) + 1) / (len(STAGES) + 1) if self.stage in STAGES else 0.0
 

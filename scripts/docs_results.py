@@ -47,12 +47,12 @@ def _motion(table: dict[str, Any]) -> str:
     lines.append("| --- | --- | ---: |" + " ---: |" * len(SHOWN))
     for row in table["rows"]:
         if row["over"] == "objects":
-            cells = " | ".join(_share(row[name]) for name in SHOWN)
+            cells = " | ".join(_ratio(row[name]) for name in SHOWN)
             lines.append(f"| {row['method']} | {row['data']} | {row['objects']} | {cells} |")
     return "\n".join([*lines, "", *(f"- {note}" for note in table["notes"]), ""])
 
 
-def _share(cell: Any) -> str:
+def _ratio(cell: Any) -> str:
     if cell is None:
         return "–"
     if isinstance(cell, dict):

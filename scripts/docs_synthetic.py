@@ -30,7 +30,7 @@ TRADITIONS_HEAD = f"""\
 One piece is built in one tradition, so that what goes together in real furniture is drawn together: a shaker leaf on a
 hairpin leg is rare. Each family names the traditions that it comes in ([families]({SYNTH}/families/table.py)), and may
 narrow a table. Thicknesses are those of boards as they are sold, and the rounder ones of bare models from modelling
-sites; shares follow what is sold and what the real development models show
+sites; fractions follow what is sold and what the real development models show
 ([traditions]({SYNTH}/sampling/traditions.py)). Thicknesses are given as least · median · most.
 """
 STYLE_HEAD = f"""\
@@ -46,7 +46,7 @@ MODELLING_HEAD = f"""\
 ## Modelling styles
 
 A modeller who draws one panel as a sheet does so all over the model. So a style is drawn first, and it makes the rest
-likely or not ([habits]({SYNTH}/noise/modelling_styles.py)). The shares come from the seventeen development models,
+likely or not ([habits]({SYNTH}/noise/modelling_styles.py)). The fractions come from the seventeen development models,
 which are few, widened towards what other sources are known for. Chances are per model; that of sheets is for each group
 of panels, that of loose objects for each kind, both times the factors below.
 """
@@ -78,7 +78,7 @@ CHOICES = {
 }
 LENGTHS = {"panel": "panels, mm", "front": "fronts, mm", "back": "backs, mm"}
 SPANS = {"gap": ("gaps, mm", 1e3), "overhang": ("tops jut out, mm", 1e3), "opening": ("doors open, degrees", 1.0)}
-SHARES = {
+RATIOS = {
     "bare": "drawn with the fewest parts",
     "plain_drawers": "plain drawers beside the doors' leaf",
     "framed": "face frame",
@@ -124,7 +124,7 @@ def traditions_tables() -> str:
     for field, title in CHOICES.items():
         tables = [getattr(tradition, field) for tradition in TRADITIONS.values()]
         texts.append(f"**{title.capitalize()}**\n\n{weight_table(head, tables)}")
-    assert {*CHOICES, *LENGTHS, *SPANS, *SHARES} == {field.name for field in fields(Tradition)}, "a field has no row"
+    assert {*CHOICES, *LENGTHS, *SPANS, *RATIOS} == {field.name for field in fields(Tradition)}, "a field has no row"
     return "\n".join(texts)
 
 
@@ -142,8 +142,8 @@ def span_rows() -> Iterable[tuple[str, ...]]:
 
 
 def share_rows() -> Iterable[tuple[str, ...]]:
-    """Yields each share, per cent."""
-    for field, title in SHARES.items():
+    """Yields each fraction, per cent."""
+    for field, title in RATIOS.items():
         yield (f"{title}, %", *(number(getattr(tradition, field)) for tradition in TRADITIONS.values()))
 
 
@@ -164,7 +164,7 @@ def style_tables() -> str:
         "**Fronts without a handle have a grip**\n",
         weight_table(("", "%"), [style.GRIPS]),
         "**Which side**\n",
-        share_table(sides),
+        ratio_table(sides),
     ]
     return "\n".join(texts)
 
@@ -186,7 +186,7 @@ def modelling_tables() -> str:
 
 def missing_table() -> str:
     """Returns how often each part is missing."""
-    tops = {f"the top: {family}": share for family, share in modelling_styles.NO_TOP.items()}
+    tops = {f"the top: {family}": ratio for family, ratio in modelling_styles.NO_TOP.items()}
     others = {
         "the top: other cases": modelling_styles.NO_CASE_TOP,
         "the top: other tables": modelling_styles.NO_TABLE_TOP,
@@ -197,7 +197,7 @@ def missing_table() -> str:
         "all handles": modelling_styles.NO_HANDLES,
         "one handle": modelling_styles.ONE_HANDLE_LOST,
     }
-    return share_table(tops | others)
+    return ratio_table(tops | others)
 
 
 def wording_tables() -> str:
@@ -216,7 +216,7 @@ def wording_tables() -> str:
         "of face frames: drawn as bars": cutting.FRAME_IN_BARS,
     }
     texts = [
-        share_table({name: share for name, (_, share) in naming.STYLES.items()}),
+        ratio_table({name: ratio for name, (_, ratio) in naming.STYLES.items()}),
         "**What is joined, where panels are joined**\n",
         weight_table(("", "%"), [{name: weight for name, (weight, _) in cutting.GROUPS.items()}]),
         "**Faces, where they are out of order**\n",
@@ -224,22 +224,22 @@ def wording_tables() -> str:
         "**How finely models are drawn**\n",
         weight_table(("", "%"), [modelling_styles.DENSITY]),
         "**Whole models**\n",
-        share_table(models),
+        ratio_table(models),
     ]
     return "\n".join(texts)
 
 
 def weight_table(head: Sequence[str], tables: Sequence[Mapping[str, float]]) -> str:
-    """Returns a row for each word that any of the tables holds, and its share in each."""
+    """Returns a row for each word that any of the tables holds, and its fraction in each."""
     words = dict.fromkeys(word for weights in tables for word in weights)
     sums = [sum(weights.values()) for weights in tables]
     cells = {w: [number(weights.get(w, 0.0) / s) for weights, s in zip(tables, sums, strict=True)] for w in words}
     return table(head, [(word, *row) for word, row in cells.items() if any(row)])
 
 
-def share_table(shares: Mapping[str, float]) -> str:
-    """Returns a row for each share, per cent."""
-    return table(("", "%"), [(name, number(share)) for name, share in shares.items()])
+def ratio_table(ratios: Mapping[str, float]) -> str:
+    """Returns a row for each fraction, per cent."""
+    return table(("", "%"), [(name, number(ratio)) for name, ratio in ratios.items()])
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -248,9 +248,9 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join([f"| {' | '.join(head)} |", "|---" * len(head) + "|", *lines, ""])
 
 
-def number(share: float) -> str:
-    """Returns a share as per cent, one decimal below ten, nothing for nothing."""
-    return "" if share == 0 else f"{100 * share:.0f}" if share >= 0.095 else f"{100 * share:.1f}".removesuffix(".0")
+def number(ratio: float) -> str:
+    """Returns a fraction as per cent, one decimal below ten, nothing for nothing."""
+    return "" if ratio == 0 else f"{100 * ratio:.0f}" if ratio >= 0.095 else f"{100 * ratio:.1f}".removesuffix(".0")
 
 
 def spread_of(weights: Mapping[float, float]) -> str:

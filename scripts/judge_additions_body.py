@@ -13,7 +13,7 @@ from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
 from grafu.metrics.panels import empty_rooms, panel_faults
-from grafu.metrics.tops import lost_tops, open_share
+from grafu.metrics.tops import lost_tops, open_ratio
 from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.fittings import Fittings, fitted_object
@@ -21,7 +21,7 @@ from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source
 from grafu.pipeline.motion_source import MotionSource
 from grafu.vocabulary import PartLabel
 
-OPEN = 0.5  # share of the plan that lies open where there is no top
+OPEN = 0.5  # fraction of the plan that lies open where there is no top
 SKIN = 0.001  # of the largest side: deeper cuts are cuts
 LEAST_OPENING = 0.999  # of the opening that a joint has without additions; the rest is a sweep's last step
 DEFAULT = AdditionConfig()
@@ -32,7 +32,7 @@ def top_faults(
 ) -> tuple[float | None, list[str]]:
     """Returns what a top covers that replaces the piece's own, and what is wrong with it and with tops added."""
     covered, faults = _without_its_top(asset, source, plain.object)
-    seen = open_share([v.mesh for v in _own(plain.object)])
+    seen = open_ratio([v.mesh for v in _own(plain.object)])
     if tops and seen < OPEN:
         faults.append(f"a top added, {seen:.0%} open")
     if not tops and seen > OPEN:
@@ -64,7 +64,7 @@ def _stated_to_move(asset: Asset) -> set[str]:
 
 
 def _without_its_top(asset: Asset, source: MotionSource, closed: ArticulatedObject) -> tuple[float | None, list[str]]:
-    """Returns the least share of a lost top's plan that the one in its place covers, and what is wrong with them."""
+    """Returns the least fraction of a lost top's plan that the one in its place covers, and what is wrong with them."""
     tops = {p.id for p in asset.parts if p.label is PartLabel.TOP_PANEL and len(p.mesh.faces)}
     moving = _stated_to_move(asset)
     standing = {v.name for v in closed.link(closed.root).visuals if not v.label.is_movable}
@@ -79,11 +79,11 @@ def _without_its_top(asset: Asset, source: MotionSource, closed: ArticulatedObje
     missed = [one for one in lost if one.is_missed]
     if not missed and not added:
         return None, []  # other boards cover all that it covered
-    share = min((one.covered for one in (lost if len(added) >= len(lost) else missed)), default=1.0)
-    faults = [f"its new top covers {share:.1%}"] if share < COVERED else []
+    ratio = min((one.covered for one in (lost if len(added) >= len(lost) else missed)), default=1.0)
+    faults = [f"its new top covers {ratio:.1%}"] if ratio < COVERED else []
     if not len(missed) <= len(added) <= len(lost):
         faults.append(f"{len(added)} tops in place of {len(missed)}")
-    return share, faults
+    return ratio, faults
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 INTERIORS = ("shelves=2", "dividers=1", "auto")
-COVERED = 0.97  # share of the plan that a top must cover
+COVERED = 0.97  # fraction of the plan that a top must cover
 KINDS = ("top", "grasp", "handle", "interior", "joint")
 
 
@@ -20,7 +20,7 @@ class Verdict:
     name: str
     kinds: list[str]  # what was looked at
     tops: int  # added
-    covered: float | None  # share of the plan under the top that replaces its own; None: it has none to take away
+    covered: float | None  # fraction of the plan under the top that replaces its own; None: it has none to take away
     top_faults: list[str]
     moving_bodies: int
     handles: int

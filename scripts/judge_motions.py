@@ -158,11 +158,11 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
 def table(found: list[Found]) -> str:
     """Returns the counts as a table, and below it what is wrong in the ways that nothing is drawn for."""
     counted = counts(found)
-    lines = ["| asked about | motions | right | share |", "|---|---|---|---|"]
+    lines = ["| asked about | motions | right | fraction |", "|---|---|---|---|"]
     for name, one in counted.items():
         if one["parts"]:
-            share = one["right"] / one["parts"]  # type: ignore[operator]
-            lines.append(f"| {name} | {one['parts']} | {one['right']} | {share:.3f} |")
+            ratio = one["right"] / one["parts"]  # type: ignore[operator]
+            lines.append(f"| {name} | {one['parts']} | {one['right']} | {ratio:.3f} |")
     wrong = [f"wrong, {name}: {', '.join(counted[name]['wrong'])}" for name in ("labels given", "no labels")]  # type: ignore[arg-type]
     return "\n".join([*lines, "", *wrong])
 

@@ -20,7 +20,7 @@ from grafu.viewer.pictures import take_stills
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "samples" / "sideboard.glb"
 SIZE = (1280, 790)
-OPENED = "[0.8, 1, 1, 0.55, 0].forEach((share, k) => grafu.joints.setShare(k, share))"
+OPENED = "[0.8, 1, 1, 0.55, 0].forEach((fraction, k) => grafu.joints.setFraction(k, fraction))"
 
 
 def page_sheet() -> Picture:

@@ -184,8 +184,8 @@ def families(findings: list[Finding]) -> str:
     rows = []
     for name, group in sorted(of.items()):
         parts, seconds = np.mean([f.parts for f in group]), np.mean([f.seconds for f in group])
-        share, why = np.mean([bool(f.rejected) for f in group]), kinds(f.rejected for f in group)
-        rows.append(f"| {name} | {len(group)} | {parts:.1f} | {seconds:.4f} | {share:.0%} | {why} |")
+        ratio, why = np.mean([bool(f.rejected) for f in group]), kinds(f.rejected for f in group)
+        rows.append(f"| {name} | {len(group)} | {parts:.1f} | {seconds:.4f} | {ratio:.0%} | {why} |")
     return "\n".join(
         ["| family | made | parts | seconds | rejected | because of |", "|---|---|---|---|---|---|", *rows, ""]
     )

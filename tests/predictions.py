@@ -70,7 +70,7 @@ def reversed_joints(foreign: ForeignMotions) -> ForeignMotions:
 
 
 def require_same_joints(found: Asset, truth: Asset, sense: float = 1.0, tolerance: float = 1e-6) -> None:
-    """Fails unless the joints are the true ones: type, signed axis, place and range, as a share of the size."""
+    """Fails unless the joints are the true ones: type, signed axis, place and range, as a fraction of the size."""
     mine = {joint.part: joint for joint in found.joints}
     assert set(mine) == {joint.part for joint in truth.joints}
     for joint in truth.joints:

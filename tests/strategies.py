@@ -1,4 +1,4 @@
-"""Hypothesis strategies that several tests share: specs of made furniture of every kind.
+"""Hypothesis strategies of several tests: specs of made furniture of every kind.
 
 Draw a spec and call `made(spec)` in the test: a failure then shows the spec, and not thousands of vertices.
 """
@@ -30,7 +30,7 @@ holds = st.builds(
     place=st.sampled_from(["usual", "middle line", "top edge", "bottom edge"]),
     along=st.one_of(st.none(), st.floats(0.0, 1.0)),
     length=st.one_of(st.none(), st.floats(0.02, 2.0)),
-    share=st.floats(0.1, 1.0),
+    ratio=st.floats(0.1, 1.0),
     count=st.sampled_from([1, 1, 2]),
 )
 drawer_boxes = st.sampled_from(["whole", "no bottom", "shell", "front only"])

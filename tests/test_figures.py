@@ -30,7 +30,7 @@ KEPT = {"motions": Stored("a command", tables_in(TABLE), [])}
         "0.9 ± 0.1",
         "A page has 1.4 MB.",
         "Chosen after 11,500 steps.",
-        "a share of\n0.25 in all",
+        "a fraction of\n0.25 in all",
         "| hinge | 0.889 |",
         "3.5 times",
     ],
@@ -46,8 +46,8 @@ def test_a_number_that_looks_measured_is_refused_with_its_line(claim: str) -> No
     "text",
     [
         "It reaches <!-- figure: made: hinge / natural -->98.5 %<!-- end -->.",
-        "A share of 98.5 % counts as whole. <!-- no figure: a definition -->",
-        "<!-- no figure: a definition -->\n| share | counts |\n|---|---|\n| 98.5 % | yes |",
+        "A fraction of 98.5 % counts as whole. <!-- no figure: a definition -->",
+        "<!-- no figure: a definition -->\n| fraction | counts |\n|---|---|\n| 98.5 % | yes |",
         "<!-- made: drawn by scripts/docs.py from docs/figures.json -->\n\n| 98.5 % |\n\n<!-- end of made -->",
         "```text\n98.5 %\n```",
         "`98.5 %` and [98](https://x.org/98.55)",
@@ -59,7 +59,7 @@ def test_what_is_bound_or_is_no_measurement_passes(text: str) -> None:
 
 
 def test_a_mark_holds_for_its_paragraph_alone() -> None:
-    text = "# Page\n\nA share of 98.5 %. <!-- no figure: why -->\n\nA share of 98.5 %.\n"
+    text = "# Page\n\nA fraction of 98.5 %. <!-- no figure: why -->\n\nA fraction of 98.5 %.\n"
 
     assert [line.split(": ")[0] for line in unbound("x.md", text, [])] == ["docs/x.md:5"]
 

@@ -27,6 +27,12 @@ RETIRED = {
     r"(?i)how sure": "confidence",
     r"\bsomebody\b": "the user",
     r"\bcame of\b": "outcome",
+    r"\bknows (no|nothing|neither)\b": "what the module does, said positively",
+}
+RETIRED |= {
+    # The verb "to share" stays, and so do fields of report.json and of template annotations.
+    r"(?i)\b(?:a|the|its|their|this|each|least|largest|in) shares?\b|\bshares? of\b": "ratio, fraction",
+    r"\b(?!collision_|surface_|volume_|range_|random_)(?!test_)\w*[a-z]_shares?\b|\bshares? *=": "ratio, fraction",
 }
 # Names of files, keys and columns that others read stay as they are: (path, the text that may stand there).
 ALLOWED: frozenset[tuple[str, str]] = frozenset()

@@ -57,7 +57,7 @@ def evaluation() -> Iterator[Sentence]:
     )
     yield (
         page,
-        "share of {} poses from rest to full in which the part with its attached parts cuts deeper than {}",
+        "fraction of {} poses from rest to full in which the part with its attached parts cuts deeper than {}",
         (
             TOLERANT.poses,
             TOLERANT.tolerance,
@@ -69,7 +69,7 @@ def evaluation() -> Iterator[Sentence]:
         "this at most {:g}° or {:g} % of the part's depth",
         (
             degrees(moving_parts.WIDEST_TURN),
-            per_cent(moving_parts.DEPTH_SHARE),
+            per_cent(moving_parts.DEPTH_RATIO),
         ),
     )
     yield page, "opening {:g} % or more, all at once", (per_cent(measures.OPENS),)

@@ -28,9 +28,9 @@ HANDLE, GRIP, GRASP, INTERIOR = HandleConfig(), GripConfig(), GraspConfig(), Int
 BUILT, SEEN, MOVES = RealizationConfig(), FeatureConfig(), DynamicsConfig()
 
 
-def per_cent(share: float) -> float:
-    """Returns a share in per cent, without the last digits of floats."""
-    return round(100 * share, 6)
+def per_cent(ratio: float) -> float:
+    """Returns a fraction in per cent, without the last digits of floats."""
+    return round(100 * ratio, 6)
 
 
 def mm(metres: float) -> float:
@@ -69,7 +69,7 @@ def additions() -> Iterator[Sentence]:
         "{} mm above and {} mm behind",
         (
             mm(BOX.side_gap),
-            per_cent(BOX.side_share),
+            per_cent(BOX.side_ratio),
             mm(BOX.under),
             mm(BOX.over),
             mm(BOX.behind),
@@ -101,7 +101,7 @@ def additions() -> Iterator[Sentence]:
     yield (
         page,
         "a wall of {} mm behind it; at most {} % of the thickness goes",
-        (mm(GRIP.wall), per_cent(GRIP.depth_share)),
+        (mm(GRIP.wall), per_cent(GRIP.depth_ratio)),
     )
     yield page, "keep {} mm from the others", (mm(GRIP.margin),)
     yield page, "shelves about {} m apart; dividers about {} m apart", (INTERIOR.shelf_pitch, INTERIOR.divider_pitch)
@@ -126,7 +126,7 @@ def joints() -> Iterator[Sentence]:
     yield page, "a face behind the border within {} units", (BUILT.contact,)
     yield page, "both fronts flush within {} units", (BUILT.flush,)
     yield page, "at most the template's and {} degrees", (round(degrees(BUILT.door_opening)),)
-    yield page, "length {} of the body", (BUILT.rail_share,)
+    yield page, "length {} of the body", (BUILT.rail_ratio,)
     yield page, "Travel: {} of the rail", (TRAVEL,)
     yield page, "| {} % of the side |", (per_cent(BUILT.max_trim),)
     yield page, "shrunk on all sides | {} % of its volume |", (per_cent(BUILT.max_carve),)

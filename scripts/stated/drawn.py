@@ -85,10 +85,10 @@ def doors(store: Store) -> str:
 
 
 def motions(store: Store) -> str:
-    """Returns the shares of real motions that are right, of the network and of the rules."""
+    """Returns the fractions of real motions that are right, of the network and of the rules."""
     head = ["asked about", "motions", "network", "rules"]
     rows: Table = [
-        [row[0], row[1], row[3], store["motions by rules"].cell(row[0], "share")]
+        [row[0], row[1], row[3], store["motions by rules"].cell(row[0], "fraction")]
         for row in store["motions"].tables[0][1:]
     ]
     return drawn_table([head, *rows])

@@ -1,4 +1,4 @@
-"""Which numbers of a page look like measurements, and are bound to nothing. It knows no figure and no constant."""
+"""Which numbers of a page look like measurements, and are bound to nothing."""
 
 import re
 from collections.abc import Iterable

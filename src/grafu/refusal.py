@@ -1,4 +1,4 @@
-"""What was asked for and not made, and why: one value, with reasons from one closed list. It knows no furniture.
+"""What was asked for and not made, and why: one value, with reasons from one closed list.
 
 docs/report.md is drawn from the two lists.
 """
@@ -39,7 +39,7 @@ class Reason(StrEnum):
     REJECTED = "rejected", "The user decided that the part stands still."
     UNSUPPORTED = "unsupported motion", "Motions of this kind are not built."
     # of anything
-    TOO_COMPLEX = "too complex", "The work would take more time or memory than its share of the budget."
+    TOO_COMPLEX = "too complex", "The work would take more time or memory than its part of the budget."
     NO_ROOM = "no room", "There is too little room for it between other parts."
     # of what is added
     IN_THE_WAY = "in the way", "Something else stands where it would be, or moves through that place."

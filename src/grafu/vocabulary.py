@@ -1,4 +1,4 @@
-"""The closed word lists: part labels, edge kinds, joint types. It knows no geometry and no files.
+"""The closed word lists: part labels, edge kinds, joint types.
 
 The labels are the paper's thirteen categories and `unknown` (paper, section Functional Graph Parsing).
 """

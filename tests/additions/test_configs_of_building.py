@@ -29,9 +29,9 @@ POSITIVE = [
     (RealizationConfig, "depth"),
     (TopConfig, "thickness"),
 ]
-SHARES = [
+RATIOS = [
     (GraspConfig, "lever"),
-    (GripConfig, "depth_share"),
+    (GripConfig, "depth_ratio"),
     (InteriorConfig, "carried"),
     (RealizationConfig, "max_carve"),
     (RealizationConfig, "max_carve_fitting"),
@@ -59,8 +59,8 @@ def test_no_count_is_negative(made: type, name: str) -> None:
         made(**{name: -1})
 
 
-@pytest.mark.parametrize(("made", "name"), SHARES)
-def test_a_share_is_less_than_the_whole(made: type, name: str) -> None:
+@pytest.mark.parametrize(("made", "name"), RATIOS)
+def test_a_fraction_is_less_than_the_whole(made: type, name: str) -> None:
     with pytest.raises(ValueError, match=f"`{made.__name__}.{name}` must be"):
         made(**{name: 1.5})
 

@@ -138,8 +138,8 @@ def test_what_is_near_the_hinge_opens_no_door():
     knob = box("knob", (0.0, 0.0, 0.0), (0.02, 0.02, 0.02))
     asset = cabinet(Door("left", handle="none"))
     leaf = asset.part("door")
-    for share, kind in ((0.9, "edge"), (0.1, "none")):
-        at = leaf.box.low + vec3(share * float(leaf.box.size[0]), -0.02, 0.5 * float(leaf.box.size[2]))
+    for ratio, kind in ((0.9, "edge"), (0.1, "none")):
+        at = leaf.box.low + vec3(ratio * float(leaf.box.size[0]), -0.02, 0.5 * float(leaf.box.size[2]))
         surfaces = tuple(replace(s, mesh=s.mesh.translated(at)) for s in knob.surfaces)
         parts = tuple(replace(p, surfaces=(*p.surfaces, *surfaces)) if p is leaf else p for p in asset.parts)
         assert find_grasp(scene_of(replace(asset, parts=parts)), "door").kind == kind

@@ -203,8 +203,8 @@ def test_models_of_another_scale_get_handles_that_fit(factor):
     asset = scaled(without_handles(cabinet(Pair(), width=0.9)), factor)
     handles = added(asset)
     for part in (a.part for a in handles.additions):
-        share = part.box.size.max() / asset.part(part.rides_on).box.size.max()
-        assert 0.02 < share < 0.5
+        ratio = part.box.size.max() / asset.part(part.rides_on).box.size.max()
+        assert 0.02 < ratio < 0.5
     assert len(handles.additions) + len(bodies_without(handles.scene, {})) == 2 or factor > 1
 
 

@@ -111,7 +111,7 @@ def test_a_sharp_groove_takes_what_its_sizes_say_and_a_rounded_one_a_little_less
 def test_a_turned_groove_lies_across_the_edge():
     result = carved(scene_of(DOOR, DOOR_MOTION), "door", of_kind(GripKind.GROOVE, turned=True))
     assert abs(result.direction[0]) == pytest.approx(1.0)
-    assert result.size[0] == pytest.approx(0.12)  # capped at a share of the door's width
+    assert result.size[0] == pytest.approx(0.12)  # capped at a fraction of the door's width
 
 
 def test_a_spot_is_kept_where_it_is_good_and_left_where_it_is_not():

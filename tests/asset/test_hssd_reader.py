@@ -31,9 +31,9 @@ def articulations(model):
     return model.articulations["annotation"]["articulations"]
 
 
-def opened(joint, points, share):
-    """Returns points moved by a share of a joint's range."""
-    value = joint.lower + share * (joint.upper - joint.lower)
+def opened(joint, points, ratio):
+    """Returns points moved by a fraction of a joint's range."""
+    value = joint.lower + ratio * (joint.upper - joint.lower)
     T = joint.axis.rotation(value) if joint.type is JointType.REVOLUTE else joint.axis.shift(value)
     return transform_points(T, points)
 
@@ -64,9 +64,9 @@ def test_what_was_made_is_read_back(tmp_path, kind, meshes):
         found = read[ids[joint.part]]
         assert (found.type, found.lower, found.upper, found.limited) == (joint.type, joint.lower, joint.upper, True)
         corners = made.part(joint.part).box.corners()
-        for share in (0.3, 1.0):
-            expected = transform_points(T, opened(joint, corners, share))
-            np.testing.assert_allclose(opened(found, transform_points(T, corners), share), expected, atol=1e-6)
+        for ratio in (0.3, 1.0):
+            expected = transform_points(T, opened(joint, corners, ratio))
+            np.testing.assert_allclose(opened(found, transform_points(T, corners), ratio), expected, atol=1e-6)
 
 
 def test_materials_and_texture_coordinates_stay_with_their_triangles(tmp_path):

@@ -64,15 +64,15 @@ def gone_within(seconds: float, pid: int, folder: Path) -> bool:
 
 def test_runs_share_a_process_and_each_says_how_far_it_is(work):
     first = begun(work)
-    shares = {first.share}
+    ratios = {first.ratio}
     while not first.is_done:
-        shares.add(first.share)
+        ratios.add(first.ratio)
         sleep(0.01)
     first.require_success()
     first.close()
     assert len(first.result().moving_joints) == 1
-    assert 0.0 in shares
-    assert all(0.0 <= share < 1.0 for share in shares)
+    assert 0.0 in ratios
+    assert all(0.0 <= ratio < 1.0 for ratio in ratios)
     second = begun(work)
     second.wait()
     second.require_success()

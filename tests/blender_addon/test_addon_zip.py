@@ -1,4 +1,4 @@
-"""The built extension in a Blender that knows nothing of this checkout: installed, used, its files written.
+"""The built extension in a Blender without this checkout: installed, used, its files written.
 
 It needs the zip that `make blender` builds, in dist/, and a `bpy`; it skips without either.
 """

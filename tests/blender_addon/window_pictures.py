@@ -83,7 +83,7 @@ def stage(hand):
 def run(hand):
     keep(hand, "start", hand.area)
     hand.call(bpy.ops.grafu.functionalize)
-    yield from hand.wait_while(lambda: running() and run_operators.active_run().share < _AMID)
+    yield from hand.wait_while(lambda: running() and run_operators.active_run().ratio < _AMID)
     yield 0.2
     keep(hand, "running", hand.region("UI"), whole=True)
     yield from hand.wait_while(running)

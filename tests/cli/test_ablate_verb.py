@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from grafu.cli import ablate, ablate_run
+from grafu.cli import ablate
 from grafu.cli.main import main
-from grafu.training import ablation_run
+from grafu.training import ablation_run, workers
 from grafu.training.ablation import FOLDS_TRIED, KINDS
 
 TINY = ["--config", "tiny", "--steps", "2", "--jobs", "1"]
@@ -56,7 +56,7 @@ def test_a_run_that_fails_is_named(
 
 
 def test_a_stop_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(ablate_run, "do_runs", lambda *_: (event for event in ()))
+    monkeypatch.setattr(ablation_run, "do_runs", lambda *_: (event for event in ()))
     assert main(["ablate", "losses", *TINY, "--seeds", "1", "2", "--out", str(tmp_path)]) == 130
     assert "stopped with 0 of 30 runs finished; the same command goes on" in capsys.readouterr().err
 
@@ -82,6 +82,6 @@ def test_errors_of_use_are_one_line(
 def test_a_device_must_be_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(ablate_run, "has_device", lambda name: name != "cuda")
+    monkeypatch.setattr(workers, "has_device", lambda name: name != "cuda")
     assert main(["ablate", "folds", "--out", str(tmp_path), "--device", "cuda"]) == 2
     assert "`--device`" in capsys.readouterr().err

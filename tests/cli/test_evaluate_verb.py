@@ -71,7 +71,7 @@ def test_stopped_in_the_middle_the_same_command_gives_the_same_tables(data: Path
 
 
 def test_what_is_done_is_not_done_again(data: Path, done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("grafu.cli.evaluate_run.run_all", lambda *_: pytest.fail("there was nothing left to do"))
+    monkeypatch.setattr("grafu.cli.pool.run_all", lambda *_: pytest.fail("there was nothing left to do"))
     before = contents(done / "tables")
     assert main(command(data, done)) == 0
     assert contents(done / "tables") == before
@@ -99,7 +99,7 @@ def test_a_model_that_fails_is_said_and_stops_no_other(
 def test_a_file_in_place_of_the_folder_is_said_before_any_work(
     data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("grafu.cli.evaluate_run.run_all", lambda *_: pytest.fail("work was begun"))
+    monkeypatch.setattr("grafu.cli.pool.run_all", lambda *_: pytest.fail("work was begun"))
     (tmp_path / "out").write_text("mine")
     for more in ([], ["--overwrite"]):
         assert main(command(data, tmp_path / "out", *more)) == 2

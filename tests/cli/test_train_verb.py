@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from grafu.cli import train, train_run
+from grafu.cli import train
 from grafu.cli.main import main
+from grafu.training import workers
+from grafu.training.config import CONFIGS
 
 TINY = ["train", "--config", "tiny", "--threads", "1", "--jobs", "1"]
 
@@ -24,7 +26,7 @@ def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_names_of_configs_are_those_that_there_are() -> None:
-    assert set(train.CONFIGS) == set(train_run.CONFIGS)
+    assert set(train.CONFIGS) == set(CONFIGS)
 
 
 def test_a_run_says_how_it_goes_and_goes_on(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -43,7 +45,7 @@ def test_a_run_is_not_begun_twice(trained: Path, capsys: pytest.CaptureFixture[s
 def test_the_best_weights_become_one_file(
     trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(train_run, "exported", lambda best: f"weights of step {best.step}".encode())
+    monkeypatch.setattr(train, "exported", lambda best: f"weights of step {best.step}".encode())
     target = tmp_path / "new" / "grafu.onnx"
     assert main(["train", "--out", str(trained), "--export", str(target)]) == 0
     assert target.read_bytes().startswith(b"weights of step")
@@ -84,7 +86,7 @@ def test_furniture_in_a_folder_that_judges_the_weights_is_refused(
 def test_a_device_that_is_not_there_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(train_run, "has_device", lambda name: name != "cuda")
+    monkeypatch.setattr(workers, "has_device", lambda name: name != "cuda")
     assert main([*TINY, "--out", str(tmp_path), "--device", "cuda"]) == 2
     assert "`--device`" in capsys.readouterr().err
 

@@ -160,17 +160,17 @@ def test_scores_are_the_networks_own_whatever_is_chosen(outward: float, sign: st
     completion = complete_by_network(graph, leaning, FEW, replace(ONCE, outward=outward))
     asked = [completion.decision(*which) for which in (("door", "border"), ("door", "sign"), ("drawer", "slide"))]
     assert [(d.choice, d.by) for d in asked] == [("1", ""), (sign, by), (way, by)]
-    assert shares_of(asked[0])["1"] == pytest.approx(share_of(lean, 4), abs=1e-6)
-    assert shares_of(asked[1])["0"] == pytest.approx(share_of(lean, 2), abs=1e-6)
-    assert shares_of(asked[2])["3"] == pytest.approx(share_of(lean, 6), abs=1e-6)
+    assert ratios_of(asked[0])["1"] == pytest.approx(ratio_of(lean, 4), abs=1e-6)
+    assert ratios_of(asked[1])["0"] == pytest.approx(ratio_of(lean, 2), abs=1e-6)
+    assert ratios_of(asked[2])["3"] == pytest.approx(ratio_of(lean, 6), abs=1e-6)
 
 
-def shares_of(decision: Decision) -> dict[str, float]:
+def ratios_of(decision: Decision) -> dict[str, float]:
     """The scores of a decision by choice."""
     return {decision.choice: decision.score, decision.runner_up: decision.runner_up_score}
 
 
-def share_of(logit: float, codes: int) -> float:
+def ratio_of(logit: float, codes: int) -> float:
     """The probability of the one code with this logit where all others have 0."""
     return float(np.exp(logit) / (np.exp(logit) + codes - 1))
 
@@ -475,7 +475,7 @@ def test_the_order_of_parts_does_not_matter() -> None:
     assert set(complete(turned, told()).completed.edges) == set(complete(graph, told()).completed.edges)
 
 
-def test_thresholds_are_shares() -> None:
+def test_thresholds_are_fractions() -> None:
     with pytest.raises(ValueError, match=r"must be in 0\.\.1"):
         DecodeConfig(fires=1.5)
     with pytest.raises(ValueError, match="must not be negative"):

@@ -23,8 +23,8 @@ def nodes(draw: st.DrawFn, node_id: str) -> PartNode:
     low = np.array([draw(metres) for _ in range(3)])
     size = np.array([draw(sides) for _ in range(3)])
     count = draw(st.integers(0, 5))
-    shares = np.random.default_rng(draw(st.integers(0, 99))).random((count, 3))
-    points = PointCloud(low + shares * size) if count else None
+    ratios = np.random.default_rng(draw(st.integers(0, 99))).random((count, 3))
+    points = PointCloud(low + ratios * size) if count else None
     return PartNode(node_id, draw(st.sampled_from(PartLabel)), Box(low, low + size), points, draw(words))
 
 

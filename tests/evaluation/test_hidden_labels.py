@@ -11,13 +11,13 @@ from grafu.evaluation.methods import LEVELS, mask_order, masked
 from grafu.vocabulary import PartLabel
 
 
-def hidden(share: float, seed: int, name: str = "cabinet") -> set[str]:
-    return {p.id for p in masked(cabinet(name=name), share, seed).parts if p.label is PartLabel.UNKNOWN}
+def hidden(ratio: float, seed: int, name: str = "cabinet") -> set[str]:
+    return {p.id for p in masked(cabinet(name=name), ratio, seed).parts if p.label is PartLabel.UNKNOWN}
 
 
 @given(st.sampled_from(LEVELS), st.integers(0, 10))
-def test_as_many_as_asked_for_are_hidden(share: float, seed: int) -> None:
-    assert len(hidden(share, seed)) == round(share * len(cabinet().parts))
+def test_as_many_as_asked_for_are_hidden(ratio: float, seed: int) -> None:
+    assert len(hidden(ratio, seed)) == round(ratio * len(cabinet().parts))
 
 
 def test_the_same_seed_hides_the_same_and_others_differ() -> None:
@@ -27,7 +27,7 @@ def test_the_same_seed_hides_the_same_and_others_differ() -> None:
 
 
 @given(st.integers(0, 20))
-def test_what_is_hidden_at_a_lower_share_is_hidden_at_every_higher_one(seed: int) -> None:
+def test_what_is_hidden_at_a_lower_fraction_is_hidden_at_every_higher_one(seed: int) -> None:
     assert hidden(0.1, seed) <= hidden(0.3, seed) <= hidden(0.5, seed) <= hidden(1.0, seed)
 
 
@@ -45,7 +45,7 @@ def test_the_order_of_parts_does_not_decide_what_is_hidden() -> None:
     assert sorted(mask_order(asset, 1)) == sorted(p.id for p in asset.parts)
 
 
-@pytest.mark.parametrize("share", [-0.1, 1.1])
-def test_a_share_is_a_share(share: float) -> None:
-    with pytest.raises(ValueError, match="share"):
-        masked(cabinet(), share, 0)
+@pytest.mark.parametrize("ratio", [-0.1, 1.1])
+def test_a_fraction_is_a_fraction(ratio: float) -> None:
+    with pytest.raises(ValueError, match="ratio"):
+        masked(cabinet(), ratio, 0)

@@ -81,7 +81,7 @@ def test_a_part_that_stands_still_is_neither_aligned_nor_connected_and_hits_noth
 
 
 @pytest.mark.parametrize("factor", [0.1, 10.0])
-def test_figures_are_shares_of_the_object(factor: float) -> None:
+def test_figures_are_fractions_of_the_object(factor: float) -> None:
     asset = cabinet()
     plain = measured(asset, plan_from_annotation(asset))
     large = scaled(asset, factor)

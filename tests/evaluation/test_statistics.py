@@ -50,7 +50,7 @@ def test_a_door_is_measured_as_seen_from_in_front():
     assert door.hinge_side == "left"
     assert door.handle_place == "opposite"
     assert door.along[0] == pytest.approx(0.9 / 0.96)
-    assert door.handle_share == pytest.approx(0.1 / 0.68)
+    assert door.handle_ratio == pytest.approx(0.1 / 0.68)
     assert door.handle_height == pytest.approx(0.33 / 0.68)
 
 
@@ -66,7 +66,7 @@ def test_hinge_sides_are_those_that_one_sees(border, side, place):
 def test_a_drawer_runs_along_its_rails():
     (drawer,) = drawers_of(cabinet()[1])
     assert (drawer.width, drawer.height, drawer.depth) == pytest.approx((0.96, 0.27, 0.52))
-    assert (drawer.handles, drawer.hinge_side, drawer.handle_share) == ((), None, None)
+    assert (drawer.handles, drawer.hinge_side, drawer.handle_ratio) == ((), None, None)
 
 
 def test_a_top_is_what_covers_the_topmost_front():
@@ -129,7 +129,7 @@ def test_each_real_model_is_held_against_the_range():
     assert compare_measures(made, [model("b", parts=95.01)] * 3).row("parts").verdict == "inside"  # but for rounding
 
 
-def test_a_share_is_held_against_groups_of_as_many():
+def test_a_fraction_is_held_against_groups_of_as_many():
     made = [model(str(k), parts=float(k)) for k in range(100)]
     compared = compare_measures(made, [model(str(k), parts=float(k)) for k in range(10)])
     assert compared.row("yes").verdict == "inside"

@@ -105,10 +105,10 @@ def run_of_three() -> dict[Task, Row]:
         found[tasks[0]] = row(tasks[0], made_of(measure()))
         found[tasks[1]] = row(tasks[1], made_of(measure(), measure(), measure(None), wrong))
         found[tasks[2]] = row(tasks[2], error="it did not work")
-        for share, seed in ((0.5, 0), (0.5, 1), (1.0, 0)):
+        for ratio, seed in ((0.5, 0), (0.5, 1), (1.0, 0)):
             for model, count in zip(MODELS, (1, 4, 2), strict=True):
-                mask = MaskTask(model, method, share, seed)
-                found[mask] = row(mask, made_of(*[measure(None if share == 1.0 else LEFT)] * count))
+                mask = MaskTask(model, method, ratio, seed)
+                found[mask] = row(mask, made_of(*[measure(None if ratio == 1.0 else LEFT)] * count))
     for number in range(4):
         task = MadeTask(0, number)
         features = tuple(float(number + k) for k in range(len(FEATURE_NAMES)))
@@ -226,7 +226,7 @@ TABLE = Table(
     "A title with 100 % & more",
     (
         Column("name", "Name_1"),
-        Column("share", "Share", "share", "more"),
+        Column("ratio", "Ratio", "ratio", "more"),
         Column("count", "Count", "count"),
         Column("sure", "Sure"),
     ),
@@ -244,12 +244,12 @@ def test_the_four_forms_say_the_same() -> None:
     lines = list(csv.DictReader(io.StringIO(csv_text(TABLE))))
     assert records[0] == {
         "name": "a|b & c_d",
-        "share": {"value": 0.5, "low": 0.25, "high": 0.75, "count": 3},
+        "ratio": {"value": 0.5, "low": 0.25, "high": 0.75, "count": 3},
         "count": 3,
         "sure": True,
     }
-    assert (lines[0]["share"], lines[0]["share_low"], lines[0]["share_high"]) == ("0.5", "0.25", "0.75")
-    assert (lines[1]["share"], lines[1]["share_low"], lines[1]["count"]) == ("0.125", "", "")
+    assert (lines[0]["ratio"], lines[0]["ratio_low"], lines[0]["ratio_high"]) == ("0.5", "0.25", "0.75")
+    assert (lines[1]["ratio"], lines[1]["ratio_low"], lines[1]["count"]) == ("0.125", "", "")
     assert [line["name"] for line in lines] == [record["name"] for record in records]
     body = [line for line in markdown(TABLE).splitlines() if line.startswith("|")]
     assert body[2] == "| a\\|b & c_d | 50.0 % [25.0 %, 75.0 %] | 3 | yes |"

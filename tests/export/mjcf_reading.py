@@ -61,7 +61,7 @@ def files_named(files: ExportFiles) -> set[str]:
     return {f"meshes/{element.get('file')}" for element in root.iter() if element.get("file")}
 
 
-def values_at(articulated: ArticulatedObject, share: float) -> dict[str, float]:
-    """Returns the values of all joints at one share of their ranges."""
+def values_at(articulated: ArticulatedObject, ratio: float) -> dict[str, float]:
+    """Returns the values of all joints at one fraction of their ranges."""
     joints = articulated.moving_joints
-    return {joint.id: joint.limits.lower + share * joint.limits.range for joint in joints}
+    return {joint.id: joint.limits.lower + ratio * joint.limits.range for joint in joints}

@@ -75,16 +75,16 @@ def test_masses_read_back(made):
         assert np.allclose(R @ np.diag(body.inertia) @ R.T, mass.inertia, rtol=1e-6, atol=1e-9 * mass.mass)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.31, 1.0])
-def test_links_stand_where_the_kinematics_say(made, share):
+@pytest.mark.parametrize("ratio", [0.0, 0.31, 1.0])
+def test_links_stand_where_the_kinematics_say(made, ratio):
     furniture, model = made
     assert furniture.moving_joints
-    require_poses(furniture, model, values_at(furniture, share))
+    require_poses(furniture, model, values_at(furniture, ratio))
 
 
-@pytest.mark.parametrize("share", [0.0, 0.5])
-def test_what_is_seen_stands_where_the_kinematics_say(model, cabinet, share):
-    values = values_at(cabinet, share)
+@pytest.mark.parametrize("ratio", [0.0, 0.5])
+def test_what_is_seen_stands_where_the_kinematics_say(model, cabinet, ratio):
+    values = values_at(cabinet, ratio)
     data, poses = posed(model, values), link_poses(cabinet, values)
     for link in cabinet.links:
         for visual in link.visuals:

@@ -25,7 +25,7 @@ FAMILIES: dict[str, tuple[int, tuple[Change, ...]]] = {
     "bombs": (15, bombs.CHANGES),
 }
 NAMES = tuple(STARTS)
-COMMAND_SHARE = 0.1
+COMMAND_RATIO = 0.1
 _TRIES = 30
 
 
@@ -34,7 +34,7 @@ def make_case(seed: int, index: int) -> Case:
     rng = Random(f"{seed}/{index}")
     start = NAMES[index % len(NAMES)]
     files, entry = start_of(start)
-    by_command = READERS[start].arguments is not None and rng.random() < COMMAND_SHARE
+    by_command = READERS[start].arguments is not None and rng.random() < COMMAND_RATIO
     changes: list[str] = []
     for _ in range(rng.choices((1, 2, 3), (70, 20, 10))[0]):
         name, files = _changed(files, rng)

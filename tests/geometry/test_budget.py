@@ -1,4 +1,4 @@
-"""The budget: a deadline by a clock that tests turn themselves, shares of what is left, and room asked for first."""
+"""The budget: a deadline by a clock that tests turn themselves, fractions of what is left, and room asked for first."""
 
 from math import inf
 
@@ -22,7 +22,7 @@ from grafu.geometry.budget import (
 def test_without_a_budget_time_never_ends() -> None:
     assert present_budget() is UNLIMITED
     assert UNLIMITED.left == inf
-    assert UNLIMITED.share(0.5) is UNLIMITED
+    assert UNLIMITED.fraction(0.5) is UNLIMITED
     require_time()
 
 
@@ -32,19 +32,19 @@ def test_time_ends_at_the_deadline() -> None:
         clock.now = 9.9
         require_time()
         clock.now = 10.0
-        with pytest.raises(TooComplex, match="more time than its share"):
+        with pytest.raises(TooComplex, match="more time than its part of the budget"):
             require_time()
     require_time()  # the budget was in force in the block alone
 
 
-def test_a_share_is_of_what_is_left() -> None:
+def test_a_fraction_is_of_what_is_left() -> None:
     clock = Clock()
     budget = Budget.lasting(10.0, clock=clock)
     clock.now = 4.0
-    assert budget.share(0.5).deadline == pytest.approx(7.0)
+    assert budget.fraction(0.5).deadline == pytest.approx(7.0)
     clock.now = 20.0
     assert budget.left == 0.0
-    assert budget.share(0.5).left == 0.0
+    assert budget.fraction(0.5).left == 0.0
 
 
 def test_a_busy_machine_changes_no_result_until_the_clock_on_the_wall_ends_the_work(
@@ -54,18 +54,18 @@ def test_a_busy_machine_changes_no_result_until_the_clock_on_the_wall_ends_the_w
     monkeypatch.setattr("grafu.geometry.budget.process_time", processor)
     monkeypatch.setattr("grafu.geometry.budget.monotonic", wall)
     budget = Budget.lasting(100.0)
-    share = budget.share(0.1)
+    ratio = budget.fraction(0.1)
     wall.now = 39.0  # others had the processor
-    assert share.left == pytest.approx(1.0)
+    assert ratio.left == pytest.approx(1.0)
     assert budget.left == pytest.approx(61.0)
     processor.now = 10.0
-    assert share.left == 0.0
-    assert budget.share(1.0).left == pytest.approx(0.9 * 61.0)  # something is left for what comes after
+    assert ratio.left == 0.0
+    assert budget.fraction(1.0).left == pytest.approx(0.9 * 61.0)  # something is left for what comes after
     wall.now = 100.0
     assert budget.left == 0.0
 
 
-def test_what_exceeds_its_share_is_replaced_and_the_rest_has_its_time() -> None:
+def test_what_exceeds_its_fraction_is_replaced_and_the_rest_has_its_time() -> None:
     clock = Clock()
 
     def slow() -> str:
@@ -111,7 +111,7 @@ def test_nothing_is_begun_when_time_is_up() -> None:
     with Budget.lasting(10.0, clock=clock).in_force():
         clock.now = 11.0
         assert within(1.0, lambda: begun.append("work"), lambda why: why) == (
-            "it takes more time than its share: simplify the meshes, or allow more time"
+            "it takes more time than its part of the budget: simplify the meshes, or allow more time"
         )
     assert begun == []
 

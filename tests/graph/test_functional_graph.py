@@ -191,7 +191,7 @@ def test_a_completion_accounts_for_every_node():
     assert GraphCompletion(smaller, graph(*EDGES), "rule", added=("knob",)).added == ("knob",)
 
 
-def test_a_completion_names_only_its_nodes_and_scores_are_shares():
+def test_a_completion_names_only_its_nodes_and_scores_are_fractions():
     with pytest.raises(GraphError, match="there is no \\['lamp'\\]"):
         GraphCompletion(graph(*EDGES), graph(*EDGES), "rule", decisions=(Decision("lamp", "mount", "side", 1.0),))
     with pytest.raises(GraphError, match=r"in 0\.\.1"):

@@ -40,7 +40,7 @@ def test_the_papers_rule_calls_it_a_contact():
 
 
 @pytest.mark.parametrize(("gap", "touching"), [(-0.01, True), (0.0, True), (0.009, True), (0.011, False)])
-def test_the_tolerance_is_a_share_of_the_largest_side(gap, touching):
+def test_the_tolerance_is_a_fraction_of_the_largest_side(gap, touching):
     graph = parse_graph(asset(a=block([0, 0, 0], [1 - gap, 1, 2]), b=block([1, 0, 0], [2, 1, 2])))
     assert bool(graph.edges) is touching  # 0.005 of 2 m
 

@@ -16,7 +16,7 @@ from grafu.joints.clearance.carve import measured_loss
 from judging import installed, realized
 from small_scenes import box, drawer
 
-SHARES = st.floats(0.02, 0.98)
+RATIOS = st.floats(0.02, 0.98)
 
 
 def solid(low, high) -> ConvexSolid:
@@ -37,7 +37,7 @@ def with_cavity() -> Part:
 
 
 @pytest.mark.parametrize("part", [hollow_box(), with_cavity()], ids=["sheet", "thick wall"])
-@given(SHARES, SHARES, st.floats(0.001, 0.05))
+@given(RATIOS, RATIOS, st.floats(0.001, 0.05))
 def test_a_hollow_box_loses_what_is_seen_of_its_front(part, width, height, depth):
     """A recess in the front: of the cube's six faces it takes width x height, of its hull next to nothing."""
     low, high = (0.5 - width / 2, -0.1, 0.5 - height / 2), (0.5 + width / 2, depth, 0.5 + height / 2)
@@ -47,7 +47,7 @@ def test_a_hollow_box_loses_what_is_seen_of_its_front(part, width, height, depth
     volume = width * height * depth
     if len(part.surfaces) == 1:
         assert loss.volume == pytest.approx(volume, abs=1e-5)
-    assert loss.share == loss.surface > 3 * volume  # what the volume alone would say
+    assert loss.ratio == loss.surface > 3 * volume  # what the volume alone would say
 
 
 def test_a_wall_inside_is_no_loss_that_is_seen():
@@ -60,7 +60,7 @@ def test_of_a_solid_bar_the_volume_counts_where_it_is_more():
 
     assert loss.volume == pytest.approx(0.36, abs=1e-5)
     assert loss.surface == pytest.approx(2 * 0.36 / 6, abs=1e-6)
-    assert loss.share == loss.volume
+    assert loss.ratio == loss.volume
 
 
 def test_solids_that_overlap_take_nothing_twice():
@@ -71,8 +71,8 @@ def test_solids_that_overlap_take_nothing_twice():
 
 
 def test_nothing_is_lost_where_nothing_is_cut():
-    assert measured_loss(hollow_box(), []).share == 0.0
-    assert measured_loss(hollow_box(), [solid((2, 2, 2), (3, 3, 3))]).share == 0.0
+    assert measured_loss(hollow_box(), []).ratio == 0.0
+    assert measured_loss(hollow_box(), [solid((2, 2, 2), (3, 3, 3))]).ratio == 0.0
 
 
 def blind() -> Part:

@@ -82,9 +82,9 @@ def test_hardware_cuts_into_no_part_of_the_other_side(kind):
 @every_kind
 def test_the_report_says_what_the_judge_finds(kind):
     asset, result = made_kind(kind), realized_kind(kind)
-    shares = collision_shares(result.object, CollisionConfig(poses=12, tolerance=TOUCH))
+    ratios = collision_shares(result.object, CollisionConfig(poses=12, tolerance=TOUCH))
     for outcome in result.report.installed:
-        assert outcome.collision_share == shares[outcome.joint] == 0.0
+        assert outcome.collision_share == ratios[outcome.joint] == 0.0
         assert outcome.largest_gap <= 0.001 * asset.unit
         assert outcome.mount in {p.id for p in asset.parts}
         assert outcome.source == "annotation"

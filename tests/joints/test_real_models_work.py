@@ -41,10 +41,10 @@ def test_each_stated_joint_is_built_or_skipped_with_a_reason(name):
 @model
 def test_what_is_built_collides_with_nothing_and_stays_connected(name):
     asset, result = loaded(name), result_of(name)
-    shares = collision_shares(result.object, CollisionConfig(poses=20, tolerance=0.0005))
+    ratios = collision_shares(result.object, CollisionConfig(poses=20, tolerance=0.0005))
     gaps = largest_gaps(result.object, ConnectivityConfig(poses=4))
     for outcome in result.report.installed:
-        assert shares[outcome.joint] == 0.0, outcome.moving
+        assert ratios[outcome.joint] == 0.0, outcome.moving
         assert gaps[outcome.joint] <= 0.005 * asset.unit, outcome.moving
 
 

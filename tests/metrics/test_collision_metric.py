@@ -1,4 +1,4 @@
-"""A door and a drawer of boxes: known shares of colliding poses, known gaps."""
+"""A door and a drawer of boxes: known fractions of colliding poses, known gaps."""
 
 import numpy as np
 import pytest
@@ -46,11 +46,11 @@ def test_a_free_drawer_never_collides():
     assert mean_collision(free, TOLERANT) == 0.0
 
 
-def test_a_block_pushed_into_the_back_collides_for_the_share_of_its_way():
+def test_a_block_pushed_into_the_back_collides_for_the_fraction_of_its_way():
     # Its front reaches the back's near face (0.98) at 0.5 and its rear leaves the far face (1.0) at 0.7 of the way.
     pushed = slider([0.3, 0.3, 0.3], [0.6, 0.48, 0.6], [0, 1, 0], 1.0)
-    share = collision_shares(pushed, CollisionConfig(poses=101))["slide"]
-    assert share == pytest.approx(21 / 101, abs=0.011)
+    ratio = collision_shares(pushed, CollisionConfig(poses=101))["slide"]
+    assert ratio == pytest.approx(21 / 101, abs=0.011)
 
 
 def test_poses_are_evenly_spaced_and_both_ends_count():
@@ -64,7 +64,7 @@ def test_lying_flush_collides_strictly_and_not_with_a_tolerance():
     assert mean_collision(flush, TOLERANT) == 0.0
 
 
-def test_the_tolerance_is_a_share_of_the_largest_side():
+def test_the_tolerance_is_a_fraction_of_the_largest_side():
     deep = slider([0.005, 0.1, 0.3], [0.6, 0.9, 0.6], [0, -1, 0], 0.5)
     assert mean_collision(deep, CollisionConfig(tolerance=0.002)) > 0.5
     assert mean_collision(deep, CollisionConfig(tolerance=0.02)) == 0.0

@@ -13,7 +13,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import as_contacts, with_edges, without_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.metrics.graph_accuracy import GraphAccuracy, Share, graph_accuracy, total_accuracy
+from grafu.metrics.graph_accuracy import GraphAccuracy, Ratio, graph_accuracy, total_accuracy
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 from small_graphs import cabinet
@@ -41,12 +41,12 @@ def test_the_truth_is_right_in_everything() -> None:
 def test_the_non_functional_graph_has_its_nodes_and_contacts_alone() -> None:
     accuracy = graph_accuracy(as_contacts(TRUTH), TRUTH)
     assert accuracy.existence.value == 1.0
-    assert accuracy.edges == Share(12.0, 20.0)
+    assert accuracy.edges == Ratio(12.0, 20.0)
     assert accuracy.contact.value == pytest.approx(2 * 12 / (20 + 12))
     assert accuracy.hinge.value == accuracy.rail.value == accuracy.attached.value == 0.0
-    assert accuracy.joint == Share(0.0, 2.0)
-    assert accuracy.slide == Share(0.0, 2.0)
-    assert accuracy.parent == Share(0.0, 4.0)
+    assert accuracy.joint == Ratio(0.0, 2.0)
+    assert accuracy.slide == Ratio(0.0, 2.0)
+    assert accuracy.parent == Ratio(0.0, 4.0)
 
 
 def test_a_completion_counts_as_its_completed_graph() -> None:
@@ -66,26 +66,26 @@ def test_a_door_on_another_part_has_its_motion_but_not_its_mount() -> None:
     bare = without_edges(TRUTH, [e for e in TRUTH.hinges if e.child == "door_1"])
     accuracy = graph_accuracy(with_edges(bare, [Hinge("back", "door_1", 0, 0)]), TRUTH)
     assert accuracy.joint.value == 1.0
-    assert accuracy.mount == Share(1.0, 2.0)
+    assert accuracy.mount == Ratio(1.0, 2.0)
     assert accuracy.hinge.value == pytest.approx(0.5)  # one of two found, one of two true
 
 
 def test_a_drawer_that_slides_the_wrong_way_is_wrong() -> None:
     bare = without_edges(TRUTH, [e for e in TRUTH.rails if e.child == "drawer_1"])
     accuracy = graph_accuracy(with_edges(bare, [Rail("left", "drawer_1", 3)]), TRUTH)
-    assert accuracy.slide == Share(1.0, 2.0)
+    assert accuracy.slide == Ratio(1.0, 2.0)
     assert accuracy.rail.value == 1.0
 
 
 def test_a_handle_on_another_door_has_no_parent() -> None:
     bare = without_edges(TRUTH, [e for e in TRUTH.attachments if e.child == "knob_1"])
-    assert graph_accuracy(with_edges(bare, [Attached("door_2", "knob_1")]), TRUTH).parent == Share(3.0, 4.0)
+    assert graph_accuracy(with_edges(bare, [Attached("door_2", "knob_1")]), TRUTH).parent == Ratio(3.0, 4.0)
 
 
 def test_what_is_missing_is_missed() -> None:
     accuracy = graph_accuracy(without_nodes(TRUTH, ["knob_4"]), TRUTH)
     assert accuracy.existence.value == pytest.approx(2 * 17 / (17 + 18))
-    assert accuracy.added == Share(0.0, 1.0)
+    assert accuracy.added == Ratio(0.0, 1.0)
     assert accuracy.attached.value == pytest.approx(2 * 3 / (3 + 4))
     assert isnan(accuracy.added_centre.value)
 
@@ -105,14 +105,14 @@ def test_an_added_node_too_many_lowers_existence_and_its_edges_are_wrong() -> No
     extra = replace(TRUTH, nodes=(*TRUTH.nodes, moved(TRUTH.node("left"), "extra", 1.0)))
     accuracy = graph_accuracy(with_edges(extra, [Contact("extra", "left")]), TRUTH)
     assert accuracy.existence.value == pytest.approx(2 * 18 / (19 + 18))
-    assert accuracy.added == Share(0.0, 1.0)
+    assert accuracy.added == Ratio(0.0, 1.0)
     assert accuracy.contact.value == pytest.approx(2 * 12 / (13 + 12))
     assert accuracy.edges.value == 1.0
 
 
 def test_an_unknown_true_label_asks_for_nothing() -> None:
     masked = replace(TRUTH, nodes=(replace(TRUTH.nodes[0], label=PartLabel.UNKNOWN), *TRUTH.nodes[1:]))
-    assert graph_accuracy(TRUTH, masked).category == Share(17.0, 17.0)
+    assert graph_accuracy(TRUTH, masked).category == Ratio(17.0, 17.0)
 
 
 @given(st.permutations(range(18)))
@@ -134,5 +134,5 @@ def test_graphs_without_nodes_have_nothing_to_answer() -> None:
 
 def test_shares_of_many_graphs_add_up() -> None:
     total = total_accuracy([graph_accuracy(TRUTH, TRUTH), graph_accuracy(as_contacts(TRUTH), TRUTH)])
-    assert total.joint == Share(2.0, 4.0)
+    assert total.joint == Ratio(2.0, 4.0)
     assert total.existence.value == 1.0

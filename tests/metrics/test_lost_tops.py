@@ -5,7 +5,7 @@ import pytest
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.metrics.tops import lost_tops, open_share
+from grafu.metrics.tops import lost_tops, open_ratio
 
 Point = tuple[float, float, float]
 W, D, H, T = 0.8, 0.5, 0.8, 0.018
@@ -32,18 +32,18 @@ def legs(height: float = H) -> list[TriangleMesh]:
     return [block((x, y, 0.0), (x + 0.04, y + 0.04, height)) for x, y in ends]
 
 
-def plate(share: float = 1.0, low: float = H, over: float = 0.02) -> TriangleMesh:
-    """A top over this share of the width of a case, from the left."""
+def plate(ratio: float = 1.0, low: float = H, over: float = 0.02) -> TriangleMesh:
+    """A top over this fraction of the width of a case, from the left."""
     x, y = W / 2 + over, D / 2 + over
-    return block((-x, -y, low), (-x + share * 2 * x, y, low + 0.025))
+    return block((-x, -y, low), (-x + ratio * 2 * x, y, low + 0.025))
 
 
-@pytest.mark.parametrize("share", [1.0, 0.9, 0.5])
-def test_the_covered_share_is_that_of_the_body(share: float) -> None:
-    (lost,) = lost_tops([plate()], case(), [], [plate(share)])
+@pytest.mark.parametrize("ratio", [1.0, 0.9, 0.5])
+def test_the_covered_fraction_is_that_of_the_body(ratio: float) -> None:
+    (lost,) = lost_tops([plate()], case(), [], [plate(ratio)])
     assert lost.is_missed
     assert lost.hollow > 0.85
-    assert lost.covered == pytest.approx(share, abs=0.03)
+    assert lost.covered == pytest.approx(ratio, abs=0.03)
 
 
 def test_overhangs_do_not_count() -> None:
@@ -108,17 +108,17 @@ def test_nothing_taken_or_left_is_refused() -> None:
     with pytest.raises(ValueError, match="`taken` and `still`"):
         lost_tops([plate()], [], [], [])
     with pytest.raises(ValueError, match="`meshes` must"):
-        open_share([])
+        open_ratio([])
 
 
 def test_rooms_and_what_stands_on_legs_alone_are_open() -> None:
-    assert open_share(case()) > 0.85
-    assert open_share(legs()) > 0.5
-    assert open_share([*case(), plate()]) == 0.0
+    assert open_ratio(case()) > 0.85
+    assert open_ratio(legs()) > 0.5
+    assert open_ratio([*case(), plate()]) == 0.0
 
 
 def test_a_rack_whose_posts_stand_higher_and_a_desk_before_its_hutch_are_not_open() -> None:
     shelves = [block((-0.6, -0.3, z), (0.6, 0.3, z + 0.02)) for z in (0.2, 0.6, 1.0)]
-    assert open_share([*legs(1.2), *shelves]) == 0.0
+    assert open_ratio([*legs(1.2), *shelves]) == 0.0
     hutch = block((-0.42, 0.1, H + 0.025), (0.42, 0.27, 1.25))
-    assert open_share([*case(), plate(), hutch]) == 0.0
+    assert open_ratio([*case(), plate(), hutch]) == 0.0

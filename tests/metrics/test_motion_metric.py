@@ -13,7 +13,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import rotation_about
-from grafu.metrics.motion import Motion, agreement_share, compare_motions, motion_agreement
+from grafu.metrics.motion import Motion, agreement_ratio, compare_motions, motion_agreement
 from grafu.vocabulary import JointType
 
 CENTER = np.array([0.5, 0.0, 0.5])
@@ -81,10 +81,10 @@ def made(x: float) -> ArticulatedObject:
 
 
 def test_objects_are_compared_link_by_link():
-    assert agreement_share(motion_agreement(made(0.0), made(0.01))) == 1.0
-    assert agreement_share(motion_agreement(made(1.0), made(0.01))) == 0.0
-    assert agreement_share(motion_agreement(ArticulatedObject("m", "case", (Link("case", ()),)), made(0.0))) == 0.0
+    assert agreement_ratio(motion_agreement(made(0.0), made(0.01))) == 1.0
+    assert agreement_ratio(motion_agreement(made(1.0), made(0.01))) == 0.0
+    assert agreement_ratio(motion_agreement(ArticulatedObject("m", "case", (Link("case", ()),)), made(0.0))) == 0.0
 
 
 def test_nothing_to_find_is_all_found():
-    assert agreement_share(()) == 1.0
+    assert agreement_ratio(()) == 1.0

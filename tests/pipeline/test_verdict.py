@@ -77,8 +77,8 @@ def guessed(report: Report, joint: JointRecord, size: float) -> Report:
 
 
 def carved(report: Report, joint: JointRecord, size: float) -> Report:
-    share = MOST_CARVED + (1 - MOST_CARVED) * size
-    half = 1 - (1 - share) ** 0.5  # two cuts that are less each, and too much together
+    ratio = MOST_CARVED + (1 - MOST_CARVED) * size
+    half = 1 - (1 - ratio) ** 0.5  # two cuts that are less each, and too much together
     cut = ClearanceRecord(part="side_panel_left", kind="carved", amount=0.1, share=half, surface_share=half, why="")
     return with_joint(report, joint.part, clearances=(*joint.clearances, cut, cut))
 

@@ -40,7 +40,7 @@ def is_straight(mesh):
 def test_nothing_collides_in_any_construction(name):
     asset = made(SPECS[name])
     for joint in asset.joints:
-        assert collisions(asset, joint.part, [share * joint.upper for share in (0.03, 0.1, 0.4, 0.7, 1.0)]) == {}
+        assert collisions(asset, joint.part, [ratio * joint.upper for ratio in (0.03, 0.1, 0.4, 0.7, 1.0)]) == {}
 
 
 @pytest.mark.parametrize("name", SPECS)
@@ -257,7 +257,7 @@ def test_no_base_has_no_pieces():
         lambda: Leg(thick=0.0),
         lambda: Inside(dividers=-1),
         lambda: Inside(setback=-0.01),
-        lambda: Cabinet(share=0.9),
+        lambda: Cabinet(ratio=0.9),
         lambda: Table(leg=0.4),
         lambda: Desk(left=Drawer(), wing=0.8),
         lambda: Desk(width=0.7, left=Drawer()),

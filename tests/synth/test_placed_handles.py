@@ -39,7 +39,7 @@ def test_styles_are_the_templates_and_none():
 @pytest.mark.parametrize("along", [None, 0.0, 1.0])
 def test_every_handle_at_every_place_is_clear_of_the_border_and_on_the_leaf(style, place, hinge, along):
     for count in (1, 2):
-        found = boxes(style, Hold(place, along, length=0.3, share=1.0, count=count), hinge=hinge)
+        found = boxes(style, Hold(place, along, length=0.3, ratio=1.0, count=count), hinge=hinge)
         assert len(found) == count
         for box in found:
             assert np.all(box.low[[0, 2]] >= 0.0019)
@@ -94,10 +94,10 @@ def test_bars_stand_upright_on_doors_and_cups_hang_level(style, hold, upright):
     ("style", "hold", "length"),
     [
         ("bar-round", Hold(), 0.16),
-        ("bar-round", Hold(length=0.4, share=0.7), 0.4),
-        ("bar-round", Hold(length=2.0, share=1.0), 0.796),
-        ("bar-round", Hold(length=2.0, share=0.8, count=2), 0.32),
-        ("knob-round", Hold(length=2.0, share=1.0), 0.03),
+        ("bar-round", Hold(length=0.4, ratio=0.7), 0.4),
+        ("bar-round", Hold(length=2.0, ratio=1.0), 0.796),
+        ("bar-round", Hold(length=2.0, ratio=0.8, count=2), 0.32),
+        ("knob-round", Hold(length=2.0, ratio=1.0), 0.03),
         ("knob-round", Hold(length=0.015), 0.015),
     ],
 )
@@ -157,7 +157,7 @@ def test_a_drawer_has_no_free_edge():
     ("bad", "message"),
     [
         ({"along": 1.2}, "`along`"),
-        ({"share": 0.0}, "`share`"),
+        ({"ratio": 0.0}, "`ratio`"),
         ({"inset": 0.0}, "`inset`"),
         ({"length": -1.0}, "`length`"),
     ],

@@ -21,7 +21,7 @@ def specimens() -> tuple[Specimen, ...]:
     return tuple(make_specimen(8, index, 4) for index in range(NUMBER))
 
 
-def share(of: list[bool]) -> float:
+def ratio(of: list[bool]) -> float:
     return sum(of) / len(of)
 
 
@@ -104,27 +104,27 @@ def test_tops_are_missing_from_storage_as_in_real_life_and_never_from_tables() -
     storage = [s for s in specimens() if is_storage(s.whole)]
     gone = [not any(p.label is PartLabel.TOP_PANEL and p.id not in s.missing for p in s.whole.parts) for s in storage]
 
-    assert 0.25 <= share(gone) <= 0.5
+    assert 0.25 <= ratio(gone) <= 0.5
     tables = [s for s in specimens() if s.family in ("table with drawers", "writing desk")]
-    assert share([any(s.whole.part(i).label is PartLabel.TOP_PANEL for i in s.missing) for s in tables]) < 0.1
+    assert ratio([any(s.whole.part(i).label is PartLabel.TOP_PANEL for i in s.missing) for s in tables]) < 0.1
 
 
 def test_patterns_come_at_their_rates() -> None:
     parts = [s.asset.parts for s in specimens()]
-    unknown = [share([p.label is PartLabel.UNKNOWN for p in given]) for given in parts]
+    unknown = [ratio([p.label is PartLabel.UNKNOWN for p in given]) for given in parts]
     rates = {
-        "labels all there": (share([u == 0 for u in unknown]), 0.41, 0.65),
-        "labels all lost": (share([u == 1 for u in unknown]), 0.03, 0.19),
-        "sheets": (share([any(p.box.size.min() < 1e-6 for p in given) for given in parts]), 0.25, 0.6),
-        "joined": (share([any(p.id.startswith("joined") for p in given) for given in parts]), 0.15, 0.42),
-        "pieces": (share([any("_piece_" in p.id for p in given) for given in parts]), 0.12, 0.4),
-        "no handle": (share(without(PartLabel.HANDLE)), 0.15, 0.45),
+        "labels all there": (ratio([u == 0 for u in unknown]), 0.41, 0.65),
+        "labels all lost": (ratio([u == 1 for u in unknown]), 0.03, 0.19),
+        "sheets": (ratio([any(p.box.size.min() < 1e-6 for p in given) for given in parts]), 0.25, 0.6),
+        "joined": (ratio([any(p.id.startswith("joined") for p in given) for given in parts]), 0.15, 0.42),
+        "pieces": (ratio([any("_piece_" in p.id for p in given) for given in parts]), 0.12, 0.4),
+        "no handle": (ratio(without(PartLabel.HANDLE)), 0.15, 0.45),
         "out of place": (
-            share([any(d.kind in ("interpenetrating", "floating") for d in s.defects) for s in specimens()]),
+            ratio([any(d.kind in ("interpenetrating", "floating") for d in s.defects) for s in specimens()]),
             0.12,
             0.45,
         ),
-        "missing": (share([bool(s.missing) for s in specimens()]), 0.4, 0.75),
+        "missing": (ratio([bool(s.missing) for s in specimens()]), 0.4, 0.75),
     }
     assert {name: rate for name, (rate, low, high) in rates.items() if not low <= rate <= high} == {}
 

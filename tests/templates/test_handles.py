@@ -29,9 +29,9 @@ def test_handles_are_closed_and_look_outwards(handle):
 
 
 @every_handle
-@pytest.mark.parametrize("share", [0.5, 1.0, 2.0])
-def test_handles_fill_their_size_from_the_foot_plane_on(handle, share):
-    length, protrusion = share * handle.natural.length, share**0.5 * handle.natural.protrusion
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
+def test_handles_fill_their_size_from_the_foot_plane_on(handle, ratio):
+    length, protrusion = ratio * handle.natural.length, ratio**0.5 * handle.natural.protrusion
     meshes = handle.build(length, protrusion)
     low, high = box_of(meshes)
     assert all(mesh.is_closed and mesh.to_trimesh().volume > 0 for mesh in meshes)

@@ -25,7 +25,7 @@ from grafu.synth.generate import make_specimen
 from grafu.vocabulary import PartLabel
 
 SIDES = ("left", "right", "top", "bottom")
-_FAR = 1.0  # share of the object's largest side: there is nothing on this side
+_FAR = 1.0  # fraction of the object's largest side: there is nothing on this side
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def predictions(train: Iterable[Door], asked: Iterable[Door], with_handles: bool
 
 
 def accuracy(train: list[Door], asked: list[Door], with_handles: bool) -> float:
-    """Returns the share of doors whose side is predicted rightly."""
+    """Returns the fraction of doors whose side is predicted rightly."""
     found = predictions(train, asked, with_handles)
     return float(np.mean([side == door.side for side, door in zip(found, asked, strict=True)]))
 
@@ -150,7 +150,7 @@ def main() -> None:
         wrong = [f"{d.model}/{d.part} {d.side}, not {s}" for s, d in zip(found, asked, strict=True) if s != d.side]
         rows.append(("with handles" if with_handles else "without handles", len(asked) - len(wrong)))
         print(f"wrong {rows[-1][0]}: {', '.join(wrong) or 'none'}\n")
-    print("| of real doors | doors | right | share | learnt from |\n|---|---|---|---|---|")
+    print("| of real doors | doors | right | fraction | learnt from |\n|---|---|---|---|---|")
     for name, right in rows:
         print(f"| {name} | {len(asked)} | {right} | {right / len(asked):.0%} | {len(train)} |")
 

@@ -65,7 +65,7 @@ def test_copies_are_drawn_by_the_mix() -> None:
 def test_a_mix_that_mirrors_or_adds_up_to_more_than_all_is_refused() -> None:
     with pytest.raises(ValueError, match="must not mirror"):
         CopyMix(0.5, 0.0, CorruptionConfig())
-    with pytest.raises(ValueError, match="shares of one"):
+    with pytest.raises(ValueError, match="fractions of one"):
         CopyMix(0.8, 0.3, STILL)
     with pytest.raises(ValueError, match="folds"):
         CopyMix(0.8, 0.0, STILL, folds=0)

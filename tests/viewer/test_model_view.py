@@ -24,9 +24,9 @@ def pixels(browser):
     return np.asarray(Image.open(BytesIO(browser.screenshot())).convert("RGB")).astype(int)
 
 
-def slide(browser, index, share):
+def slide(browser, index, ratio):
     browser.run(
-        f"{{const s = document.querySelector('[data-joint=\"{index}\"]'); s.value = {share} * s.max;"
+        f"{{const s = document.querySelector('[data-joint=\"{index}\"]'); s.value = {ratio} * s.max;"
         "s.dispatchEvent(new Event('input', {bubbles: true})); 1}"
     )
 
@@ -70,7 +70,7 @@ def test_the_door_is_seen_in_its_own_colour_and_the_switch_recolours(shown, made
 
 def test_open_all_and_close_all(shown, made):
     shown.run("document.querySelector('[data-action=open]').click()")
-    shown.wait_for("grafu.joints.joints.every((_, k) => grafu.joints.share(k) === 1)")
+    shown.wait_for("grafu.joints.joints.every((_, k) => grafu.joints.fraction(k) === 1)")
     assert shown.run("grafu.joints.values") == pytest.approx([j.limits.upper for j in made.result.object.moving_joints])
     shown.run("document.querySelector('[data-action=close]').click()")
     shown.wait_for("grafu.joints.values.every((v) => v === 0)")
@@ -90,10 +90,10 @@ def test_what_is_behind_a_door_waits_for_it(shown):
     values = shown.run("""(() => {
       const joints = grafu.joints;
       joints.joints[1].after = [0];
-      joints.setShare(1, 0.5);
-      const opened = [joints.share(0), joints.share(1)];
-      joints.setShare(0, 0.2);
-      return [...opened, joints.share(0), joints.share(1)];
+      joints.setFraction(1, 0.5);
+      const opened = [joints.fraction(0), joints.fraction(1)];
+      joints.setFraction(0, 0.2);
+      return [...opened, joints.fraction(0), joints.fraction(1)];
     })()""")
     assert values == pytest.approx([1, 0.5, 0.2, 0])
 

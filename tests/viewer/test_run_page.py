@@ -19,8 +19,8 @@ COLUMNS = (
 )
 
 
-def row(name, note, share, count, seconds, badness):
-    return RunRow((name, note, share, count, seconds), badness, f"{name}/report.html")
+def row(name, note, ratio, count, seconds, badness):
+    return RunRow((name, note, ratio, count, seconds), badness, f"{name}/report.html")
 
 
 ROWS = (
@@ -137,7 +137,7 @@ def test_a_run_without_rows_is_a_page():
 def test_tables_check_their_rows():
     with pytest.raises(ValueError, match="2 columns: a row has 1 cells"):
         RunTable("t", COLUMNS[:2], (RunRow(("a",)),))
-    with pytest.raises(ValueError, match="`share` is a column of numbers: got `x`"):
+    with pytest.raises(ValueError, match="`ratio` is a column of numbers: got `x`"):
         RunTable("t", COLUMNS[:3], (RunRow(("a", "b", "x")),))
 
 

@@ -16,8 +16,8 @@ CUBE = TriangleMesh.box_mesh(Box(np.array([-0.2, 0.1, 0.0]), np.array([0.5, 0.4,
 
 
 def unpacked(packed: PackedSurface) -> np.ndarray:
-    shares = np.frombuffer(packed.mesh.vertices, np.uint16).reshape(-1, 4)[:, :3] / 65535
-    corners = np.array(packed.low) + shares * np.array(packed.size)
+    ratios = np.frombuffer(packed.mesh.vertices, np.uint16).reshape(-1, 4)[:, :3] / 65535
+    corners = np.array(packed.low) + ratios * np.array(packed.size)
     return corners[np.frombuffer(packed.mesh.indices, np.uint32 if packed.mesh.wide else np.uint16)].reshape(-1, 3, 3)
 
 
@@ -62,9 +62,9 @@ def test_corners_that_are_equal_are_stored_once():
 def test_texture_coordinates_keep_their_place_in_the_picture():
     uv = np.linspace(-7.3, 9.1, 16).reshape(8, 2)
     packed = pack_surface(Surface(CUBE, Material(), uv), textured=True)
-    shares = np.frombuffer(packed.mesh.uv, np.uint16).reshape(-1, 2) / 65535
+    ratios = np.frombuffer(packed.mesh.uv, np.uint16).reshape(-1, 2) / 65535
     index = np.frombuffer(packed.mesh.indices, np.uint16)
-    found = (np.array(packed.uv_low) + shares * np.array(packed.uv_size))[index]
+    found = (np.array(packed.uv_low) + ratios * np.array(packed.uv_size))[index]
     expected = uv[CUBE.faces.ravel()] * [1, -1] + [0, 1]
 
     off = found - expected

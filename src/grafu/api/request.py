@@ -88,7 +88,7 @@ def described(value: object) -> str:
 
 
 CACHED_VALUES = 400
-"""Values of the stages that results of one lineage share: some ten changes of a model with twenty joints."""
+"""Values of the stages that results of one lineage have in common: some ten changes of a model with twenty joints."""
 
 
 @final

@@ -83,12 +83,12 @@ class Result:
 
     @property
     def added(self) -> tuple[AddedRecord, ...]:
-        """The parts that the input lacked and that were added."""
+        """The parts that were missing in the input and were added."""
         return self.report.added
 
     @property
     def skipped(self) -> tuple[SkippedRecord, ...]:
-        """What was asked for and could not be built, with the reason."""
+        """The requests that could not be built, each with its reason."""
         return self.report.skipped
 
     def joint(self, name: str) -> JointRecord:
@@ -134,12 +134,15 @@ class Result:
         return path
 
     def with_motion(self, part: str, how: str) -> "Result":
-        """Returns the result in which a part moves as stated: about its `left`, `right`, `top` or `bottom` border.
+        """Returns the result in which one part has the motion that is given, whatever the motion source states.
 
-        Or it `slides`, or stands still: `not`. Sides are one's own when one looks at the front.
+        Args:
+            part: the id of the part.
+            how: `left`, `right`, `top` or `bottom`: the border that it turns about, seen from in front of the object;
+                `slides`: it slides out of the front; `fixed`: it gets no joint.
 
         Raises:
-            OptionError: if there is no such part, or it cannot move so.
+            OptionError: if there is no such part, or it cannot have this motion.
         """
         return self._with(self.settings.with_motion(part, motion_in_words(part, how)))
 
@@ -155,13 +158,13 @@ class Result:
         opening: float | None = None,
         mount: str = "",
     ) -> "Result":
-        """Returns the result in which a door or flap hangs on hinges as stated; what is left out is searched for.
+        """Returns the result in which a door or flap has these hinges. What is left out is chosen automatically.
 
         Args:
             part: the id of the door or flap.
             side: the border that it turns about: `left`, `right`, `top` or `bottom`.
             template: a hinge of `grafu templates`, or `pivot`.
-            mechanism: a class of hinges: C, F or P (see docs/templates.md).
+            mechanism: the hinge class: `C` (contact), `F` (flush) or `P` (perpendicular); see docs/templates.md.
             count: how many hinges; 0: by the height of the door.
             scale: a factor on the size of the hinges, 0.25 to 4.
             opening: the widest opening, radians.
@@ -193,7 +196,7 @@ class Result:
         opening: float | None = None,
         mount: str = "",
     ) -> "Result":
-        """Returns the result in which a drawer runs on rails as stated; what is left out is searched for.
+        """Returns the result in which a drawer has these rails. What is left out is chosen automatically.
 
         `opening` is the widest opening in metres; the others are those of `with_hinge`.
 
@@ -233,8 +236,7 @@ class Result:
         """Returns the result without these added parts.
 
         Raises:
-            OptionError: if one of them was not added; a part of the input gets no joint with `with_motion(part,
-            "fixed")`.
+            OptionError: if one of them was not added. To fix a part of the input: `with_motion(part, "fixed")`.
         """
         settings, known = self.settings, {record.part: record for record in self.added}
         for part in parts:

@@ -1,1 +1,1 @@
-"""The result type: a tree of links and joints, its kinematics and its sweep. It knows no labels and no files."""
+"""The result type: a tree of links and joints, its kinematics and its sweep."""

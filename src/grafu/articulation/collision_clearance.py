@@ -1,7 +1,7 @@
 """Collision shapes trimmed until no joint is jammed: shapes of different links that meet along a motion give way.
 
 Boxes and hulls stand for meshes that pass one another by a hair; where the stand-ins overlap, a simulator would push
-doors open or stop drawers. They are cut back where it takes the least surface away. It knows no file format.
+doors open or stop drawers. They are cut back where it takes the least surface away.
 """
 
 from collections.abc import Iterator, Mapping
@@ -28,14 +28,14 @@ Shapes = dict[str, tuple[CollisionShape, ...]]
 class ClearanceConfig:
     """How shapes give way; lengths in metres.
 
-    Each motion is looked at in `poses` poses. A cut leaves `margin`; where a shape would keep less than `least_share`
+    Each motion is looked at in `poses` poses. A cut leaves `margin`; where a shape would keep less than `least_ratio`
     of a side, or become thinner than `least_thickness`, it is not cut. Of a pair that cannot be cut the one that stands
     still is left out: a drawer without a bottom is worse than a frame without a rail. Cuts are repeated `rounds` times.
     """
 
     poses: int = 9
     margin: float = 0.0005
-    least_share: float = 0.25
+    least_ratio: float = 0.25
     least_thickness: float = 0.002
     rounds: int = 4
 
@@ -221,9 +221,9 @@ def _cut_back(shape: CollisionShape, obstacle: Points, config: ClearanceConfig) 
     below = local.min(axis=0) - config.margin - low
     above = high - (local.max(axis=0) + config.margin)
     room = np.stack([below, above], axis=1)
-    share = room / np.maximum(high - low, 1e-12)[:, None]
-    axis, side = np.unravel_index(int(np.argmax(share)), share.shape)
-    if room[axis, side] < config.least_thickness or share[axis, side] < config.least_share:
+    ratio = room / np.maximum(high - low, 1e-12)[:, None]
+    axis, side = np.unravel_index(int(np.argmax(ratio)), ratio.shape)
+    if room[axis, side] < config.least_thickness or ratio[axis, side] < config.least_ratio:
         return None
     normal = R[:, axis] * (1.0 if side == 0 else -1.0)
     offset = float(low[axis] + room[axis, 0]) if side == 0 else -float(high[axis] - room[axis, 1])

@@ -1,7 +1,7 @@
 """Shapes that simulators collide with: boxes for boards, convex hulls for the rest, so that a drawer stays open on top.
 
 Hinges and rails carry no shape: their knuckles and channels interlock, and only their joint may hold them. As bodies
-they can be posed and asked whether they meet. It knows no file format.
+they can be posed and asked whether they meet.
 """
 
 from collections.abc import Callable, Iterator
@@ -32,14 +32,14 @@ class CollisionConfig:
     """How collision shapes are made; lengths in metres.
 
     Every side of a shape moves in by `margin`, so that parts that touch at rest do not push one another. No shape is
-    thinner than `least_thickness`: thin hulls fall through in PhysX. A hull that fills its box to `box_share` becomes
+    thinner than `least_thickness`: thin hulls fall through in PhysX. A hull that fills its box to `box_ratio` becomes
     that box. What is finer than `resolution` is left out of dense meshes. Gaps in handles are kept down to a depth of
     `grip`, so that a finger fits. A link has at most `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
     """
 
     margin: float = 0.0005
     least_thickness: float = 0.004
-    box_share: float = 0.85
+    box_ratio: float = 0.85
     grip: float = 0.008
     resolution: float = 0.001
     most_shapes: int = 48
@@ -125,7 +125,7 @@ def _shape_around(points: Points, R: Mat3, config: CollisionConfig) -> Collision
     volume = _volume(hull)
     for rotation in _rotations(R, points):
         box = OrientedBox.around(hull.vertices, rotation)
-        if volume >= config.box_share * 8.0 * float(np.prod(box.half)):
+        if volume >= config.box_ratio * 8.0 * float(np.prod(box.half)):
             return OrientedBox(box.center, _smaller(box.half, config), rotation)
     return _smaller_hull(hull, R, config)
 

@@ -1,7 +1,8 @@
 """A mesh taken apart into nearly convex pieces: boards are cut off around its deepest pit until no pit is left.
 
 Works on surfaces as they are, open or closed: a pit is empty space inside the convex hull from which one can look out
-along an axis and which is far from every face. It knows no links; coordinates are the caller's, best along the boards.
+along an axis and which is far from every face.
+Coordinates are the caller's; the pieces fit best in a frame along the boards.
 """
 
 from collections.abc import Iterator

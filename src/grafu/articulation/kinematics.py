@@ -1,7 +1,6 @@
 """Joint values in, the motion of every link out; where each link's own frame stands; which joints wait for others.
 
 Exporters and simulators need one frame per link. What has to be open before a part may move is asked by values alone.
-It knows no meshes and does not ask whether a value is allowed.
 """
 
 from collections.abc import Iterable, Mapping

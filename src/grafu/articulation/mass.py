@@ -1,4 +1,4 @@
-"""Mass, centre and inertia of links, from the volume of their parts and stated densities. It knows no file format.
+"""Mass, centre and inertia of links, from the volume of their parts and stated densities.
 
 Volume is told of however untidy a mesh. Closed surfaces count by what they enclose. Open ones, and sheets without
 thickness, count as shells: their area, doubled faces once, times a board's thickness. Nothing counts for more than the

@@ -1,7 +1,7 @@
 """The kinds of motion that a joint may have: a table with one row each, and what everyone asks of a row.
 
 Whoever needs to know how a joint moves, in which unit its value counts, or by which word a format calls it, asks the
-row: nothing else tells one type from another. It knows no links and writes no file.
+row: nothing else tells one type from another. It writes no file.
 """
 
 from collections.abc import Callable, Mapping

@@ -1,7 +1,6 @@
 """How far everything can be open at once without one link standing in another, and what meets at rest.
 
 Each joint may open to its limit when it opens alone; a door and the drawer beside it may still be in each other's way.
-It knows no file format.
 """
 
 from collections.abc import Iterator, Mapping

@@ -2,7 +2,7 @@
 
 A joint resists by damping and friction, and has an effort and velocity. Values follow the moving mass, so that a small
 door neither sticks nor flies: a joint pushed and let go slows down with a time constant of a quarter of a second, needs
-a few newtons at the handle, and stays closed against gravity. It knows no file format.
+a few newtons at the handle, and stays closed against gravity.
 """
 
 from collections.abc import Mapping

@@ -1,7 +1,6 @@
 """Which joint moves when: one joint from rest to full, and the cycle that opens and closes everything.
 
-A joint moves only while the joints named in its `after` are fully open: doors first, then the drawers behind them. It
-knows no meshes and no files.
+A joint moves only while the joints named in its `after` are fully open: doors first, then the drawers behind them.
 """
 
 from collections.abc import Mapping
@@ -106,8 +105,8 @@ def cycle_tracks(
     joints = {joint.id: joint for joint in articulated.moving_joints}
     tracks: list[JointTrack] = []
     for index, stage in enumerate(stages):
-        times, shares = _cycle_keys(index * stage_seconds, stage_seconds, whole, steps)
-        tracks += [JointTrack(name, times, _scaled(joints[name], _shares(joints, name, shares))) for name in stage]
+        times, ratios = _cycle_keys(index * stage_seconds, stage_seconds, whole, steps)
+        tracks += [JointTrack(name, times, _scaled(joints[name], _ratios(joints, name, ratios))) for name in stage]
     return tuple(tracks)
 
 
@@ -132,25 +131,25 @@ def _moving_joint(articulated: ArticulatedObject, joint_id: str) -> Joint:
 
 
 def _cycle_keys(start: float, seconds: float, whole: float, steps: int) -> tuple[Scalars, Scalars]:
-    """Returns key times and shares of opening: mirrored in time about the middle of the whole."""
+    """Returns key times and fractions of opening: mirrored in time about the middle of the whole."""
     ramp = np.linspace(0.0, 1.0, steps + 1)
-    times, shares = start + seconds * ramp, ramp * ramp * (3.0 - 2.0 * ramp)
+    times, ratios = start + seconds * ramp, ramp * ramp * (3.0 - 2.0 * ramp)
     if start > 0:
-        times, shares = np.concatenate([[0.0], times]), np.concatenate([[0.0], shares])
-    return np.concatenate([times, whole - times[::-1]]), np.concatenate([shares, shares[::-1]])
+        times, ratios = np.concatenate([[0.0], times]), np.concatenate([[0.0], ratios])
+    return np.concatenate([times, whole - times[::-1]]), np.concatenate([ratios, ratios[::-1]])
 
 
-def _shares(joints: Mapping[str, Joint], name: str, shares: Scalars) -> Scalars:
-    """Returns the shares of its range that a joint passes through; one that closes as its leader opens is at the rest.
+def _ratios(joints: Mapping[str, Joint], name: str, ratios: Scalars) -> Scalars:
+    """Returns the fractions of its range that a joint passes; one that closes as its leader opens is at the rest.
 
-    `shares` are those of the joint that moves by itself.
+    `ratios` are those of the joint that moves by itself.
     """
     coupling = joints[name].coupling
     if coupling is None:
-        return shares
-    led = _shares(joints, coupling.leader, shares)
+        return ratios
+    led = _ratios(joints, coupling.leader, ratios)
     return led if coupling.multiplier > 0 else 1.0 - led
 
 
-def _scaled(joint: Joint, shares: Scalars) -> Scalars:
-    return joint.limits.lower + joint.limits.range * shares
+def _scaled(joint: Joint, ratios: Scalars) -> Scalars:
+    return joint.limits.lower + joint.limits.range * ratios

@@ -1,4 +1,1 @@
-"""Input assets: readers of part-segmented models, labels from names, the frame and scale.
-
-It knows no motion but what the input itself annotates.
-"""
+"""Input assets: readers of part-segmented models, labels from names, the frame and scale."""

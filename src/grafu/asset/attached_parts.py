@@ -1,4 +1,4 @@
-"""Which door or drawer carries a handle, by contact, where the input does not say. It knows no joints."""
+"""Which door or drawer carries a handle, by contact, where the input does not say."""
 
 from dataclasses import replace
 

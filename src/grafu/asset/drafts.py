@@ -78,7 +78,8 @@ def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:
 def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
     """Returns the drafts with groups added where numbered names share a beginning and one of them is a piece.
 
-    What shares the beginning, but is named otherwise (`drawer_0_divider`), belongs to the group if it lies within it.
+    What shares the beginning, but is named otherwise (`drawer_0_divider`), belongs to the group if it lies within
+    it.
     """
     beginnings: dict[str, list[int]] = {}
     for index, draft in enumerate(drafts):

@@ -24,7 +24,7 @@ _STANDING = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.DOOR, PartLab
 
 # Moving bodies smaller than this fraction of the object (a tap, a lever) do not tell where its front is.
 _TELLING = 0.2
-# Nor does a bulky part that ends farther inside than this share of the object's largest side.
+# Nor does a bulky part that ends farther inside than this fraction of the object's largest side.
 _REACHES = 0.05
 # Evidence overrules a convention only where it is nearly unanimous.
 _UNANIMOUS, _NEGLIGIBLE = 0.7, 0.1

@@ -33,7 +33,8 @@ from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
 REST = "rest"  # the part of the triangles that no part claims
-# How far a part's box may lie from the annotated one, as a share of the object's diagonal: rounding, not another frame.
+# How far a part's box may lie from the annotated one, as a fraction of the object's diagonal: rounding, not another
+# frame.
 _AGREES = 0.01
 # What moves in HSSD and is no furniture's door or drawer: taps, wheels, knobs.
 _STAYS = (PartLabel.HANDLE, PartLabel.MISC, PartLabel.LEG)

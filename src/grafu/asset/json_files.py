@@ -1,7 +1,6 @@
 """JSON from anybody to plain and typed values: no names that stand twice, no nesting without end, no half characters.
 
-What should be an object, a list or a number is, or one line says that not; NaN is refused for a number. It knows no
-formats: what to say of a damaged file is handed in.
+What should be an object, a list or a number is, or one line says that not; NaN is refused for a number.
 """
 
 import json

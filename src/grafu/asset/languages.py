@@ -1,4 +1,4 @@
-"""Words of furniture in eight languages, each with its English word. It knows no grammar and no labels.
+"""Words of furniture in eight languages, each with its English word.
 
 A row is an English word (or a phrase, `top panel`) and the words that mean it; `;` parts rows. Latin words stand
 without accents, as `grafu.asset.names.plain` writes them; umlauts also as `ue`. Words that mean several things are left

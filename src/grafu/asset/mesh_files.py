@@ -1,4 +1,4 @@
-"""One mesh file to named pieces with surfaces: OBJ with its MTL, PLY, STL. It knows no parts, labels or frames.
+"""One mesh file to named pieces with surfaces: OBJ with its MTL, PLY, STL.
 
 Of an MTL the library and its images are read, and nothing else.
 """

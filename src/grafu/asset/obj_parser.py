@@ -1,4 +1,4 @@
-"""Wavefront OBJ text to arrays, fast: polygons, negative indices, v/vt/vn in every form. It knows no materials.
+"""Wavefront OBJ text to arrays, fast: polygons, negative indices, v/vt/vn in every form.
 
 Polygons become triangles: fans for convex ones, ear clipping for the others.
 """

@@ -1,6 +1,6 @@
 """Files that grafu wrote, read again with the care that anybody's need: folders of results are passed on.
 
-A file is read where it lies in the folder that it is sought in, links followed. It knows no formats.
+A file is read where it lies in the folder that it is sought in, links followed.
 """
 
 import os

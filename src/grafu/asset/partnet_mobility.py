@@ -173,7 +173,7 @@ def _vector(holder: JsonObject, key: str) -> tuple[float, ...] | None:
 
 CONVENTION = Convention("the data set (PartNet-Mobility)", up="+Y", front="+Z", normalised=True)
 _ALONG = 0.99  # of a direction along an axis
-_ON_FLOOR, _CENTRED = 0.05, 0.15  # shares of a side: how far what stands on 0, or about it, may lie off
+_ON_FLOOR, _CENTRED = 0.05, 0.15  # fractions of a side: how far what stands on 0, or about it, may lie off
 _TABLES = frozenset({"table", "desk"})
 
 

@@ -16,13 +16,13 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
-# Shares of the object's diagonal: how far a piece may stand out of the outline, and how far it may lie from it.
+# Fractions of the object's diagonal: how far a piece may stand out of the outline, and how far it may lie from it.
 _STAND_OUT, _TOUCH = 0.01, 0.004
-# A door's frame may have this share of its pane's face.
+# A door's frame may have this fraction of its pane's face.
 _LEAF = 0.2
-# A drawer or door named as a whole that is only a front: its thickness as a share of its next side.
+# A drawer or door named as a whole that is only a front: its thickness as a fraction of its next side.
 _PLATE = 0.25
-# What sits on a front: its face as a share of the front's.
+# What sits on a front: its face as a fraction of the front's.
 _SMALL = 0.12
 
 

@@ -1,4 +1,4 @@
-"""What a name says, held against the shape of what it names. It reads no files and knows no up and no front.
+"""What a name says, held against the shape of what it names. It reads no files.
 
 A word is evidence: a `drawer` that holds the rest of the object is its body, a strip of a few millimetres is no door, a
 `slide` as large as a door is no hardware. A name that mentions a door or drawer beside what it says it is
@@ -20,17 +20,17 @@ from grafu.vocabulary import PartLabel
 
 BODY: Final = PartLabel.SIDE_PANEL
 """What a body in one piece is labelled, as in what the network was trained on: it carries hinges and rails."""
-# Shares of the object's sides.
+# Fractions of the object's sides.
 _WHOLE = 0.85  # a part that takes this much of each of them is the body, if it holds others
 _BODY = 0.5  # what is called a cabinet, a desk, a bed, and takes this much of each, is
 _SPARE = 0.02  # how far what a body holds may stand out of it
-# Shares of the object's largest side.
+# Fractions of the object's largest side.
 _STRIP = 0.025  # the second largest side of a door or drawer
 _FITTING, _GRASPED = 0.25, 0.45  # that of a hinge or a rail, and of a handle
 _PLATE, _OUTSIDE = 0.07, 0.06  # how thick a front is, and how far it may lie from the outside
 _TOUCH = 0.01  # how far a button may stand off the panel that it sits on
 _CONTROLS = word_set("button buttons switch dial display")
-# A top is a plate: the share that its thickness may have of its width.
+# A top is a plate: the fraction that its thickness may have of its width.
 _THICK = 0.35
 
 
@@ -47,8 +47,8 @@ class _Scene:
     def unit(self) -> float:
         return max(float(self.whole.size.max()), 1e-12)
 
-    def shares(self, box: Box) -> Scalars:
-        """Returns what share a box takes of each side of the whole."""
+    def ratios(self, box: Box) -> Scalars:
+        """Returns what fraction a box takes of each side of the whole."""
         return box.size / np.maximum(self.whole.size, 1e-12)
 
     def held(self, box: Box) -> int:
@@ -130,12 +130,12 @@ def _of_container(part: Part, scene: _Scene) -> PartLabel:
         return PartLabel.UNKNOWN
     if sense.mention is not None and _is_front(part.box, scene):
         return sense.mention
-    is_body = bool(np.all(scene.shares(part.box) >= _BODY)) and scene.held(part.box) > 0
+    is_body = bool(np.all(scene.ratios(part.box) >= _BODY)) and scene.held(part.box) > 0
     return BODY if is_body else PartLabel.UNKNOWN
 
 
 def _is_body(box: Box, scene: _Scene) -> bool:
-    return bool(np.all(scene.shares(box) >= _WHOLE)) and scene.held(box) > 0
+    return bool(np.all(scene.ratios(box) >= _WHOLE)) and scene.held(box) > 0
 
 
 def _is_front(box: Box, scene: _Scene) -> bool:

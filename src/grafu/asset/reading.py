@@ -41,7 +41,7 @@ class MeshFile:
 
 
 class Placing:
-    """Maps what was read by one frame; a mesh that parts and annotation share is mapped once, and shared again."""
+    """Maps what was read by one frame; a mesh that parts and annotation fraction is mapped once, and shared again."""
 
     def __init__(self, frame: Frame) -> None:
         self._frame = frame
@@ -108,7 +108,7 @@ class Reading:
     grouped: bool = False
 
 
-# A triangle is degenerate where its height is below this share of its longest side.
+# A triangle is degenerate where its height is below this fraction of its longest side.
 _FLATNESS = 1e-9
 
 

@@ -1,7 +1,7 @@
 """Regular files opened with care: nothing else is opened, nothing is waited for, and no link is followed by surprise.
 
 A named pipe would wait for ever, a device might never end or do something when it is opened, and `/proc` tells of the
-process. It knows no formats and no folders of models.
+process.
 """
 
 import os

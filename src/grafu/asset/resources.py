@@ -2,7 +2,7 @@
 
 A model comes from anybody, so the names in it lead only to regular files in the model's own folder, links followed. It
 counts the bytes that are read. Images are checked once when they are read, so that no later stage meets a broken one;
-their bytes stay as they are. It knows no other formats.
+their bytes stay as they are.
 """
 
 import os

@@ -2,7 +2,6 @@
 
 Whatever such a reader raises, the file is damaged. The guard stands around the library's call alone: around our own
 code it would hide our own faults. Of arrays nothing is unpickled, and no memory is taken that the file does not hold.
-It knows no materials and no groups.
 """
 
 import io

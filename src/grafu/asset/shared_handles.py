@@ -40,15 +40,15 @@ def _split(handle: Part, fronts: list[Part], reach: float, taken: Collection[str
     shells = loose_parts([handle]) if len(near) > 1 else ()
     if len(shells) < 2:
         return []
-    shares: dict[str, list[Part]] = {}
+    ratios: dict[str, list[Part]] = {}
     for shell in shells:
-        shares.setdefault(min(near, key=lambda front: _distance(shell.box, front.box)).id, []).append(shell)
-    if len(shares) < 2:
+        ratios.setdefault(min(near, key=lambda front: _distance(shell.box, front.box)).id, []).append(shell)
+    if len(ratios) < 2:
         return []
     names = (name for k in range(1, 10_000) if (name := f"{handle.id}_{k}") not in taken)
     return [
         replace(handle, id=name, surfaces=tuple(s for shell in of for s in shell.surfaces), rides_on=front)
-        for name, (front, of) in zip(names, shares.items(), strict=False)
+        for name, (front, of) in zip(names, ratios.items(), strict=False)
     ]
 
 

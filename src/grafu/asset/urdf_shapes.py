@@ -3,8 +3,7 @@
 XML is read with care: no entities, no network, no document types, no endless nesting. Names are relative paths, or lie
 in ROS packages (`package://NAME/meshes/door.obj`). A package is a folder with a `package.xml` at most four levels above
 the URDF, or the folder that the user gave. Where neither is known and the URDF lies in a folder called `urdf` or
-`robots`, its package is the folder above, and of that only the folders that packages keep meshes and images in. It
-knows no joints.
+`robots`, its package is the folder above, and of that only the folders that packages keep meshes and images in.
 """
 
 from dataclasses import dataclass, replace

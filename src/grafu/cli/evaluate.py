@@ -1,10 +1,26 @@
 """The verb `evaluate`: the paper's tables on any data, for any method."""
 
 import argparse
+import os
+import shlex
+from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from grafu.cli.input_options import positive_count
-from grafu.cli.limit_options import add_limit_options
+from grafu.cli.limit_options import add_limit_options, limits_of, why_stopped
+from grafu.cli.messages import complain, say
+from grafu.cli.run_page import RUN_PAGE, is_free_for_page
+from grafu.errors import ExportError, OptionError
+
+if TYPE_CHECKING:
+    from grafu.evaluation.records import Row
+    from grafu.evaluation.results import Results
+    from grafu.evaluation.table import Table
+    from grafu.evaluation.tasks import EvaluationPlan, Task
+    from grafu.processes.limits import Limits
+
 
 # As in `grafu.evaluation.tasks`; spelled again, so that `grafu --help` answers at once.
 _TABLES = "motion,masking,static,models,ood"
@@ -52,12 +68,114 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     return parser
 
 
+EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+_SHOWN = ("aligned", "reasonable", "collision", "collision_fixed", "connected_fixed", "works", "works_fixed")
+
+
 def run(options: argparse.Namespace) -> int:
-    """Measures what is not measured yet and writes the tables; returns the exit code.
+    """Measures what is not measured yet and writes the tables; returns 1 where a task failed, 130 where it was stopped.
 
     Raises:
-        FunctionalizationError: if the options are wrong, or there is nothing to measure.
+        FunctionalizationError: if the options are wrong, there is nothing to measure, or files cannot be written.
     """
-    from grafu.cli.evaluate_run import run_evaluation
+    from grafu.cli.evaluation_page import evaluation_page
+    from grafu.evaluation.output import build_tables, output_files
+    from grafu.evaluation.records import NAME, begin_rows
+    from grafu.evaluation.results import collect
+    from grafu.export.files import ExportFiles, write_files
+    from grafu.export.whole_file import write_whole
 
-    return run_evaluation(options)
+    plan = _plan(options)
+    file = options.out / NAME
+    _require_room(options.out)
+    rows = begin_rows(file, anew=options.overwrite)
+    jobs = options.jobs or os.cpu_count() or 1
+    try:
+        first = plan.first_tasks()
+        _do(first, rows, file, jobs, limits_of(options))
+        pairs = plan.twin_tasks(rows)
+        _do(pairs, rows, file, jobs, limits_of(options))
+    except KeyboardInterrupt:
+        complain(f"interrupted; {len(rows)} rows stand in {file}, and the same command goes on")
+        return EXIT_INTERRUPTED
+    results = collect((*first, *pairs), rows)
+    tables = build_tables(plan, results)
+    files = ExportFiles(output_files(plan, results, tables, _command(options)))
+    write_files(files, options.out / "tables", overwrite=True)
+    write_whole(evaluation_page(f"Evaluation on {plan.data}", tables), options.out / RUN_PAGE)
+    _say(tables, results, options.out)
+    return EXIT_FAILED if results.failures else EXIT_DONE
+
+
+def _require_room(out: Path) -> None:
+    """Refuses a folder in which something that is not ours stands where tables or the page go, before any work."""
+    from grafu.export.files import require_free
+
+    require_free(out / "tables", overwrite=True)
+    if not is_free_for_page(out / RUN_PAGE):
+        raise ExportError(f"`{out / RUN_PAGE}` is no page of grafu's, so it is kept: choose another --out")
+
+
+def _plan(options: argparse.Namespace) -> "EvaluationPlan":
+    from grafu.evaluation.dataset import find_models
+    from grafu.evaluation.methods import parse_method
+    from grafu.evaluation.tasks import EvaluationPlan
+
+    methods = tuple(parse_method(word) for word in _words(options.methods))
+    absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
+    if absent is not None:
+        raise OptionError(f"`{absent.folder}` of the method {absent.name} must be a folder with an entry per model id")
+    return EvaluationPlan(options.data, find_models(options.data), methods, _words(options.tables), options.seeds)
+
+
+def _words(text: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+def _do(tasks: "Sequence[Task]", rows: "dict[str, Row]", file: Path, jobs: int, limits: "Limits") -> None:
+    """Does the tasks that have no row yet, and keeps each row at once."""
+    from grafu.cli.pool import run_all
+    from grafu.cli.progress import with_progress
+    from grafu.evaluation.perform import failed, perform
+    from grafu.evaluation.records import append_rows, done
+    from grafu.evaluation.tasks import key_of
+
+    left = [task for task in tasks if not done(rows, key_of(task))]
+    if not left:
+        return
+    with closing(
+        run_all(left, jobs, perform, lambda task, how: failed(task, why_stopped(how, limits)), limits)
+    ) as made:
+        for row in with_progress(made, len(left), "tasks"):
+            append_rows(file, [row])
+            rows[row.key] = row
+
+
+def _command(options: argparse.Namespace) -> str:
+    """Returns the command that gives these tables, whatever it was spelled like."""
+    words = ["grafu", "evaluate", "--data", options.data, "--methods", options.methods, "--tables", options.tables]
+    return shlex.join([*words, "--seeds", str(options.seeds), "--out", str(options.out)])
+
+
+def _say(tables: "Sequence[Table]", results: "Results", out: Path) -> None:
+    motion = next((table for table in tables if table.name == "motion"), None)
+    if motion is not None:
+        _print_motion(motion)
+    for failure in results.failures:
+        complain(f"{failure.model}: {failure.what}: {failure.error}")
+    say(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")
+
+
+def _print_motion(table: "Table") -> None:
+    from grafu.cli.tables import plain_table, wide_console
+    from grafu.evaluation.bootstrap import Figure
+    from grafu.evaluation.table import shown
+
+    names = [column.name for column in table.columns]
+    kept = [column for column in table.columns if column.name in ("method", "data", *_SHOWN)]
+    printed = plain_table(*(column.title for column in kept))
+    for row in table.rows:
+        if row[names.index("over")] == "objects":
+            cells = ((row[names.index(column.name)], column) for column in kept)
+            printed.add_row(*(shown(c.value if isinstance(c, Figure) else c, column) for c, column in cells))
+    wide_console().print(printed)

@@ -3,19 +3,22 @@
 import argparse
 import os
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.cli.addition_options import add_addition_options
-from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
+from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.messages import complain
 from grafu.cli.move_option import motion_choice, part_move, with_moves
+from grafu.errors import AssetError, OptionError
 from grafu.export.formats import known_formats
 from grafu.templates.available import open_gallery
 
 if TYPE_CHECKING:
     from grafu.cli.job import Job, JobOptions, JobResult
+    from grafu.pipeline.settings import Settings
 
 _DESCRIPTION = """\
 Reads part-segmented furniture (GLB, glTF, URDF, OBJ, a folder of meshes, a PartNet-Mobility or HSSD folder) and
@@ -110,7 +113,7 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong; nothing has been written then.
     """
-    from grafu.cli.job_list import jobs_of
+    from grafu.cli.job import jobs_of
     from grafu.cli.run_page import write_index
     from grafu.cli.summary import print_place, print_results
     from grafu.export.whole_file import clear_remains
@@ -129,7 +132,6 @@ def run(options: argparse.Namespace) -> int:
 def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     """Returns the shared options; what is wrong with them is said here, before any input is read."""
     from grafu.cli.job import JobOptions
-    from grafu.cli.settings_option import stated_settings
     from grafu.export.formats import exporter_for
 
     formats = tuple(dict.fromkeys(name.strip().lower() for name in options.formats.split(",") if name.strip()))
@@ -208,3 +210,48 @@ def _exit_code(results: "list[JobResult]") -> int:
     if not failed:
         return 0
     return 2 if len(results) == 1 and failed[0].users_fault else 1
+
+
+_MOST_SETTINGS = 16 * 2**20  # bytes of a settings file
+
+
+def stated_settings(options: argparse.Namespace) -> "Settings":
+    """Returns the settings in the file `--settings`, or the defaults, with what the other options state in their place.
+
+    A motion source that reads another system's file (`--motion particulate:FILE`) is no setting: it is passed over.
+
+    Raises:
+        FunctionalizationError: if the file cannot be read or is wrong, or an option is.
+    """
+    from grafu.cli.addition_options import addition_config
+    from grafu.pipeline.settings import Settings
+    from grafu.templates.available import open_handles
+
+    base = read_settings(options.settings) if options.settings else Settings()
+    settings = replace(
+        base,
+        reading=with_limits(load_options(options, base.reading), options),
+        additions=addition_config(options, open_handles(options.templates), base.additions),
+        trim=base.trim and not options.no_trim,
+        weights=options.weights or base.weights,
+    )
+    if options.motion is None or options.motion.source.is_foreign:
+        return settings
+    return replace(settings, motion=options.motion.source)
+
+
+def read_settings(path: Path) -> "Settings":
+    """Returns the settings in a file.
+
+    Raises:
+        OptionError: if the file cannot be read or is wrong.
+    """
+    from grafu.asset.options import Limits
+    from grafu.asset.resources import read_bytes
+    from grafu.pipeline.settings import settings_from_bytes
+
+    try:
+        data = read_bytes(path, Limits(max_bytes=_MOST_SETTINGS))
+    except AssetError as error:
+        raise OptionError(f"`--settings` must be a JSON file: {error}") from None
+    return settings_from_bytes(data, path)

@@ -4,9 +4,16 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, with_limits
 from grafu.cli.limit_options import add_limit_options
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from grafu.pipeline.inspection import InspectedPart, Inspection, StatedJoint
+
 
 _DESCRIPTION = """\
 Shows what is read from an input: its parts and their categories, the frame and scale that were detected, which parts
@@ -53,7 +60,75 @@ def run(options: argparse.Namespace) -> int:
         values = inspection.model_dump(mode="json", by_alias=True)
         sys.stdout.write(json.dumps(values, indent=1) + "\n")  # ASCII: no name in it steers a terminal
         return 0
-    from grafu.cli.inspection_tables import print_inspection
-
     print_inspection(inspection)
     return 0
+
+
+def print_inspection(inspection: "Inspection") -> None:
+    """Prints parts, frame, joints and deficiencies on stdout."""
+    from rich.markup import escape
+
+    from grafu.cli.tables import wide_console
+
+    console = wide_console()
+    console.print(escape(_heading(inspection)), highlight=False)
+    for note in (*inspection.frame.assumed, *inspection.input.notes):
+        console.print(f"  {escape(note)}", highlight=False)
+    console.print(_parts_table(inspection))
+    if inspection.joints:
+        console.print(_joints_table(inspection.joints))
+    console.print(f"{len(inspection.contacts)} pairs of parts touch")
+    if inspection.deficiencies:
+        console.print(_deficiencies_table(inspection))
+
+
+def _heading(inspection: "Inspection") -> str:
+    x, y, z = inspection.size
+    read = inspection.input
+    return (
+        f"{read.name}: {read.kind}, {read.parts} parts, {x:.3f} x {y:.3f} x {z:.3f} m (width, depth, height); "
+        f"up {inspection.frame.up}, front {inspection.frame.front}, {inspection.frame.scale:g} m per unit"
+    )
+
+
+def _parts_table(inspection: "Inspection") -> "Table":
+    from rich.markup import escape
+
+    from grafu.cli.tables import plain_table
+
+    table = plain_table("part", "category", "by", "size (cm)", "faces", "rides on")
+    for part in inspection.parts:
+        mesh = f"{part.faces}{'' if part.closed else ' (open)'}"
+        row = (part.id, part.category, part.labelled_by, _size(part), mesh, part.rides_on or "")
+        table.add_row(*(escape(cell) for cell in row))
+    return table
+
+
+def _joints_table(joints: "tuple[StatedJoint, ...]") -> "Table":
+    from rich.markup import escape
+
+    from grafu.articulation.motion_kind import motion_kind
+    from grafu.cli.tables import plain_table
+
+    table = plain_table("joint of", "type", "axis", "limits")
+    for joint in joints:
+        direction = " ".join(f"{c:+.2f}" for c in joint.axis.direction)
+        unit = motion_kind(joint.type).unit
+        limits = "none stated" if joint.lower is None else f"{joint.lower:.3f} .. {joint.upper:.3f} {unit}"
+        table.add_row(escape(joint.part), joint.type, direction, limits)
+    return table
+
+
+def _deficiencies_table(inspection: "Inspection") -> "Table":
+    from rich.markup import escape
+
+    from grafu.cli.tables import plain_table
+
+    table = plain_table("missing", "at", "detail")
+    for lack in inspection.deficiencies:
+        table.add_row(lack.kind, escape(lack.part or "the whole"), escape(lack.detail))
+    return table
+
+
+def _size(part: "InspectedPart") -> str:
+    return " x ".join(f"{(high - low) * 100:.1f}" for low, high in zip(part.low, part.high, strict=True))

@@ -3,7 +3,8 @@
 What goes wrong comes back as a value, so that one bad input never stops the others.
 """
 
-from collections.abc import Callable
+from collections import defaultdict
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, final
 from grafu.cli.limit_options import too_large
 from grafu.cli.messages import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
+from grafu.export.output_names import output_name, same_place, why_not_apart
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import Limits
 from grafu.templates.available import open_gallery
@@ -36,7 +38,7 @@ def _default_settings() -> "Settings":
 @final
 @dataclass(frozen=True)
 class JobOptions:
-    """What all inputs of one call share; `alone` says that there is one only.
+    """What all inputs of one call fraction; `alone` says that there is one only.
 
     `templates` is a folder of the user's own, or None. `prediction` is the file of another system's motions, which no
     setting names; None: motions come from the source of the settings.
@@ -223,3 +225,29 @@ def _require_free(job: Job) -> None:
         require_free(job.folder, job.options.overwrite)
     except ExportError as error:
         raise ExportError(str(error).replace("give --overwrite", "give --overwrite or --resume")) from None
+
+
+def jobs_of(inputs: Sequence[Path], shared: JobOptions) -> tuple[list[Job], list[Failed]]:
+    """Returns the jobs, and those inputs that are refused for the name or the place of their results.
+
+    Raises:
+        AssetError: if the results of two inputs would go to one place.
+    """
+    refused: list[Failed] = []
+    named: dict[str, list[Job]] = defaultdict(list)
+    for path in inputs:
+        try:
+            job = Job(path, output_name(path), shared)
+        except AssetError as error:
+            refused.append(Failed(Job(path, path.name, shared), one_line(str(error)), users_fault=True))
+        else:
+            named[same_place(job.name)].append(job)
+    for jobs in named.values():
+        if len(jobs) > 1:
+            raise AssetError(
+                f"inputs must have different names, for results go to DIR/<name>: got {jobs[0].input} and "
+                f"{jobs[1].input}; give their folders where these differ, or run them into different --out"
+            )
+    judged = [(jobs[0], why_not_apart(jobs[0].folder, inputs)) for jobs in named.values()]
+    refused += [Failed(job, why, users_fault=True) for job, why in judged if why]
+    return [job for job, why in judged if not why], refused

@@ -1,4 +1,4 @@
-"""The command `grafu`: reads the arguments and hands them to one verb. It knows no geometry.
+"""The command `grafu`: reads the arguments and hands them to one verb.
 
 Nothing heavy is imported until a verb runs, so that `grafu --help` answers at once. What a user can get wrong ends in
 one line on stderr and exit code 2, never in a traceback.

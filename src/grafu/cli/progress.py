@@ -1,4 +1,4 @@
-"""How far the work is, on stderr, where it is a terminal. It knows nothing of the work but the names of its stages."""
+"""How far the work is, on stderr, where it is a terminal."""
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager

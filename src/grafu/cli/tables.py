@@ -1,4 +1,4 @@
-"""How tables look on the terminal, and in a pipe. It knows nothing of what stands in them.
+"""How tables look on the terminal, and in a pipe.
 
 What steers a terminal is shown as an escape, whatever is printed: names of files and parts are others' text.
 """

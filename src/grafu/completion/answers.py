@@ -41,7 +41,7 @@ def move_parts(
 
     A door that slides past another is refused unasked; so are those that come when time is up.
     """
-    budget = present_budget().share(_DECIDING)
+    budget = present_budget().fraction(_DECIDING)
     edges: list[Edge] = []
     decisions: list[Decision] = []
     refused: list[Refusal] = []

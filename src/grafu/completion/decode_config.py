@@ -69,8 +69,8 @@ class DecodeConfig:
     pass, and 160 made models (seed 990001) gained 0.018 of hinge F1 with labels and 0.012 without, 0.006 of joints."""
 
     def __post_init__(self) -> None:
-        shares = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
-        if not all(0.0 <= share <= 1.0 for share in (*shares, self.sure, self.no_parent)):
+        ratios = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
+        if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
         if min(self.rounds, self.reach, self.grasp, self.outward) < 0:
             raise ValueError(f"`rounds`, `reach`, `grasp` and `outward` must not be negative: got {self}")

@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.rows import across_axis, pair_side, row_size
-from grafu.completion.rule_scene import CARRIES, RuleScene, offset_share
+from grafu.completion.rule_scene import CARRIES, RuleScene, offset_ratio
 from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision
@@ -27,10 +27,10 @@ from grafu.graph.motion import (
 )
 from grafu.refusal import Reason, Refusal
 
-# Parts farther than this share of the object from a border carry nothing there.
+# Parts farther than this fraction of the object from a border carry nothing there.
 _REACH = 0.1
 _NEAR = 0.02
-# From here on a handle's offset (share of the half width or height) is meant, and a flap is wide.
+# From here on a handle's offset (fraction of the half width or height) is meant, and a flap is wide.
 _CLEAR, _SLIGHT = 0.3, 0.12
 _WIDE, _PLAIN, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.5, 1.8, 2.2
 # A lone door with its handle in the middle of the top or bottom edge is a flap unless it is clearly upright.
@@ -70,7 +70,7 @@ def vote_front(door: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
         below = max(float(box.low[thin] - handle.box.low[thin]), 0.0)
         if abs(above - below) > 0.1 * float(handle.box.size[thin]):
             votes.add(high if above > below else low, 4.0)
-    place = offset_share(scene.body, box.center, thin)
+    place = offset_ratio(scene.body, box.center, thin)
     votes.add(high if place > 0 else low, 3.0 * min(abs(place), 1.0))
     votes.add(2, 0.5)  # the frame's front is -Y,
     votes.add(5, 0.5)  # and a lid opens upwards
@@ -161,7 +161,7 @@ def _least_flap_aspect(door: PartNode, scene: RuleScene, aloft: float) -> float:
 def _vote_flap(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     """Votes for the top of a high and the bottom of a low flap, where it is too wide to swing sideways."""
     if _aspect(door) >= _VERY_WIDE:
-        high = offset_share(scene.body, door.box.center, 2) >= 0
+        high = offset_ratio(scene.body, door.box.center, 2) >= 0
         votes.add(_border(door, 2, high), 3.0)
 
 
@@ -183,7 +183,7 @@ def _handle_offsets(door: PartNode, scene: RuleScene) -> dict[int, float]:
     if not handles:
         return {}
     middle = np.mean([h.box.center for h in handles], axis=0)
-    return {axis: offset_share(door.box, middle, axis) for axis in plane_axes(door.box.thin_axis)}
+    return {axis: offset_ratio(door.box, middle, axis) for axis in plane_axes(door.box.thin_axis)}
 
 
 def _aspect(door: PartNode) -> float:
@@ -199,7 +199,7 @@ def _carriers(door: PartNode, border: HingeBorder, scene: RuleScene) -> list[tup
     edge = _border_box(door.box, border)
     along = next(a for a in plane_axes(door.box.thin_axis) if a != border_to_face(door.box.thin_axis, border) // 2)
     gaps = scene.support_boxes.gaps(edge) / scene.unit
-    alongside = scene.support_boxes.overlap_shares(edge)[:, along]
+    alongside = scene.support_boxes.overlap_ratios(edge)[:, along]
     found = []
     for k in np.flatnonzero(gaps <= _REACH):
         node = scene.supports[k]

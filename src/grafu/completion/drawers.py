@@ -16,7 +16,7 @@ from grafu.graph.motion import code_to_direction, opposite, signed_axis
 from grafu.refusal import Reason, Refusal
 
 _DIRECTIONS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
-_NEAR = 0.03  # shares of the object
+_NEAR = 0.03  # fractions of the object
 _REACH = 0.15
 _LEAST_FLANK = 0.05
 
@@ -43,7 +43,7 @@ def vote_direction(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     for handle in scene.handles_of(drawer):
         for way in _DIRECTIONS:
             votes.add(way, 5.0 * _sits_on(handle.box, drawer.box, way))
-    blocked = _blocked_shares(drawer, scene)
+    blocked = _blocked_ratios(drawer, scene)
     for way in _DIRECTIONS:
         inside = max(_depth_inside(drawer.box, scene.body, way) / scene.unit, 0.0)
         votes.add(way, 1.5 * float(np.exp(-inside / 0.05)))
@@ -65,19 +65,19 @@ def _depth_inside(box: Box, body: Box, way: SignedAxis) -> float:
     return float((body.face_center(way) - box.face_center(way)) @ code_to_direction(way))
 
 
-def _blocked_shares(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, float]:
-    """Returns for each way the share of the drawer's section that parts cover on its way out, 0..1.
+def _blocked_ratios(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, float]:
+    """Returns for each way the fraction of the drawer's section that parts cover on its way out, 0..1.
 
     A part that lies within the drawer's box close to its face counts half: it may be the panel that an overlaid front
     covers. Face frames leave the drawer its opening.
     """
-    shares = scene.blocker_boxes.overlap_shares(drawer.box)
-    places = scene.blocker_boxes.offset_shares(drawer.box)
+    ratios = scene.blocker_boxes.overlap_ratios(drawer.box)
+    places = scene.blocker_boxes.offset_ratios(drawer.box)
     found: dict[SignedAxis, float] = {}
     for way in _DIRECTIONS:
         place = places[:, way // 2] * code_to_direction(way)[way // 2]
         weight = np.where(place > 1.0, 1.0, np.where(place > 0.8, 0.5, 0.0))
-        section = np.delete(shares, way // 2, axis=1).prod(axis=1)
+        section = np.delete(ratios, way // 2, axis=1).prod(axis=1)
         found[way] = min(float((weight * section).sum()), 1.0)
     return found
 
@@ -90,8 +90,8 @@ def _flanks(drawer: PartNode, way: SignedAxis, scene: RuleScene) -> list[Ranking
 
 
 def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: RuleScene) -> Ranking[str] | None:
-    shares = scene.support_boxes.overlap_shares(drawer.box)
-    alongside = shares[:, 2] * shares[:, slide]
+    ratios = scene.support_boxes.overlap_ratios(drawer.box)
+    alongside = ratios[:, 2] * ratios[:, slide]
     scored = {
         node.id: alongside[k] * CARRIES[node.label] * _nearness(drawer, node, side, scene)
         for k, node in enumerate(scene.supports)

@@ -97,11 +97,11 @@ def box_points(low: Points, high: Points, count: int) -> Float[np.ndarray, "n p 
     width = np.maximum(np.take_along_axis(areas, face, axis=1), 1e-300)
     within = (where - np.take_along_axis(ends - areas, face, axis=1)) / width
     rows, columns = np.indices(face.shape)
-    shares = np.empty((*face.shape, 3))
-    shares[rows, columns, (face + 1) % 3] = spread[None, :, 0]
-    shares[rows, columns, (face + 2) % 3] = spread[None, :, 1]
-    shares[rows, columns, face] = within >= 0.5
-    return low[:, None] + shares * size[:, None]
+    ratios = np.empty((*face.shape, 3))
+    ratios[rows, columns, (face + 1) % 3] = spread[None, :, 0]
+    ratios[rows, columns, (face + 2) % 3] = spread[None, :, 1]
+    ratios[rows, columns, face] = within >= 0.5
+    return low[:, None] + ratios * size[:, None]
 
 
 def resampled(points: Points, count: int) -> Float[np.ndarray, "p 3"]:

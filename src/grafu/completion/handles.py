@@ -15,7 +15,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
-# A handle farther than this share of the object from every door and drawer belongs to none of them.
+# A handle farther than this fraction of the object from every door and drawer belongs to none of them.
 _FAR = 0.05
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
@@ -51,21 +51,21 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
 
 
 def _misfits(handle: PartNode, parts: NodeBoxes, graph: FunctionalGraph) -> list[float]:
-    """Returns how badly a handle fits each part, as a share of the object: its gap, and how far it hangs over."""
+    """Returns how badly a handle fits each part, as a fraction of the object: its gap, and how far it hangs over."""
     unit = max(float(graph.box.size.max()), 1e-9)
     touching = [part.id in graph.neighbours[handle.id] for part in parts.nodes]
-    overhang = (1.0 - _shares_in_front(handle.box, parts)) * float(handle.box.size.max())
+    overhang = (1.0 - _ratios_in_front(handle.box, parts)) * float(handle.box.size.max())
     return ((parts.gaps(handle.box) + overhang) / unit - 0.002 * np.array(touching)).tolist()
 
 
-def _shares_in_front(handle: Box, parts: NodeBoxes) -> Scalars:
-    """Returns for each part the largest share of the handle that one of its faces lies behind, seen along an axis."""
-    inside = parts.overlap_shares(handle)
+def _ratios_in_front(handle: Box, parts: NodeBoxes) -> Scalars:
+    """Returns for each part the largest fraction of the handle in front of one of its faces, along an axis."""
+    inside = parts.overlap_ratios(handle)
     return np.max([np.delete(inside, axis, axis=1).prod(axis=1) for axis in range(3)], axis=0)
 
 
 def _decision(handle: PartNode, ranked: list[tuple[float, str]]) -> Decision:
     weights = np.exp(-np.array([max(misfit, 0.0) for misfit, _ in ranked]) / 0.01)
-    shares = weights / weights.sum()
-    runner_up, second = (ranked[1][1], float(shares[1])) if len(ranked) > 1 else ("", 0.0)
-    return Decision(handle.id, "parent", ranked[0][1], float(shares[0]), runner_up, second)
+    ratios = weights / weights.sum()
+    runner_up, second = (ranked[1][1], float(ratios[1])) if len(ranked) > 1 else ("", 0.0)
+    return Decision(handle.id, "parent", ranked[0][1], float(ratios[0]), runner_up, second)

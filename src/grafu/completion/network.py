@@ -95,7 +95,7 @@ def complete_by_network(
     if not graph.nodes:
         return GraphCompletion(graph, graph, "network")
     require_room(len(graph.nodes) ** 2, _PAIR_BYTES, f"the network's forward pass over {len(graph.nodes):,} parts")
-    adding = present_budget().share(_ADDING)
+    adding = present_budget().fraction(_ADDING)
     seen, labelling = label_parts(graph, network, features, config)
     added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)

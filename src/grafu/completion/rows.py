@@ -6,15 +6,16 @@ from typing import Literal
 
 import numpy as np
 
-from grafu.completion.rule_scene import RuleScene, overlap_share
+from grafu.completion.rule_scene import RuleScene, overlap_ratio
 from grafu.graph.functional_graph import PartNode
 
 Side = Literal["low", "high", "none"]
 
-# Doors of a row: at least so much of the lower one's height is shared, and the seam is at most this share of a width.
+# Doors of a row: at least so much of the lower one's height is shared, and the seam is at most this fraction of a
+# width.
 _SHARED_HEIGHT = 0.8
 _SEAM = 0.25
-# Sliding doors lie in planes a good part of a thickness apart and lap by at least this share of a width.
+# Sliding doors lie in planes a good part of a thickness apart and lap by at least this fraction of a width.
 _LAP = 0.02
 _MOST_LAP = 0.6
 
@@ -84,11 +85,11 @@ def _in_line(door: PartNode, other: PartNode) -> bool:
 
 
 def _shared_height(a: PartNode, b: PartNode) -> float:
-    return min(overlap_share(a.box, b.box, 2), overlap_share(b.box, a.box, 2))
+    return min(overlap_ratio(a.box, b.box, 2), overlap_ratio(b.box, a.box, 2))
 
 
 def _seam(a: PartNode, b: PartNode, axis: int) -> float:
-    """Returns the gap between two doors as a share of the narrower one's width."""
+    """Returns the gap between two doors as a fraction of the narrower one's width."""
     return float(b.box.low[axis] - a.box.high[axis]) / max(float(min(a.box.size[axis], b.box.size[axis])), 1e-9)
 
 
@@ -109,7 +110,7 @@ def panel_behind(left: PartNode, right: PartNode, axis: int, scene: RuleScene) -
     reach = float(left.box.size[axis] + right.box.size[axis]) / 20
     return any(
         abs(float(node.box.center[axis]) - seam) <= reach
-        and overlap_share(left.box, node.box, 2) > 0.6
+        and overlap_ratio(left.box, node.box, 2) > 0.6
         and float(node.box.size[axis]) < 0.3 * float(left.box.size[axis])
         for node in scene.supports
     )

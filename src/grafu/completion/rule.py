@@ -19,7 +19,7 @@ from grafu.completion.answers import move_parts
 from grafu.completion.doors import hang_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.handles import attach_handles
-from grafu.completion.rule_scene import RuleScene, offset_share, overlap_share
+from grafu.completion.rule_scene import RuleScene, offset_ratio, overlap_ratio
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import SignedAxis
@@ -31,7 +31,7 @@ from grafu.vocabulary import PartLabel
 _FRONTS: tuple[SignedAxis, ...] = (2, 3, 0, 1)
 _WITH_HANDLE, _WITHOUT = 0.8, 0.5  # scores of a guess
 
-# All lengths below are shares of the object's largest side.
+# All lengths below are fractions of the object's largest side.
 _PLATE = 0.07  # thickest door
 _LEAST_SIDE = 0.1  # narrowest door
 _LEAST_DEPTH = 0.12  # shallowest drawer
@@ -78,7 +78,7 @@ def _label_with_handles(front: _Front, handles: list[PartNode]) -> PartLabel:
     """Returns the front's label: a wide plate with its handle in the very middle is the front of a drawer."""
     box, across = front.node.box, 1 - front.way // 2
     middle = np.mean([h.box.center for h in handles], axis=0)
-    centred = abs(offset_share(box, middle, across)) < 0.15 and abs(offset_share(box, middle, 2)) < 0.3
+    centred = abs(offset_ratio(box, middle, across)) < 0.15 and abs(offset_ratio(box, middle, 2)) < 0.3
     wide = float(box.size[across]) >= 1.2 * float(box.size[2])
     return PartLabel.DRAWER if centred and wide else front.label
 
@@ -107,10 +107,10 @@ def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_Front]:
 
 def _is_case(node: PartNode, graph: FunctionalGraph) -> bool:
     """Whether a box is as wide and deep as the object, or holds another part of some size: the case of something."""
-    share = node.box.size / np.maximum(graph.box.size, 1e-9)
+    ratio = node.box.size / np.maximum(graph.box.size, 1e-9)
     others = (n.box for n in graph.nodes if n.id != node.id and 0.05 < n.box.volume / max(node.box.volume, 1e-12) < 0.9)
-    held = any(all(overlap_share(box, node.box, a) > 0.95 for a in range(3)) for box in others)
-    return held or bool(share[0] * share[1] > 0.85 and (share[2] > 0.6 or node.box.size[2] < _SLAB * _unit(graph)))
+    held = any(all(overlap_ratio(box, node.box, a) > 0.95 for a in range(3)) for box in others)
+    return held or bool(ratio[0] * ratio[1] > 0.85 and (ratio[2] > 0.6 or node.box.size[2] < _SLAB * _unit(graph)))
 
 
 def _is_frame(node: PartNode, way: SignedAxis, graph: FunctionalGraph) -> bool:
@@ -120,7 +120,7 @@ def _is_frame(node: PartNode, way: SignedAxis, graph: FunctionalGraph) -> bool:
     return any(
         n.id != node.id
         and min(float(n.box.size[a]) for a in others) > least
-        and all(overlap_share(n.box, node.box, a) > 0.99 and n.box.size[a] < 0.97 * node.box.size[a] for a in others)
+        and all(overlap_ratio(n.box, node.box, a) > 0.99 and n.box.size[a] < 0.97 * node.box.size[a] for a in others)
         and float(n.box.axis_gaps(node.box)[way // 2]) <= _TOUCH * unit
         and float(n.box.size[way // 2]) <= _PLATE * unit
         for n in graph.nodes
@@ -131,7 +131,7 @@ def _is_flanked(front: _Front, graph: FunctionalGraph) -> bool:
     """Whether something stands beside each flank of a box, along most of its height and depth."""
     box, across = front.node.box, 1 - front.way // 2
     others = (n.box for n in graph.nodes if n.id != front.node.id)
-    beside = [b for b in others if all(overlap_share(box, b, a) > 0.5 for a in (2, front.way // 2))]
+    beside = [b for b in others if all(overlap_ratio(box, b, a) > 0.5 for a in (2, front.way // 2))]
     sides = {bool(b.center[across] > box.center[across]) for b in beside}
     return len(sides) == 2
 
@@ -156,7 +156,7 @@ def _sits_in_front(handle: Box, front: _Front, graph: FunctionalGraph) -> bool:
     others = [a for a in range(3) if a != axis]
     out = float((handle.face_center(way) - box.face_center(way)) @ outward)
     away = float((handle.face_center(opposite(way)) - box.face_center(way)) @ outward)
-    inside = all(overlap_share(handle, box, a) > 0.95 for a in others)
+    inside = all(overlap_ratio(handle, box, a) > 0.95 for a in others)
     widest = 0.9 if way == 2 else 0.6  # on the sides and the back, posts and battens are more common than handles
     smaller = all(handle.size[a] < widest * box.size[a] for a in others)
     return inside and smaller and out > 0 and away <= _TOUCH * unit
@@ -177,7 +177,7 @@ def _covers(node: PartNode, front: _Front) -> bool:
     axis, outward = front.way // 2, code_to_direction(front.way)
     ahead = float((node.box.center - front.node.box.face_center(front.way)) @ outward) > 0
     others = [a for a in range(3) if a != axis]
-    return ahead and float(np.prod([overlap_share(front.node.box, node.box, a) for a in others])) > 0.3
+    return ahead and float(np.prod([overlap_ratio(front.node.box, node.box, a) for a in others])) > 0.3
 
 
 def complete_by_rule(graph: FunctionalGraph) -> GraphCompletion:

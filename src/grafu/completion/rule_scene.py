@@ -12,7 +12,7 @@ from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
 
-_FLAT = 1e-9  # metres: an extent below this has no length to take shares of
+_FLAT = 1e-9  # metres: an extent below this has no length to take fractions of
 
 # How likely a part of this label carries a door's hinge or a drawer's rail, other things equal.
 CARRIES: Mapping[PartLabel, float] = {
@@ -44,8 +44,8 @@ class NodeBoxes:
         apart = np.maximum(np.maximum(self._low - box.high, box.low - self._high), 0.0)
         return np.linalg.norm(apart, axis=1)
 
-    def overlap_shares(self, box: Box) -> Points:
-        """Returns which share of `box` along each axis each box covers; a flat extent is covered or not."""
+    def overlap_ratios(self, box: Box) -> Points:
+        """Returns which fraction of `box` along each axis each box covers; a flat extent is covered or not."""
         lengths = np.minimum(self._high, box.high) - np.maximum(self._low, box.low)
         flat = box.size <= _FLAT
         return np.where(flat, lengths >= 0, np.clip(lengths / np.where(flat, 1.0, box.size), 0.0, 1.0))
@@ -55,7 +55,7 @@ class NodeBoxes:
         level = (self._low[:, 2] <= box.high[2]) & (self._high[:, 2] >= box.low[2])
         return [self.nodes[k] for k in np.flatnonzero(level).tolist()]
 
-    def offset_shares(self, box: Box) -> Points:
+    def offset_ratios(self, box: Box) -> Points:
         """Returns where the middle of each box lies along each axis of `box`: -1 and 1 are its ends."""
         return ((self._low + self._high) / 2 - box.center) / np.maximum(box.half, _FLAT)
 
@@ -69,7 +69,7 @@ class RuleScene:
 
     @cached_property
     def unit(self) -> float:
-        """The object's largest side; never 0, so that shares of it can be formed."""
+        """The object's largest side; never 0, so that fractions of it can be formed."""
         return max(float(self.graph.box.size.max()), 1e-9)
 
     @cached_property
@@ -124,13 +124,13 @@ class RuleScene:
         return b.id in self.graph.neighbours[a.id]
 
 
-def overlap_share(a: Box, b: Box, axis: int) -> float:
-    """Returns which share of a's extent along an axis b covers, 0..1; a flat extent is covered or not."""
+def overlap_ratio(a: Box, b: Box, axis: int) -> float:
+    """Returns which fraction of a's extent along an axis b covers, 0..1; a flat extent is covered or not."""
     shared = float(min(a.high[axis], b.high[axis])) - float(max(a.low[axis], b.low[axis]))
     length = float(a.high[axis]) - float(a.low[axis])
     return float(shared >= 0) if length <= _FLAT else min(max(shared / length, 0.0), 1.0)
 
 
-def offset_share(box: Box, point: np.ndarray, axis: int) -> float:
+def offset_ratio(box: Box, point: np.ndarray, axis: int) -> float:
     """Returns where a point lies along an axis of a box: -1 and 1 are its ends, 0 its middle."""
     return float((point[axis] - box.center[axis]) / max(float(box.half[axis]), _FLAT))

@@ -39,18 +39,18 @@ def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleS
     return motion * np.array([[front[opening_face(thin, border, sign)] for sign in SIGNS] for border in BORDERS])
 
 
-def leaned_way(drawer: PartNode, shares: Scalars, power: float, scene: RuleScene) -> Scalars:
+def leaned_way(drawer: PartNode, ratios: Scalars, power: float, scene: RuleScene) -> Scalars:
     """Returns what the network says of the signed axes along which a drawer opens (6), weighed by the way out."""
-    return shares * _opinion(vote_direction(drawer, scene), power)
+    return ratios * _opinion(vote_direction(drawer, scene), power)
 
 
 def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
     """Returns what the rule's vote weighs for each signed axis."""
-    shares = np.full(len(SIGNED_AXES), _LEAST)
+    ratios = np.full(len(SIGNED_AXES), _LEAST)
     for code, score in ((ranking.choice, ranking.score), (ranking.runner_up, ranking.runner_up_score)):
         if code is not None:
-            shares[code] = max(score, _LEAST)
-    return shares**power
+            ratios[code] = max(score, _LEAST)
+    return ratios**power
 
 
 _NO_SUPPORT = "there is no static part that could carry it: label the parts that stand still"
@@ -65,17 +65,17 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
     slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.unit]
     if not len(slots):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
-    shares, none = parent_shares(view.place[handle.id], slots, view)
+    ratios, none = parent_ratios(view.place[handle.id], slots, view)
     attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
     if none >= view.config.no_parent and attached.max() < 0.5:
         return Refusal(
             handle.id, Reason.NO_MOTION, f"the network takes it for decoration ({none:.2f}): it is on no door or drawer"
         )
-    ranking = ranking_of(view.ids(slots), shares)
+    ranking = ranking_of(view.ids(slots), ratios)
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
 
 
-def parent_shares(slot: int, slots: Indices, view: View) -> tuple[Scalars, float]:
+def parent_ratios(slot: int, slots: Indices, view: View) -> tuple[Scalars, float]:
     """Returns how likely each of some doors and drawers is the parent of the handle in a slot, and none of them is.
 
     The choice among all is weighed by the edge of each pair, of which some chance always remains.
@@ -131,8 +131,8 @@ def choose_rails(drawer: PartNode, view: View, scene: RuleScene) -> MotionAnswer
         answer = _on_given(run_drawer(drawer, scene), view)
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
         return Refusal(drawer.id, Reason.NO_MOTION, why) if answer is None else answer
-    shares = railed @ view.probabilities.slide[slot, slots]
-    slide = chosen_of(SIGNED_AXES, shares, leaned_way(drawer, shares, view.config.outward, scene))
+    ratios = railed @ view.probabilities.slide[slot, slots]
+    slide = chosen_of(SIGNED_AXES, ratios, leaned_way(drawer, ratios, view.config.outward, scene))
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (

@@ -8,7 +8,7 @@ import numpy as np
 from grafu.completion.answers import decision_of
 from grafu.completion.decode_config import ADDABLE
 from grafu.completion.features import object_frame
-from grafu.completion.selection import parent_shares
+from grafu.completion.selection import parent_ratios
 from grafu.completion.view import View
 from grafu.completion.votes import ranking_of
 from grafu.geometry.box import Box
@@ -23,7 +23,7 @@ from grafu.vocabulary import PartLabel
 _ADDABLE = [LABEL_CODES[label] for label in ADDABLE]
 # Thinner boxes are errors of the regression (the authors': half sizes of at least 0.005 of the object).
 _LEAST_HALF = 0.005
-# Both boxes are grown by this share of the object before they are compared: thin boards seldom overlap exactly.
+# Both boxes are grown by this fraction of the object before they are compared: thin boards seldom overlap exactly.
 _SLACK = 0.01
 
 
@@ -73,10 +73,10 @@ def with_parts(graph: FunctionalGraph, parts: tuple[NewPart, ...]) -> Functional
 def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | None:
     """Returns the part of a slot; None if its label may not be added, or if it is a handle without a parent."""
     probabilities = view.probabilities
-    shares = probabilities.label[slot, _ADDABLE]
-    if shares.sum() < view.config.addable:
+    ratios = probabilities.label[slot, _ADDABLE]
+    if ratios.sum() < view.config.addable:
         return None
-    ranking = ranking_of([label.value for label in ADDABLE], shares)
+    ranking = ranking_of([label.value for label in ADDABLE], ratios)
     label = PartLabel(ranking.choice)
     origin, scale = object_frame(view.graph)
     half = np.maximum(probabilities.half[slot], _LEAST_HALF)
@@ -98,8 +98,8 @@ def _parent_of(slot: int, handle: PartNode, view: View) -> str | None:
     near = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.reach * view.unit]
     if not len(near):
         return None
-    shares, _ = parent_shares(slot, near, view)
-    return ranking_of(view.ids(near), shares).choice
+    ratios, _ = parent_ratios(slot, near, view)
+    return ranking_of(view.ids(near), ratios).choice
 
 
 def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:

@@ -1,4 +1,4 @@
-"""Weighted votes for a closed list of choices, and their ranking. It knows no furniture."""
+"""Weighted votes for a closed list of choices, and their ranking."""
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
@@ -43,10 +43,10 @@ class Votes(Generic[Choice]):
         """Returns the outcome; scores are fractions of the positive weights."""
         ranked = sorted(self._weights.items(), key=lambda item: -item[1])
         total = sum(max(weight, 0.0) for _, weight in ranked)
-        shares = [max(weight, 0.0) / total if total > 0 else 1.0 / len(ranked) for _, weight in ranked]
+        ratios = [max(weight, 0.0) / total if total > 0 else 1.0 / len(ranked) for _, weight in ranked]
         if len(ranked) == 1:
-            return Ranking(ranked[0][0], shares[0])
-        return Ranking(ranked[0][0], shares[0], ranked[1][0], shares[1])
+            return Ranking(ranked[0][0], ratios[0])
+        return Ranking(ranked[0][0], ratios[0], ranked[1][0], ratios[1])
 
 
 def ranking_of(choices: Sequence[Choice], weights: Scalars) -> Ranking[Choice]:
@@ -55,9 +55,9 @@ def ranking_of(choices: Sequence[Choice], weights: Scalars) -> Ranking[Choice]:
     There is at least one choice, and no weight is negative.
     """
     total = float(weights.sum())
-    shares = weights / total if total > 0 else np.full(len(choices), 1.0 / len(choices))
-    order = np.argsort(-shares, kind="stable").tolist()
-    scores = np.minimum(shares, 1.0).tolist()
+    ratios = weights / total if total > 0 else np.full(len(choices), 1.0 / len(choices))
+    order = np.argsort(-ratios, kind="stable").tolist()
+    scores = np.minimum(ratios, 1.0).tolist()
     if len(order) == 1:
         return Ranking(choices[0], scores[0])
     return Ranking(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
@@ -69,9 +69,9 @@ def chosen_of(choices: Sequence[Choice], weights: Scalars, leaned: Scalars) -> R
     Scores are fractions of `weights` alone, so that of a choice that they do not prefer is below its runner-up's.
     """
     total, best = float(weights.sum()), int(np.argmax(leaned))
-    shares = np.minimum(weights / total, 1.0) if total > 0 else np.full(len(choices), 1.0 / len(choices))
+    ratios = np.minimum(weights / total, 1.0) if total > 0 else np.full(len(choices), 1.0 / len(choices))
     others = np.delete(np.arange(len(choices)), best)
     if not len(others):
-        return Ranking(choices[best], float(shares[best]))
-    second = int(others[np.argmax(shares[others])])
-    return Ranking(choices[best], float(shares[best]), choices[second], float(shares[second]))
+        return Ranking(choices[best], float(ratios[best]))
+    second = int(others[np.argmax(ratios[others])])
+    return Ranking(choices[best], float(ratios[best]), choices[second], float(ratios[second]))

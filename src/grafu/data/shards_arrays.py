@@ -1,4 +1,4 @@
-"""One model as plain arrays, and back: what a shard holds of each model. It knows no files.
+"""One model as plain arrays, and back: what a shard holds of each model.
 
 Training reads these arrays without making a graph of them; `arrays_to_record` makes the checked values. A surface point
 takes four bytes, a place on a grid of 1625 steps along each side of the part's box:
@@ -49,8 +49,8 @@ def points_to_codes(points: Points, boxes: Boxes, counts: Counts) -> Codes:
     far = np.maximum(low - points, points - low - size).max(axis=1, initial=-np.inf)
     if np.any(far > _OUTSIDE * np.linalg.norm(size, axis=1) + _OUTSIDE_METRES):
         raise GraphError(f"the points of a node must lie in its box: one lies {far.max():.3g} m outside")
-    share = np.divide(points - low, size, out=np.zeros_like(points), where=size > 0)
-    grid = np.rint(np.clip(share, 0, 1) * (STEPS - 1)).astype(np.uint32)
+    ratio = np.divide(points - low, size, out=np.zeros_like(points), where=size > 0)
+    grid = np.rint(np.clip(ratio, 0, 1) * (STEPS - 1)).astype(np.uint32)
     return (grid[:, 0] * STEPS + grid[:, 1]) * STEPS + grid[:, 2]
 
 

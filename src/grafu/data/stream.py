@@ -1,4 +1,4 @@
-"""Models without end, for training: made on the spot by several processes, or read from shards. It knows no torch.
+"""Models without end, for training: made on the spot by several processes, or read from shards.
 
 What is made for an index does not depend on the number of processes, and comes in the order of the indices.
 """

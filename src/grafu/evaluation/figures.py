@@ -9,7 +9,7 @@ from grafu.evaluation.results import PartOutcome, measured
 Score = Callable[[PartOutcome], float | None]
 
 
-def _share(name: str, fixed: bool) -> Score:
+def _ratio(name: str, fixed: bool) -> Score:
     """Returns a score that nothing gives to a part which stands still (collision, touch)."""
 
     def score(outcome: PartOutcome) -> float | None:
@@ -22,8 +22,8 @@ def _share(name: str, fixed: bool) -> Score:
 
 def _verdict(name: str, fixed: bool) -> Score:
     """Returns a score that is 0 for a part which stands still (aligned, connected, opening, works)."""
-    share = _share(name, fixed)
-    return lambda outcome: share(outcome) or 0.0
+    ratio = _ratio(name, fixed)
+    return lambda outcome: ratio(outcome) or 0.0
 
 
 SCORES: Final[dict[str, Score]] = {
@@ -31,10 +31,10 @@ SCORES: Final[dict[str, Score]] = {
     "aligned_fixed": _verdict("aligned", fixed=True),
     "twins": lambda outcome: float(outcome.aligned or outcome.agrees_with_a_twin),
     "reasonable": lambda outcome: float(outcome.reasonable),
-    "collision": _share("collision", fixed=False),
-    "collision_fixed": _share("collision", fixed=True),
-    "touch": _share("touch", fixed=False),
-    "touch_fixed": _share("touch", fixed=True),
+    "collision": _ratio("collision", fixed=False),
+    "collision_fixed": _ratio("collision", fixed=True),
+    "touch": _ratio("touch", fixed=False),
+    "touch_fixed": _ratio("touch", fixed=True),
     "connected": _verdict("connected", fixed=False),
     "connected_fixed": _verdict("connected", fixed=True),
     "opening": _verdict("opening", fixed=False),

@@ -10,18 +10,18 @@ from grafu.evaluation.results import PartOutcome, Results
 from grafu.evaluation.table import Cell, Column, Table
 
 _FIGURES = (
-    Column("aligned_fixed", "GT-aligned", "share", "more"),
-    Column("collision_fixed", "Collision", "share", "less"),
-    Column("connected_fixed", "Connected", "share", "more"),
-    Column("works_fixed", "Works", "share", "more"),
+    Column("aligned_fixed", "GT-aligned", "ratio", "more"),
+    Column("collision_fixed", "Collision", "ratio", "less"),
+    Column("connected_fixed", "Connected", "ratio", "more"),
+    Column("works_fixed", "Works", "ratio", "more"),
 )
 _COLUMNS = (
     Column("method", "Method"),
-    Column("rate", "Labels hidden", "share"),
+    Column("rate", "Labels hidden", "ratio"),
     Column("seeds", "Seeds", "count"),
     Column("objects", "Objects", "count"),
     *_FIGURES,
-    Column("aligned_spread", "GT-aligned, deviation of seeds", "share"),
+    Column("aligned_spread", "GT-aligned, deviation of seeds", "ratio"),
     Column("steady", "Never better than with fewer hidden"),
 )
 _NOTES = (
@@ -44,18 +44,18 @@ def _rows(method: str, results: Results) -> list[tuple[Cell, ...]]:
     draws: dict[float, list[Sequence[PartOutcome]]] = {}
     if method in results.made:
         draws[0.0] = [results.outcomes(method)]
-    for share, seed in sorted(results.masked[method]):
-        draws.setdefault(share, []).append(results.outcomes_masked(method, (share, seed)))
+    for ratio, seed in sorted(results.masked[method]):
+        draws.setdefault(ratio, []).append(results.outcomes_masked(method, (ratio, seed)))
     seen: list[Mapping[str, Mapping[str, float]]] = []
     rows: list[tuple[Cell, ...]] = []
-    for share, drawn in draws.items():
+    for ratio, drawn in draws.items():
         means = {column.name: _over_seeds([by_object(one, column.name) for one in drawn]) for column in _FIGURES}
         spread = [fmean(one.values()) for one in (by_object(d, "aligned_fixed") for d in drawn) if one]
         steady = all(_no_better(means, earlier) for earlier in seen)
         figures = [mean_of(list(means[column.name].values())) for column in _FIGURES]
         count = len(means["aligned_fixed"])
         deviation = stdev(spread) if len(spread) > 1 else None
-        rows.append((method, share, len(drawn), count, *figures, deviation, steady if seen else None))
+        rows.append((method, ratio, len(drawn), count, *figures, deviation, steady if seen else None))
         seen.append(means)
     return rows
 

@@ -25,19 +25,19 @@ LEVELS = (0.1, 0.3, 0.5, 1.0)
 """The paper's rates."""
 
 
-def masked(asset: Asset, share: float, seed: int) -> Asset:
-    """Returns the asset with this share of its labels unknown, rounded to whole parts, and no joints or attachments.
+def masked(asset: Asset, ratio: float, seed: int) -> Asset:
+    """Returns the asset with this fraction of its labels unknown, rounded to whole parts, and no joints or attachments.
 
-    Of one seed the parts that are masked at a lower share are masked at every higher one, so that levels differ by
+    Of one seed the parts that are masked at a lower fraction are masked at every higher one, so that levels differ by
     nothing but what is hidden. The draw depends on the asset's name and its part ids alone.
 
     Raises:
-        ValueError: if the share is not in 0..1.
+        ValueError: if the fraction is not in 0..1.
     """
-    if not 0 <= share <= 1:
-        raise ValueError(f"`share` must be in 0..1: got {share}")
+    if not 0 <= ratio <= 1:
+        raise ValueError(f"`ratio` must be in 0..1: got {ratio}")
     bare = asset.without_annotation()
-    hidden = set(mask_order(bare, seed)[: round(share * len(bare.parts))])
+    hidden = set(mask_order(bare, seed)[: round(ratio * len(bare.parts))])
     parts = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none") if p.id in hidden else p for p in bare.parts)
     return replace(bare, parts=parts)
 
@@ -114,8 +114,8 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
     return functionalize(asset.without_annotation(), foreign, builtin_gallery(), config)
 
 
-def made_with_labels_hidden(method: Method, asset: Asset, share: float, seed: int) -> Functionalized:
-    """Returns what the pipeline makes of the asset with a share of its labels hidden, joints alone.
+def made_with_labels_hidden(method: Method, asset: Asset, ratio: float, seed: int) -> Functionalized:
+    """Returns what the pipeline makes of the asset with a fraction of its labels hidden, joints alone.
 
     Raises:
         OptionError: if the method does not answer from labels.
@@ -123,4 +123,4 @@ def made_with_labels_hidden(method: Method, asset: Asset, share: float, seed: in
     if not method.can_be_masked:
         raise OptionError(f"labels can be hidden from rule and network alone: got `{method.name}`")
     config = PipelineConfig(additions=_JOINTS_ALONE)
-    return functionalize(masked(asset, share, seed), MotionSource(method.name), builtin_gallery(), config)
+    return functionalize(masked(asset, ratio, seed), MotionSource(method.name), builtin_gallery(), config)

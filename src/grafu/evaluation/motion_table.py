@@ -2,7 +2,7 @@
 
 The paper's own rows (its table Quantitative evaluation, its masking table and its text), to stand beside ours.
 
-`MODELS` counts its models of PartNet-Mobility's storage furniture and of HSSD; figures are shares, not per cent.
+`MODELS` counts its models of PartNet-Mobility's storage furniture and of HSSD; figures are fractions, not per cent.
 """
 
 from collections.abc import Sequence
@@ -54,19 +54,19 @@ TOPS, HANDLES, INTERIORS = 1.0, 0.954, 0.985
 
 ALL = "all"
 _FIGURES = (
-    Column("aligned", "GT-aligned", "share", "more"),
-    Column("twins", "Reasonable (twins)", "share", "more"),
-    Column("reasonable", "Reasonable (or physical)", "share", "more"),
-    Column("collision", "Collision", "share", "less"),
-    Column("collision_fixed", "Collision + fix", "share", "less"),
-    Column("connected", "Connected", "share", "more"),
-    Column("connected_fixed", "Connected + fix", "share", "more"),
-    Column("aligned_fixed", "Aligned + fix", "share", "more"),
-    Column("opening_fixed", "Opening + fix", "share", "more"),
-    Column("works", "Works", "share", "more"),
-    Column("works_fixed", "Works + fix", "share", "more"),
-    Column("touch", "Touch", "share", "less"),
-    Column("touch_fixed", "Touch + fix", "share", "less"),
+    Column("aligned", "GT-aligned", "ratio", "more"),
+    Column("twins", "Reasonable (twins)", "ratio", "more"),
+    Column("reasonable", "Reasonable (or physical)", "ratio", "more"),
+    Column("collision", "Collision", "ratio", "less"),
+    Column("collision_fixed", "Collision + fix", "ratio", "less"),
+    Column("connected", "Connected", "ratio", "more"),
+    Column("connected_fixed", "Connected + fix", "ratio", "more"),
+    Column("aligned_fixed", "Aligned + fix", "ratio", "more"),
+    Column("opening_fixed", "Opening + fix", "ratio", "more"),
+    Column("works", "Works", "ratio", "more"),
+    Column("works_fixed", "Works + fix", "ratio", "more"),
+    Column("touch", "Touch", "ratio", "less"),
+    Column("touch_fixed", "Touch + fix", "ratio", "less"),
 )
 _COLUMNS = (
     Column("method", "Method"),

@@ -25,7 +25,7 @@ from grafu.vocabulary import JointType, PartLabel
 LARGEST = 0.08  # of the object's largest side: what is smaller is a knob or a caster, not a door
 IN_PLANE = 0.02  # of the same: what is narrower is a rod
 WIDEST_TURN = pi / 2  # the widest opening that is asked of a hinge
-DEPTH_SHARE = 0.75  # of a drawer's own depth: the widest opening that is asked of a slide
+DEPTH_RATIO = 0.75  # of a drawer's own depth: the widest opening that is asked of a slide
 
 
 @final
@@ -67,7 +67,7 @@ def usual_opening(joint_type: JointType, axis: Axis, box: Box) -> float:
     """
     if motion_kind(joint_type).turns:
         return WIDEST_TURN
-    return DEPTH_SHARE * float(np.abs(axis.direction) @ box.size)
+    return DEPTH_RATIO * float(np.abs(axis.direction) @ box.size)
 
 
 def box_of(asset: Asset, members: tuple[str, ...]) -> Box:

@@ -33,8 +33,8 @@ _COLUMNS = (
     Column("from_middle", "Distance from middle", "number"),
     Column("nearest", "Nearest training model"),
     Column("oddest", "Oddest features (z-score)"),
-    Column("aligned", "GT-aligned", "share", "more"),
-    Column("works", "Works + fix", "share", "more"),
+    Column("aligned", "GT-aligned", "ratio", "more"),
+    Column("works", "Works + fix", "ratio", "more"),
 )
 
 
@@ -98,7 +98,7 @@ _HOW = f"""\
 - **Reasonable (twins)**: aligned, or what another annotation of the same geometry in this data says. **(or physical)**:
   or a motion that fits the part's category, is held along its hinge line or slide, leads outwards, can be pulled by its
   handle, and opens freely to 70 %.
-- **Collision**: share of 50 poses from rest to full in which the part, without hardware, cuts into what stands still by
+- **Collision**: fraction of 50 poses from rest to full in which the part, without hardware, cuts into static parts by
   more than 0.0005 of the largest side; **touch**: the same without tolerance. Parts that stand still have neither.
 - **Connected**: never farther from what stands still than 0.005 of the largest side, anchored hardware counted in. A
   part that stands still is not connected.

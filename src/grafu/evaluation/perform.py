@@ -106,7 +106,7 @@ def mask_facts(task: MaskTask) -> MethodFacts:
     """Returns the joints that a method makes where labels are hidden."""
     asset = _asset(task.model)
     truth = counted_parts(asset)
-    result = made_with_labels_hidden(task.method, asset, task.share, task.seed)
+    result = made_with_labels_hidden(task.method, asset, task.ratio, task.seed)
     measures = measure_parts(result.object, truth, asset.unit, with_touch=False)
     records = (PartRecord(part=part.id, fixed=MeasureRecord.of(m)) for part, m in zip(truth, measures, strict=True))
     return MethodFacts(parts=tuple(records))

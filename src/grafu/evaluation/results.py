@@ -20,7 +20,7 @@ from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, Ta
 from grafu.metrics.motion import Motion, compare_motions
 
 Draw = tuple[float, int]
-"""A share of hidden labels, and the seed of the draw."""
+"""A fraction of hidden labels, and the seed of the draw."""
 
 
 @final
@@ -157,9 +157,9 @@ class _Gathered:
                 self.models[model.id] = facts
             case MethodTask(model, method), facts:
                 self.made.setdefault(method.spelled, {})[model.id] = _method_facts(facts, failure)
-            case MaskTask(model, method, share, seed), facts:
+            case MaskTask(model, method, ratio, seed), facts:
                 draws = self.masked.setdefault(method.spelled, {})
-                draws.setdefault((share, seed), {})[model.id] = _method_facts(facts, failure)
+                draws.setdefault((ratio, seed), {})[model.id] = _method_facts(facts, failure)
             case TwinTask(model, other), TwinFacts(same=True) as facts:
                 self.twins.append((model.id, other.id))
                 self._lend(model.id, facts.for_first)

@@ -12,15 +12,15 @@ _COLUMNS = (
     Column("method", "Method"),
     Column("measure", "Measure"),
     Column("of", "Of", "count"),
-    Column("before", "Before", "share", "more"),
-    Column("after", "After", "share", "more"),
+    Column("before", "Before", "ratio", "more"),
+    Column("after", "After", "ratio", "more"),
 )
 _NOTES = (
-    "Tops: of the models that the coverage test finds open from above, the share in which it finds a top afterwards.",
+    "Tops: of the models that the coverage test finds open from above, the fraction with a top afterwards.",
     "Parts that can be grasped: fraction of moving bodies with a handle, a recess or a free edge, found by one "
     "search before and after; models: those in which every moving body can be grasped.",
-    "Interiors: of the compartments large enough for panels, the share that takes a shelf or a divider; models: of "
-    "those with such a compartment, the share in which every one does.",
+    "Interiors: of the compartments large enough for panels, the fraction that takes a shelf or a divider; models: of "
+    "those with such a compartment, the fraction in which every one does.",
     "Brackets hold the 95 % interval of a bootstrap over objects.",
 )
 

@@ -1,8 +1,8 @@
 """Made and real furniture side by side: a row for each measure, and whether the real lies within the made.
 
-A value is compared model by model: each real model against the synthetic 5 to 95 % range. A share (of models without a
-top, of hinges on the left) has no spread from model to model worth the name; there the share of all real models is held
-against the 5 to 95 % range of the shares of as many synthetic models, drawn again and again.
+A value is compared model by model: each real model against the synthetic 5 to 95 % range. A fraction (of models without
+a top, of hinges on the left) has no spread from model to model worth the name; there the fraction of all real models is
+held against the 5 to 95 % range of the fractions of as many synthetic models, drawn again and again.
 """
 
 from collections.abc import Iterable, Sequence
@@ -24,7 +24,7 @@ from grafu.synth.specimen import Specimen
 Verdict = Literal["inside", "plausible", "outside", "no real"]
 
 _LOW, _HIGH = 5.0, 95.0  # percent
-_INSIDE = (_HIGH - _LOW) / 100  # share of models inside if real and synthetic came from one distribution
+_INSIDE = (_HIGH - _LOW) / 100  # fraction of models inside if real and synthetic came from one distribution
 _CHANCE = 0.05  # fewer inside than chance leaves there in one of twenty folders as large: not chance any more
 _ROUNDING = 1e-3  # of a number: real files keep few digits, and what is meant to be one half is seldom quite that
 _GROUPS = 1000  # how often a group of synthetic models is drawn
@@ -45,10 +45,10 @@ class Spread:
         """Returns the spread of at least one number."""
         return cls(*(float(x) for x in np.percentile(numbers, [_LOW, 50.0, _HIGH])))
 
-    def text(self, is_share: bool) -> str:
+    def text(self, is_ratio: bool) -> str:
         """Returns its numbers as they stand in a table, one where all are the same."""
         numbers = (self.median,) if self.low == self.high else (self.low, self.median, self.high)
-        return " · ".join(number_text(number, is_share) for number in numbers)
+        return " · ".join(number_text(number, is_ratio) for number in numbers)
 
     def holds(self, number: float) -> bool:
         """Whether a number lies between the 5 % and the 95 % point, but for rounding."""
@@ -59,14 +59,14 @@ class Spread:
 @final
 @dataclass(frozen=True, slots=True)
 class StatisticsRow:
-    """One measure. `within` is the share of `models` real models inside the synthetic range (of a share: 0 or 1).
+    """One measure. `within` is the fraction of `models` real models inside the synthetic range (of a fraction: 0 or 1).
 
     `synthetic` or `real` is None where no model has the measure. `outliers` are the real models outside, by name, with
-    their values; for a share the one real number stands under the name `all`.
+    their values; for a fraction the one real number stands under the name `all`.
     """
 
     measure: str
-    is_share: bool
+    is_ratio: bool
     synthetic: Spread | None
     real: Spread | None
     models: int = 0
@@ -80,7 +80,7 @@ class StatisticsRow:
             return "no real"
         if self.within == 1.0:
             return "inside"
-        return "outside" if self.is_share or _chance_of(self.models, self.within) < _CHANCE else "plausible"
+        return "outside" if self.is_ratio or _chance_of(self.models, self.within) < _CHANCE else "plausible"
 
 
 @final
@@ -140,8 +140,8 @@ def compare_measures(
         raise ValueError("statistics need at least one specimen: got none")
     models = (*made, *real)
     values = dict.fromkeys(name for m in models for name in m.values)
-    shares = dict.fromkeys(name for m in models for name in m.tallies)
-    rows = [_value_row(name, made, real) for name in values] + [_share_row(name, made, real) for name in shares]
+    ratios = dict.fromkeys(name for m in models for name in m.tallies)
+    rows = [_value_row(name, made, real) for name in values] + [_share_row(name, made, real) for name in ratios]
     return Comparison(tuple(rows), len(made), len(real), unread)
 
 
@@ -179,10 +179,10 @@ def _share_row(name: str, made: Sequence[ModelMeasures], real: Sequence[ModelMea
     spread = _grouped(ours, len(theirs) or _GROUP) if len(ours) else None
     if not theirs:
         return StatisticsRow(name, True, spread, None)
-    share = float(sum(yes for yes, _ in theirs) / max(sum(of for _, of in theirs), 1))
-    held = spread is not None and spread.holds(share)
-    outside = () if held else (("all", share),)
-    return StatisticsRow(name, True, spread, Spread(share, share, share), len(theirs), float(held), outside)
+    ratio = float(sum(yes for yes, _ in theirs) / max(sum(of for _, of in theirs), 1))
+    held = spread is not None and spread.holds(ratio)
+    outside = () if held else (("all", ratio),)
+    return StatisticsRow(name, True, spread, Spread(ratio, ratio, ratio), len(theirs), float(held), outside)
 
 
 def _chance_of(models: int, within: float) -> float:
@@ -192,7 +192,7 @@ def _chance_of(models: int, within: float) -> float:
 
 
 def _grouped(tallies: np.ndarray, size: int) -> Spread:
-    """Returns the spread of the share in groups of `size` models, drawn with replacement, the same every time."""
+    """Returns the spread of the fraction in groups of `size` models, drawn with replacement, the same every time."""
     rng = np.random.default_rng(0)
     groups = tallies[rng.integers(0, len(tallies), size=(_GROUPS, size))].sum(axis=1)
     return Spread.of(list(groups[:, 0] / np.maximum(groups[:, 1], 1.0)))
@@ -200,11 +200,11 @@ def _grouped(tallies: np.ndarray, size: int) -> Spread:
 
 def _markdown_row(row: StatisticsRow) -> str:
     within = "" if row.within is None else f"{row.within:.0%}"
-    outside = ", ".join(f"{name} {number_text(value, row.is_share)}" for name, value in row.outliers)
-    made, real = ("none" if spread is None else spread.text(row.is_share) for spread in (row.synthetic, row.real))
+    outside = ", ".join(f"{name} {number_text(value, row.is_ratio)}" for name, value in row.outliers)
+    made, real = ("none" if spread is None else spread.text(row.is_ratio) for spread in (row.synthetic, row.real))
     return "| " + " | ".join([row.measure, made, real, within, row.verdict, outside]) + " |"
 
 
-def number_text(number: float, is_share: bool) -> str:
+def number_text(number: float, is_ratio: bool) -> str:
     """Returns a number of a measure as it stands in a table."""
-    return f"{number:.0%}" if is_share else f"{number:.3g}"
+    return f"{number:.0%}" if is_ratio else f"{number:.3g}"

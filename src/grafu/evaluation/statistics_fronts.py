@@ -1,4 +1,4 @@
-"""Measures of doors, drawers, handles and tops of one model. It knows no generator and no files.
+"""Measures of doors, drawers, handles and tops of one model.
 
 Made and real furniture pass through the same lines, so that a difference between them is one of the furniture. What is
 judged is the geometry and the edges; a part is a door where the graph hangs it on a hinge or labels it so.
@@ -21,10 +21,10 @@ HingeSide = Literal["left", "right", "top", "bottom", "lid"]
 HandlePlace = Literal["opposite", "centre", "same"]
 
 _UP = np.array([0.0, 0.0, 1.0])
-_THIRDS = (0.4, 0.6)  # a handle between these shares of the way from the pin to the free edge sits in the middle
+_THIRDS = (0.4, 0.6)  # a handle between these fractions of the way from the pin to the free edge sits in the middle
 _GRID = 12  # points a side at which a top is looked for
 _LEVEL = 0.8  # least |cosine| between a face's normal and Z for it to be level
-_BELOW = 0.03  # share of the object's largest side by which a top may lie below the upper edge of what it covers
+_BELOW = 0.03  # fraction of the object's largest side by which a top may lie below the upper edge of what it covers
 
 
 @final
@@ -54,8 +54,8 @@ class Front:
         return "same" if self.along[0] < near else "opposite" if self.along[0] > far else "centre"
 
     @property
-    def handle_share(self) -> float | None:
-        """The length of the first handle as a share of the front's own length along it; None without a handle."""
+    def handle_ratio(self) -> float | None:
+        """The length of the first handle as a fraction of the front's own length along it; None without a handle."""
         if not self.handles:
             return None
         size = self.handles[0].size
@@ -144,8 +144,8 @@ def _side(box: Box, middle: Vec3, pin: Vec3) -> HingeSide:
 
 def _way_from_pin(box: Box, pin: Vec3, handle: Box) -> float:
     axis = int(np.argmax(np.abs(pin)))
-    share = (float(handle.center[axis]) - box.low[axis]) / max(float(box.size[axis]), 1e-9)
-    return float(np.clip(1.0 - share if pin[axis] > 0 else share, 0.0, 1.0))
+    ratio = (float(handle.center[axis]) - box.low[axis]) / max(float(box.size[axis]), 1e-9)
+    return float(np.clip(1.0 - ratio if pin[axis] > 0 else ratio, 0.0, 1.0))
 
 
 def _space_behind(node: PartNode, around: Box) -> Box:
@@ -168,7 +168,7 @@ def _level_faces(asset: Asset, ids: Iterable[str]) -> np.ndarray:
 
 
 def _covered(faces: np.ndarray, box: Box, level: float) -> float:
-    """Returns the share of a grid over a box's footprint that lies under a face at `level` metres or above."""
+    """Returns the fraction of a grid over a box's footprint that lies under a face at `level` metres or above."""
     high = faces[faces[:, :, 2].max(axis=1) >= level]
     steps = (np.arange(_GRID) + 0.5) / _GRID
     x, y = np.meshgrid(box.low[0] + steps * box.size[0], box.low[1] + steps * box.size[1])

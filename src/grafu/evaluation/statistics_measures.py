@@ -1,7 +1,7 @@
 """What is measured on one model: plain numbers by name. It compares nothing and reads no files.
 
 A measure is either a value (one number for the model; of several doors the median) or a tally (how many of how many).
-Lengths are shares of the object's largest side, so that the unknown scale of real models does not matter.
+Lengths are fractions of the object's largest side, so that the unknown scale of real models does not matter.
 """
 
 from collections import Counter
@@ -20,7 +20,7 @@ from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.vocabulary import PartLabel
 
-_FLAT = 1e-4  # share of the object's largest side under which a part has no thickness: half a millimetre in 5 m
+_FLAT = 1e-4  # fraction of the object's largest side under which a part has no thickness: half a millimetre in 5 m
 _PANELS = (
     PartLabel.TOP_PANEL,
     PartLabel.SIDE_PANEL,
@@ -88,11 +88,11 @@ def _part_values(asset: Asset, graph: FunctionalGraph) -> dict[str, float]:
     if panels:
         values["panel thickness, median"] = float(np.median(panels) / asset.unit)
         values["panel thickness, largest / smallest"] = float(max(panels) / max(min(panels), 1e-4 * asset.unit))
-    return values | _label_shares(asset)
+    return values | _label_ratios(asset)
 
 
-def _label_shares(asset: Asset) -> dict[str, float]:
-    """Returns each label's share of the labelled parts, and the share of parts without one: lost labels say nothing."""
+def _label_ratios(asset: Asset) -> dict[str, float]:
+    """Returns each label's fraction of the labelled parts, and the fraction of parts without a label."""
     labels = Counter(part.label for part in asset.parts)
     lost = labels.pop(PartLabel.UNKNOWN, 0)
     values = {"parts without a label": lost / len(asset.parts)}
@@ -123,9 +123,9 @@ def _front_values(word: str, fronts: tuple[Front, ...], unit: float) -> dict[str
         f"{word} height": [f.height / unit for f in fronts],
         f"{word} {'thickness' if word == 'door' else 'depth'}": [f.depth / unit for f in fronts],
         f"{word} height / width": [f.height / f.width for f in fronts if f.width > 0],
-        f"{word} handle length / front": [f.handle_share for f in fronts if f.handle_share is not None],
+        f"{word} handle length / front": [f.handle_ratio for f in fronts if f.handle_ratio is not None],
         f"{word} handle height on front": [f.handle_height for f in fronts if f.handle_height is not None],
-        f"{word} handle from pin": [share for f in fronts for share in f.along[:1]],
+        f"{word} handle from pin": [ratio for f in fronts for ratio in f.along[:1]],
     }
     return {name: float(median(numbers)) for name, numbers in lists.items() if numbers}
 

@@ -12,14 +12,14 @@ from typing import Final, Literal, final
 
 from grafu.evaluation.bootstrap import Figure
 
-Kind = Literal["text", "count", "share", "number"]
+Kind = Literal["text", "count", "ratio", "number"]
 Cell = str | int | float | bool | Figure | None
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column: its name in CSV and JSON, its heading, and how its cells are shown (`share`: in per cent).
+    """A column: its name in CSV and JSON, its heading, and how its cells are shown (`ratio`: in per cent).
 
     `better` says which way is better, for the arrow in its heading.
     """
@@ -62,7 +62,7 @@ _TEX_SPECIAL = {
 
 
 def shown(cell: Cell, column: Column) -> str:
-    """Returns a cell as people read it: shares in per cent, intervals in brackets, nothing for what is not known."""
+    """Returns a cell as people read it: fractions in per cent, intervals in brackets, nothing for what is not known."""
     match cell:
         case None:
             return "–"
@@ -145,7 +145,7 @@ def _cells(table: Table, row: tuple[Cell, ...]) -> list[tuple[Cell, Column]]:
 
 
 def _number(value: int | float, column: Column) -> str:
-    if column.kind == "share":
+    if column.kind == "ratio":
         return f"{100 * value:.1f} %"
     if isinstance(value, int) or column.kind == "count":
         return f"{value:.0f}"

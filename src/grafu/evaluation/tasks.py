@@ -59,12 +59,12 @@ class MaskTask:
 
     model: ModelRef
     method: Method
-    share: float
+    ratio: float
     seed: int
 
     def facts(self) -> dict[str, str]:
         """Returns what determines the outcome, in words."""
-        drawn = {"share": f"{self.share:g}", "seed": str(self.seed)}
+        drawn = {"share": f"{self.ratio:g}", "seed": str(self.seed)}
         return {"task": "mask", **_of_model(self.model), **_of_method(self.method, self.model), **drawn}
 
 
@@ -106,8 +106,8 @@ def key_of(task: Task) -> str:
 
 def mask_tasks(models: Sequence[ModelRef], method: Method, levels: Sequence[float], seeds: int) -> tuple[MaskTask, ...]:
     """Returns every level with every seed; where all labels are hidden there is nothing to draw, and one seed does."""
-    draws = [(share, seed) for share in levels for seed in range(1 if share in (0.0, 1.0) else seeds)]
-    return tuple(MaskTask(model, method, share, seed) for model in models for share, seed in draws)
+    draws = [(ratio, seed) for ratio in levels for seed in range(1 if ratio in (0.0, 1.0) else seeds)]
+    return tuple(MaskTask(model, method, ratio, seed) for model in models for ratio, seed in draws)
 
 
 def _of_model(model: ModelRef) -> dict[str, str]:

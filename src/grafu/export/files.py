@@ -1,8 +1,8 @@
 """An export is a table from relative names to bytes; this module alone writes it, whole or not at all.
 
-It knows no format. A folder appears by one rename from a temporary folder beside it, so that no half-written folder is
-ever visible. In it stands a marker (`grafu.export.marker`): a folder without one is never replaced, and of one that is
-replaced whatever the marker does not list stays in it.
+A folder appears by one rename from a temporary folder beside it, so that no half-written folder is ever visible. In it
+stands a marker (`grafu.export.marker`): a folder without one is never replaced, and of one that is replaced whatever
+the marker does not list stays in it.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Visuals as glTF tables: meshes, materials, images, and the binary half of the file. It knows no links and no joints.
+"""Visuals as glTF tables: meshes, materials, images, and the binary half of the file.
 
 A visual is one mesh with one primitive per surface; each material and each image is written once. Arrays become
 accessors over one aligned buffer.
@@ -105,9 +105,9 @@ class GltfMaterials:
             return {"index": self._image(texture)} if textured and texture is not None else None
 
         metallic_roughness = {
-            "baseColorFactor": [_share(c) for c in material.base_color],
-            "metallicFactor": _share(material.metallic),
-            "roughnessFactor": _share(material.roughness),
+            "baseColorFactor": [_ratio(c) for c in material.base_color],
+            "metallicFactor": _ratio(material.metallic),
+            "roughnessFactor": _ratio(material.roughness),
             "baseColorTexture": slot(material.base_color_texture),
             "metallicRoughnessTexture": slot(material.metallic_roughness_texture),
         }
@@ -117,7 +117,7 @@ class GltfMaterials:
             "normalTexture": slot(material.normal_texture),
             "occlusionTexture": slot(material.occlusion_texture),
             "emissiveTexture": slot(material.emissive_texture),
-            "emissiveFactor": [_share(c) for c in material.emissive] if any(material.emissive) else None,
+            "emissiveFactor": [_ratio(c) for c in material.emissive] if any(material.emissive) else None,
             "alphaMode": material.alpha_mode if material.alpha_mode != "OPAQUE" else None,
             "alphaCutoff": max(float(material.alpha_cutoff), 0.0) if material.alpha_mode == "MASK" else None,
             "doubleSided": True if material.double_sided else None,
@@ -133,7 +133,7 @@ class GltfMaterials:
         return self._image_index[key]
 
 
-def _share(value: float) -> float:
+def _ratio(value: float) -> float:
     return min(max(float(value), 0.0), 1.0)
 
 

@@ -38,7 +38,7 @@ _STIFF = "0.999 0.9995 0.001"
 class MjcfConfig:
     """What goes into an MJCF file.
 
-    `armature` is a share of the inertia (or mass) that a joint moves, added to it: it steadies light parts.
+    `armature` is a fraction of the inertia (or mass) that a joint moves, added to it: it steadies light parts.
     `actuators` adds a position servo to every joint; without them furniture is passive. A servo has its greatest effort
     at an error of `servo_error` of the joint's range. `keyframes` adds the poses `closed` and `open`, in which
     every joint is as far open as the others leave room.

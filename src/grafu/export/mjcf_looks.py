@@ -2,7 +2,7 @@
 
 A visual of one look is the OBJ file that a URDF names too; others are divided by look into files of their own. A look
 is one colour or one PNG image; metallic-roughness, normal, occlusion and emissive images are left out: MuJoCo's own
-renderer has no use for them. It knows no links.
+renderer has no use for them.
 """
 
 import xml.etree.ElementTree as ET
@@ -109,7 +109,7 @@ def _as_png(texture: Texture) -> bytes | None:
 
 
 def _display(linear: float) -> float:
-    """Returns a linear share of light as screens take it (sRGB): MuJoCo shows its colours as they are."""
+    """Returns a linear fraction of light as screens take it (sRGB): MuJoCo shows its colours as they are."""
     x = min(max(linear, 0.0), 1.0)
     return round(12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055, 6)
 

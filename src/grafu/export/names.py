@@ -1,6 +1,6 @@
 """Names that are unique and fit into formats, and numbers as XML attributes hold them.
 
-Numbers are short, without minus zero or rounding noise. It knows nothing of what they name.
+Numbers are short, without minus zero or rounding noise.
 """
 
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""Visuals as OBJ files with their MTL files and textures, all names relative. It knows no joints.
+"""Visuals as OBJ files with their MTL files and textures, all names relative.
 
 What MTL cannot say (metallic-roughness and occlusion images, the alpha cutoff) is left out; GLB keeps it. The OBJ files
 of an object are the same for every format that names them: visuals whole, convex pieces for collision.

@@ -1,7 +1,4 @@
-"""Normals for files that need them: kept where a surface has them, else smooth up to a crease angle.
-
-It knows no file format.
-"""
+"""Normals for files that need them: kept where a surface has them, else smooth up to a crease angle."""
 
 from dataclasses import dataclass
 from typing import final

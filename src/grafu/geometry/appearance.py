@@ -1,4 +1,4 @@
-"""How a mesh looks: materials, textures, and surfaces that carry both. It knows no file format.
+"""How a mesh looks: materials, textures, and surfaces that carry both.
 
 Some faces of a surface, and several surfaces of one material as one, keep their attributes.
 """

@@ -1,4 +1,4 @@
-"""A line in space with a sense: the axis of a joint. It knows no parts."""
+"""A line in space with a sense: the axis of a joint."""
 
 from dataclasses import dataclass
 from typing import final

@@ -1,8 +1,7 @@
 """Surfaces of several materials taken as one body: which faces bound solids, which are mere sheets, and cutting it.
 
 Closed patches are cut by manifold3d in double precision and stay closed; every face that is left keeps the texture
-coordinates, normals and colours of the face that it comes from. Sheets are clipped. It knows no parts and no reasons
-to cut.
+coordinates, normals and colours of the face that it comes from. Sheets are clipped.
 """
 
 from collections.abc import Sequence
@@ -234,23 +233,23 @@ def _redrawn(body: Bodywork, number: int, cut: _CutPatch) -> Surface:
     first_face = int(sum(len(s.mesh.faces) for s in body.surfaces[:number]))
     theirs = surface.mesh.faces[body.source[origin] - first_face]
     points = cut.vertices[faces]
-    share = _barycentric(points, body.mesh.vertices[start:][theirs])
+    ratio = _barycentric(points, body.mesh.vertices[start:][theirs])
     uv = normals = colors = None
     if surface.uv is not None:
-        uv = _mixed(share, surface.uv[theirs])
+        uv = _mixed(ratio, surface.uv[theirs])
     if surface.normals is not None:
-        normals = _mixed(share, surface.normals[theirs])
+        normals = _mixed(ratio, surface.normals[theirs])
         normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
         normals[np.repeat(body.is_turned[origin], 3)] *= -1
     if surface.colors is not None:
-        colors = np.clip(np.round(_mixed(share, surface.colors[theirs])), 0, 255).astype(np.uint8)
+        colors = np.clip(np.round(_mixed(ratio, surface.colors[theirs])), 0, 255).astype(np.uint8)
     mesh = TriangleMesh(points.reshape(-1, 3), np.arange(3 * len(rows)).reshape(-1, 3))
     return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
 
 
-def _mixed(share: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _mixed(ratio: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Returns the corners' values, each mixed from three, (3 m, k)."""
-    return np.asarray(np.einsum("mck,mkd->mcd", share, values.astype(np.float64)).reshape(-1, values.shape[-1]))
+    return np.asarray(np.einsum("mck,mkd->mcd", ratio, values.astype(np.float64)).reshape(-1, values.shape[-1]))
 
 
 def _barycentric(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis. It knows no meshes and no labels."""
+"""Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

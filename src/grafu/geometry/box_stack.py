@@ -1,6 +1,6 @@
 """Many oriented boxes at once: what encloses them, how they move, and how deep pairs of them cut into one another.
 
-A solid is here its box alone; `box_frames` says which meshes are boxes. It knows no parts.
+A solid is here its box alone; `box_frames` says which meshes are boxes.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from grafu.geometry.arrays import ArrayValue, Mat4, Scalars, freeze_arrays
 Rows = Float[np.ndarray, "n 3"]
 Rotations = Float[np.ndarray, "n 3 3"]
 
-_CORNER = 1e-6  # share of a box's diagonal by which a vertex may miss a corner of its box: float32 inputs
+_CORNER = 1e-6  # fraction of a box's diagonal by which a vertex may miss a corner of its box: float32 inputs
 _PARALLEL = 1e-9  # below this length the cross product of two edges gives no direction of its own
 
 

@@ -22,7 +22,7 @@ P = ParamSpec("P")
 DEFAULT_SECONDS = 120.0
 """For one model: some ten times what large pieces of furniture take."""
 _STRETCH, _MOST = 4.0, 0.9  # of the clock on the wall
-"""A share of the processor's time may take four times as much of the clock's, but never all of it."""
+"""A fraction of the processor's time may take four times as much of the clock's, but never all of it."""
 DEFAULT_ROOM = 400 * 2**20
 """Bytes of one step: with what stays beside it, a process keeps below some 1.5 GB."""
 
@@ -75,7 +75,7 @@ class Budget:
         """Whether time has no end."""
         return self.deadline == inf and self.latest == inf
 
-    def share(self, part: float) -> "Budget":
+    def fraction(self, part: float) -> "Budget":
         """Returns a budget that ends after this part (0..1) of the time that is left; on the wall after more of it."""
         if self.is_unlimited:
             return self
@@ -113,7 +113,7 @@ def require_time() -> None:
         TooComplex: if the deadline of the budget in force has passed.
     """
     if _present.get().left == 0:
-        raise TooComplex("it takes more time than its share: simplify the meshes, or allow more time")
+        raise TooComplex("it takes more time than its part of the budget: simplify the meshes, or allow more time")
 
 
 def has_time() -> bool:
@@ -143,7 +143,7 @@ def within(part: float, work: Callable[[], T], instead: Callable[[str], T]) -> T
     `instead` is given the reason, in words. It runs under the budget that was in force before, which may be spent, too.
     """
     try:
-        with _present.get().share(part).in_force():
+        with _present.get().fraction(part).in_force():
             require_time()
             return work()
     except TooComplex as error:
@@ -155,15 +155,15 @@ def within(part: float, work: Callable[[], T], instead: Callable[[str], T]) -> T
 
 @final
 class WhileTimeLasts(Generic[P, T]):
-    """A function of many things, one after another: `work` while its share of the time lasts, then `instead`.
+    """A function of many things, one after another: `work` while its fraction of the time lasts, then `instead`.
 
-    The share is this part (0..1) of the time that is left as it is made. `spared` counts what was done the other way.
-    Not a value.
+    The fraction is this part (0..1) of the time that is left as it is made. `spared` counts what was done the other
+    way. Not a value.
     """
 
     def __init__(self, part: float, work: Callable[P, T], instead: Callable[P, T]) -> None:
         self.spared = 0
-        self._budget = _present.get().share(part)
+        self._budget = _present.get().fraction(part)
         self._work, self._instead = work, instead
 
     def __call__(self, *arguments: P.args, **named: P.kwargs) -> T:

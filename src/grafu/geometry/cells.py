@@ -1,4 +1,4 @@
-"""Where triangles lie in a box, cell by cell: they are split until none is larger than a cell. It knows no parts.
+"""Where triangles lie in a box, cell by cell: they are split until none is larger than a cell.
 
 What is left of a triangle is represented by the box around each of its pieces. They cover it wholly, so what no piece
 reaches is free; a slanted triangle counts as a little more than it is, one that lies across an axis exactly.
@@ -112,8 +112,8 @@ def _cell_numbers(
     points: np.ndarray, box: Box, columns: tuple[int, int], axes: tuple[int, int]
 ) -> Int[np.ndarray, "n 2"]:
     picked = list(axes)
-    share = (points[:, picked] - box.low[picked]) / np.maximum(box.size[picked], 1e-12)
-    numbers = np.floor(share * np.asarray(columns)).astype(np.int64)
+    ratio = (points[:, picked] - box.low[picked]) / np.maximum(box.size[picked], 1e-12)
+    numbers = np.floor(ratio * np.asarray(columns)).astype(np.int64)
     return np.clip(numbers, 0, np.asarray(columns) - 1)
 
 

@@ -1,4 +1,4 @@
-"""Empty axis-aligned boxes among occupied ones, and grids of cells as boxes. Numbers only; it knows no furniture.
+"""Empty axis-aligned boxes among occupied ones, and grids of cells as boxes. Numbers only.
 
 A stack of boxes is an array: for each box its low corner, then its high corner.
 """
@@ -138,9 +138,9 @@ def points_on(triangles: Float[np.ndarray, "_ 3 3"], spacing: float) -> SomePoin
 def _in_rows(corner: SomePoints, along: SomePoints, up: SomePoints, lines: Indices, spacing: float) -> SomePoints:
     """Returns points in so many rows on triangles that two sides span from a corner; the last corner is no row."""
     owner = np.repeat(np.arange(len(corner)), lines)
-    share = _counted(lines) / lines[owner]
-    starts = corner[owner] + share[:, None] * up[owner]
-    ways = (1 - share)[:, None] * along[owner]
+    ratio = _counted(lines) / lines[owner]
+    starts = corner[owner] + ratio[:, None] * up[owner]
+    ways = (1 - ratio)[:, None] * along[owner]
     counts = np.ceil(np.linalg.norm(ways, axis=1) / spacing - 1e-9).astype(np.int64) + 1
     step = _counted(counts) / np.repeat(np.maximum(counts - 1, 1), counts)
     points = np.repeat(starts, counts, axis=0)

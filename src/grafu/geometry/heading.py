@@ -1,4 +1,4 @@
-"""How furniture stands turned about Z: the angle that most of its upright faces follow. It knows no parts."""
+"""How furniture stands turned about Z: the angle that most of its upright faces follow."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""Do two posed meshes intersect, how far apart are they, and is it more than a touch. It knows no parts.
+"""Do two posed meshes intersect, how far apart are they, and is it more than a touch.
 
 A BVH of triangles has no inside: a mesh that lies wholly within another does not intersect it. Furniture parts that
 pass through one another cut surfaces, which is what is asked here.
@@ -21,7 +21,7 @@ from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import transform_points
 
-# A mesh is never shrunk to less than this share of its side: thin hardware keeps a core.
+# A mesh is never shrunk to less than this fraction of its side: thin hardware keeps a core.
 _CORE = 0.2
 _MOST_CONTACTS = 5000
 _ANY_CONTACT = fcl.CollisionRequest()

@@ -37,8 +37,8 @@ def point_triangle_distances(points: Points, triangles: Triangles) -> Distances:
 
 def _segment(squared: Distances, along: Distances, length: np.ndarray) -> Distances:
     """Returns squared distances from segments, given those from their start and the products with their vector."""
-    share = np.clip(along / np.maximum(length, 1e-30), 0.0, 1.0)
-    return squared - share * (2 * along - share * length)
+    ratio = np.clip(along / np.maximum(length, 1e-30), 0.0, 1.0)
+    return squared - ratio * (2 * along - ratio * length)
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Rays against a mesh (Embree): first hits, robust distances, which faces are seen from outside. It knows no parts.
+"""Rays against a mesh (Embree): first hits, robust distances, which faces are seen from outside.
 
 Embree works in single precision: distances hold to about a micrometre on furniture. Where parallel lines cross
 triangles is found exactly, every crossing: the lines run along the third coordinate through the points of a grid in the
@@ -61,8 +61,8 @@ def line_crossings(
     )
     weights[:, 2] = area - weights[:, 0] - weights[:, 1]
     hit = (area != 0) & np.all(weights * np.sign(area)[:, None] >= 0, axis=1)
-    share = weights[hit] / area[hit, None]
-    height = share[:, 0] * a[hit, 2] + share[:, 1] * b[hit, 2] + share[:, 2] * c[hit, 2]
+    ratio = weights[hit] / area[hit, None]
+    height = ratio[:, 0] * a[hit, 2] + ratio[:, 1] * b[hit, 2] + ratio[:, 2] * c[hit, 2]
     line = i[hit] * len(second) + j[hit]
     order = np.lexsort((-height, line))
     return Crossings(line[order], face[hit][order], height[order], (area[hit] > 0)[order])
@@ -115,10 +115,10 @@ class RayCaster:
         return faces, distances
 
 
-def robust_median(distances: Scalars, reach: float, share: float = 0.3) -> float:
-    """Returns the median of the distances within `reach`; infinity where less than `share` of the rays hit."""
+def robust_median(distances: Scalars, reach: float, ratio: float = 0.3) -> float:
+    """Returns the median of the distances within `reach`; infinity where less than `ratio` of the rays hit."""
     hits = distances[distances <= reach]
-    return float(np.median(hits)) if len(hits) >= max(1.0, share * len(distances)) else float("inf")
+    return float(np.median(hits)) if len(hits) >= max(1.0, ratio * len(distances)) else float("inf")
 
 
 _OFF = 1e-4  # of the largest side: how far before a face a ray begins

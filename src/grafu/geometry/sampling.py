@@ -1,4 +1,4 @@
-"""Point clouds, and seeded points on a surface. It knows no parts."""
+"""Point clouds, and seeded points on a surface."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -47,11 +47,11 @@ def sample_surfaces(meshes: Sequence[TriangleMesh], count: int, seed: int = 0) -
     areas = _areas(corners)
     clouds = []
     for mesh, start, end in zip(meshes, [0, *ends.tolist()], ends.tolist(), strict=False):
-        shares = np.cumsum(areas[start:end])
-        if not len(shares) or not shares[-1] > 0:
+        ratios = np.cumsum(areas[start:end])
+        if not len(ratios) or not ratios[-1] > 0:
             clouds.append(_vertices(mesh, count, seed))
             continue
-        picked = start + (shares / shares[-1]).searchsorted(where, side="right")
+        picked = start + (ratios / ratios[-1]).searchsorted(where, side="right")
         clouds.append(PointCloud(np.einsum("nk,nkd->nd", weights, corners[picked])))
     return clouds
 

@@ -1,4 +1,4 @@
-"""Convex solids, and cutting them out of surfaces, attributes kept. It knows no parts and no reasons to cut.
+"""Convex solids, and cutting them out of surfaces, attributes kept.
 
 Closed surfaces are cut by manifold3d and stay closed. Open ones, which real furniture is full of, are clipped triangle
 by triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before. What

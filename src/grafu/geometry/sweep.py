@@ -1,6 +1,6 @@
 """Solids along a path: lofts through rings, sections swept along a line, sheets between two grids. Lengths in metres.
 
-Every mesh is closed, its faces outward, as long as it does not cross itself. It knows no furniture.
+Every mesh is closed, its faces outward, as long as it does not cross itself.
 """
 
 import numpy as np

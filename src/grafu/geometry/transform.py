@@ -1,4 +1,4 @@
-"""Rigid (and similarity) transforms as 4x4 matrices, `T_target_source`. It knows no meshes.
+"""Rigid (and similarity) transforms as 4x4 matrices, `T_target_source`.
 
 Angles are radians, positive by the right-hand rule; quaternions are wxyz.
 """

@@ -1,1 +1,1 @@
-"""The functional graph: part nodes, four kinds of edges, motion codes, JSON. It knows no network."""
+"""The functional graph: part nodes, four kinds of edges, motion codes, JSON."""

@@ -1,6 +1,6 @@
 """The functional graph: parts as nodes, four kinds of edges, and every invariant checked when it is made.
 
-The paper's three attributes of a node are its label, its box and its points. The graph knows no meshes.
+The paper's three attributes of a node are its label, its box and its points. It holds no meshes.
 """
 
 from collections import defaultdict

@@ -1,4 +1,4 @@
-"""The only bridge between motion codes and lines in space, both ways (official.md 3). It knows no graphs.
+"""The only bridge between motion codes and lines in space, both ways (official.md 3).
 
 A face code, like a signed axis, is 2 * axis + (1 for the positive side). A hinge border counts within the door's own
 plane: the thin axis of its box is left out, and of the two others, in ascending order, the border's slot (border // 2)

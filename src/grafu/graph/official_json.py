@@ -1,7 +1,7 @@
 """The authors' graph files: input and functional graphs both ways, predicted graphs in (official.md 2.1, 2.5, 2.6).
 
-It knows no files and no units: numbers are taken and given as they are. What our graph cannot hold is left out and
-named in the notes: a motion that is not labelled leaves a contact, a second edge between two parts gives way.
+Numbers keep the unit of the file. What our graph cannot hold is left out and named in the notes: a motion that is not
+labelled leaves a contact, a second edge between two parts gives way.
 """
 
 from dataclasses import dataclass, replace

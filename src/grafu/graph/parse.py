@@ -23,7 +23,7 @@ from grafu.graph.touching import counters, touching_pairs
 @final
 @dataclass(frozen=True, slots=True)
 class ParsingConfig:
-    """How contacts are found. Tolerances are shares of the object's largest side (the paper's unit cube).
+    """How contacts are found. Tolerances are fractions of the object's largest side (the paper's unit cube).
 
     `contact` is `mesh` (boxes, then the distance of the meshes), `box` (the paper's rule alone) or `none`. `points` is
     the number of surface points kept on each node (the network's; 0: none), drawn with `seed`.

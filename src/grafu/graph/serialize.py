@@ -1,4 +1,4 @@
-"""Our own graph JSON, `grafu.graph/1`, in and out; a round trip is exact. It knows no files: text and dicts only.
+"""Our own graph JSON, `grafu.graph/1`, in and out; a round trip is exact.
 
 The form is a superset of the authors' (official.md 2), so that their tools read it too:
 

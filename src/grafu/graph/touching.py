@@ -2,7 +2,7 @@
 
 Axis-aligned rectangles (two triangles each, as boards are drawn) and loose corners are boxes without thickness, whose
 distance is exact. Two of them that are near settle a contact; where both meshes are rectangles and nothing else, none
-that are near settles it too. It knows no parts and no labels.
+that are near settles it too.
 """
 
 from collections.abc import Sequence

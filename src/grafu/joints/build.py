@@ -54,12 +54,12 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     if not search.has_pins:
         return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")
     clearances: tuple[Clearance, ...] = ()
-    share = search.best().free / search.wanted
-    if share < 1.0:
+    ratio = search.best().free / search.wanted
+    if ratio < 1.0:
         path = _path(request, scene, search.to_clear().axis, search.wanted)
         cleared = make_clearance(scene, path, config)
         again = door_search(request, cleared.scene, config)
-        if again.best().free / again.wanted > share:
+        if again.best().free / again.wanted > ratio:
             search, scene, clearances = again, cleared.scene, cleared.clearances
     placement = place_hinges(search, gallery) or _despite_doors(search, gallery)
     if placement is None:
@@ -78,16 +78,16 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     if search is None:
         return Refusal(request.moving, Reason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
     clearances: tuple[Clearance, ...] = ()
-    share = search.free_share()
-    if share < 1.0:
+    ratio = search.free_ratio()
+    if ratio < 1.0:
         cleared = make_clearance(scene, _path(request, scene, search.axis, search.reach), config)
         again = drawer_search(request, cleared.scene, config)
-        if again is not None and again.free_share() > share:
+        if again is not None and again.free_ratio() > ratio:
             search, scene, clearances = again, cleared.scene, cleared.clearances
     placement = place_rails(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
     if found is None:
-        return _skipped(request, search.free_share(), scene, config)
+        return _skipped(request, search.free_ratio(), scene, config)
     return _built(request, found, request.reference or search.wanted)
 
 

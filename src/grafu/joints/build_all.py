@@ -1,6 +1,6 @@
-"""All joints of a plan, one after the other, each within its share of the time: doors first, then drawers.
+"""All joints of a plan, one after the other, each within its fraction of the time: doors first, then drawers.
 
-One part that cannot be built, or takes more than its share, does not cost the others theirs.
+One part that cannot be built, or takes more than its fraction, does not cost the others theirs.
 
 How moving bodies may be expected to move before their joints are built, so that hardware keeps out of their way.
 
@@ -73,7 +73,7 @@ def build_fairly(
     """
     find = partial(cache.value, "ways", expected_motions, tuple(requests), scene, config)
     joint_motions: Mapping[str, JointMotion] = within(_EXPECTING, find, lambda _: {})
-    budget = present_budget().share(_TRY)
+    budget = present_budget().fraction(_TRY)
     with budget.in_force():
         first = _build_all(requests, replace(scene, joint_motions=joint_motions), gallery, config, cache)
         left = {skip.part for skip in first[1] if skip.reason is not Reason.TOO_COMPLEX} & joint_motions.keys()
@@ -112,9 +112,9 @@ def _build(
 ) -> Built | Refusal:
     """Returns one joint of those `left` to build, or why it could not be built."""
     work = partial(cache.value, "joint", build_joint, request, scene, gallery, config)
-    return within(joint_share(left), work, partial(Refusal, request.moving, Reason.TOO_COMPLEX))
+    return within(joint_ratio(left), work, partial(Refusal, request.moving, Reason.TOO_COMPLEX))
 
 
-def joint_share(left: int) -> float:
+def joint_ratio(left: int) -> float:
     """Returns the part (0..1) of the time left that the first of `left` joints may take."""
     return 1.0 if left <= 1 else min(_MOST, max(_LEAST, _TIMES_EVEN / left))

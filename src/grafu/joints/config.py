@@ -1,4 +1,4 @@
-"""Tolerances, sizes and counts of joints. Lengths marked (unit) are shares of the object's largest side."""
+"""Tolerances, sizes and counts of joints. Lengths marked (unit) are fractions of the object's largest side."""
 
 from dataclasses import dataclass
 from math import radians
@@ -19,7 +19,7 @@ def require_not_negative(config: object, *names: str) -> None:
             raise ValueError(f"`{type(config).__name__}.{name}` must not be negative: got {getattr(config, name)}")
 
 
-def require_shares(config: object, *names: str) -> None:
+def require_ratios(config: object, *names: str) -> None:
     """Raises ValueError unless these fields of a config lie between 0 and 1."""
     for name in names:
         if not 0 < getattr(config, name) < 1:
@@ -32,7 +32,7 @@ class RealizationConfig:
     """What realization may do, and how exact it is.
 
     Raises:
-        ValueError: if a number is not above 0, a share not between 0 and 1, or there are fewer than two poses.
+        ValueError: if a number is not above 0, a fraction not between 0 and 1, or there are fewer than two poses.
     """
 
     depth: float = 0.0004
@@ -48,26 +48,26 @@ class RealizationConfig:
     door_opening: float = radians(110)
     """How far a door may open at most; real butt hinges stop the leaf at about 110 degrees."""
     restricted: float = 0.7
-    """An opening below this share of the reference is reported as restricted (design, section 5)."""
+    """An opening below this fraction of the reference is reported as restricted (design, section 5)."""
     trim: bool = True
     """Whether material may be taken away to give clearance."""
     max_trim: float = 0.02
-    """Largest share of a side by which a moving part is made smaller (design, section 5)."""
+    """Largest fraction of a side by which a moving part is made smaller (design, section 5)."""
     max_carve: float = 0.05
-    """Largest share of a static part's volume or surface that is carved (design, section 5)."""
+    """Largest fraction of a static part's volume or surface that is carved (design, section 5)."""
     max_carve_fitting: float = 0.6
     """The same of a drawn rail, bearing or hinge, told by its name: it lies hidden, and makes way for what works."""
     coarse_poses: int = 19
     """Poses in which candidates are compared."""
     fine_poses: int = 61
     """Poses in which the chosen motion is checked: more than the 50 of the paper's metric, and others than those."""
-    rail_share: float = 0.9
+    rail_ratio: float = 0.9
     """Length of a rail over the drawer's body (supplement: 1 - beta, beta = 0.1)."""
     body_tolerance: float = 0.01
-    """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a share of the width."""
+    """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a fraction of the width."""
 
     def __post_init__(self) -> None:
         require_positive(self, "depth", "contact", "flush", "anchor", "bridge", "door_opening", "body_tolerance")
-        require_shares(self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_share")
+        require_ratios(self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

@@ -1,4 +1,4 @@
-"""The widest opening free of collision, found by sweeping real meshes. It knows no hinges and no rails."""
+"""The widest opening free of collision, found by sweeping real meshes."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -22,20 +22,20 @@ PoseFunction = Callable[[float], Mat4]
 @final
 @dataclass(frozen=True, slots=True)
 class SweepVerdict:
-    """How far a body moves freely: the free opening, the share of poses that collide, and what it ran into first."""
+    """How far a body moves freely: the free opening, the fraction of poses that collide, and what it ran into first."""
 
     free: float
-    share: float
+    ratio: float
     blockers: tuple[str, ...]
 
 
 def opening_values(reach: float, poses: int) -> Scalars:
     """Returns joint values from 0 to `reach`, closer together near rest, where parts lie nearest to one another."""
-    return reach * _shares(poses)
+    return reach * _ratios(poses)
 
 
 @cache
-def _shares(poses: int) -> Scalars:
+def _ratios(poses: int) -> Scalars:
     return frozen_array(np.linspace(0.0, 1.0, poses) ** _NEAR_REST)
 
 
@@ -55,7 +55,7 @@ def sweep(
 ) -> SweepVerdict:
     """Returns the verdict over evenly spaced poses from 0 to `reach`; the first blocked pose ends the free opening.
 
-    A part that already collides at rest has a free opening of 0, and `share` tells whether that passes.
+    A part that already collides at rest has a free opening of 0, and `ratio` tells whether that passes.
     """
     values = opening_values(reach, poses)
     blocked = [_blockers(body, motion(v), obstacles) for v in values]
@@ -68,7 +68,7 @@ def sweep(
 def free_opening(
     body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
 ) -> tuple[float, float]:
-    """Returns the opening before the first blocked pose, and for a body blocked at rest the share of such poses.
+    """Returns the opening before the first blocked pose, and for a body blocked at rest the fraction of such poses.
 
     It stops at the first blocked pose, unless that is the first of all.
     """

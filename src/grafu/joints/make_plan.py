@@ -19,7 +19,7 @@ from grafu.joints.carried import carried_parts
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.refusal import Reason, Refusal
 
-# A limit on the other side of the drawn pose that is less than this share of the wider one is play, not motion.
+# A limit on the other side of the drawn pose that is less than this fraction of the wider one is play, not motion.
 _PLAY = 0.25
 
 
@@ -115,5 +115,5 @@ def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float)
 
 
 def _shared(a: Box, b: Box) -> float:
-    """Returns the volume that two boxes share."""
+    """Returns the volume of the intersection of two boxes."""
     return float(np.prod(np.maximum(np.minimum(a.high, b.high) - np.maximum(a.low, b.low), 0.0)))

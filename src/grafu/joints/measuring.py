@@ -1,6 +1,6 @@
 """What is measured on joints that stand: in how many poses they still cut in, and how far their hardware comes loose.
 
-A joint that cannot be measured within its share of the time is not delivered: its behaviour would be unknown.
+A joint that cannot be measured within its fraction of the time is not delivered: its behaviour would be unknown.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,7 +15,7 @@ from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import within
 from grafu.geometry.intersection import MeshCollider
 from grafu.joints.build import Built
-from grafu.joints.build_all import joint_share
+from grafu.joints.build_all import joint_ratio
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, sweep, swept_box
 from grafu.joints.order import Order
@@ -31,7 +31,7 @@ _TOUCHING = 1e-4
 _MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
 
 Figures = tuple[float, float]
-"""The share of poses that collide with static parts, and the widest gap in metres to the static body."""
+"""The fraction of poses that collide with static parts, and the widest gap in metres to the static body."""
 
 
 @final
@@ -49,13 +49,13 @@ class Measured:
 def measure_all(
     built: Sequence[Built], orders: Mapping[str, Order], scene: Scene, config: RealizationConfig, cache: Cache
 ) -> Measured:
-    """Returns what was measured on each joint; one that takes more than its share of the time is taken out again."""
+    """Returns what was measured on each joint; one that takes more than its fraction of the time is taken out again."""
     figures: dict[str, Figures] = {}
     skipped: list[Refusal] = []
     for k, one in enumerate(built):
         name = one.request.moving
         work = partial(_measured, one, orders[name].upper, scene, config, cache)
-        found: Figures | Refusal = within(joint_share(len(built) - k), work, partial(Refusal, name, Reason.TOO_COMPLEX))
+        found: Figures | Refusal = within(joint_ratio(len(built) - k), work, partial(Refusal, name, Reason.TOO_COMPLEX))
         if isinstance(found, Refusal):
             skipped.append(found)
         else:
@@ -83,7 +83,7 @@ def _without(gone: set[str], measured: Measured) -> Measured:
 
 
 def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfig, cache: Cache) -> Figures | Refusal:
-    """Returns the share of poses that collide with static parts, and the widest gap in metres to the static body."""
+    """Returns the fraction of poses that collide with static parts, and the widest gap in metres to the static body."""
     moving = built.request.moving
     motion = built.request.kind.along(built.placement.axis)
     near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(moving).box, motion, upper))
@@ -106,10 +106,10 @@ def _measure(
     motion = request.kind.along(placement.axis)
     near = list(scene.static_obstacles)
     body = scene.swept_body(moving, config.depth * scene.unit, part_axes(scene.parts[moving].mesh))
-    share = sweep(body, motion, upper, near, _MEASURED_POSES).share
+    ratio = sweep(body, motion, upper, near, _MEASURED_POSES).ratio
     ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)]
     held = [MeshCollider(v.mesh) for v in placement.static]
-    return share, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
+    return ratio, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
 
 
 def _gap(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:

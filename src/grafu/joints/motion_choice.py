@@ -1,4 +1,4 @@
-"""A motion that the user states for one part; it replaces that of the motion source. It knows no graph and no hardware.
+"""A motion that the user states for one part; it replaces that of the motion source.
 
 Sides are those of the object frame: the front looks along -Y, the left lies at -X, so they are one's own before it.
 """
@@ -173,9 +173,9 @@ def _direction(choice: MotionChoice) -> Vec3:
 
 def _own_side(axes: Mat3, direction: Vec3) -> Vec3:
     """Returns the part's own axis that is nearest to a direction, pointing that way."""
-    shares = axes.T @ direction
-    k = int(np.argmax(np.abs(shares)))
-    return np.asarray(axes[:, k] * np.sign(shares[k]))
+    ratios = axes.T @ direction
+    k = int(np.argmax(np.abs(ratios)))
+    return np.asarray(axes[:, k] * np.sign(ratios[k]))
 
 
 def _outwards(normal: Vec3, from_middle: Vec3) -> Vec3:

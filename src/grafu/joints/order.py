@@ -19,7 +19,7 @@ from grafu.joints.limits import PoseFunction, in_the_way, is_free, sweep, swept_
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 
-_SHARES = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, in the order tried
+_RATIOS = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, in the order tried
 
 
 @final
@@ -82,8 +82,8 @@ def stand_aside(
     reaches = settled | {m.moving: min(settled[m.moving], m.least) for m in joints}  # of doors to come: what they keep
     for door in joints:
         widest, least = settled[door.moving], reaches[door.moving]
-        shares = _SHARES if least < widest else ()
-        uppers = (least + share * (widest - least) for share in shares)
+        ratios = _RATIOS if least < widest else ()
+        uppers = (least + ratio * (widest - least) for ratio in ratios)
         found = (upper for upper in uppers if _leaves_free(door, upper, reaches, joints, paths, config))
         reaches[door.moving] = next(found, widest)
     return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
@@ -145,4 +145,4 @@ def _until(joint: BuiltJoint, mesh: TriangleMesh, scene: Scene, config: Realizat
         _body(joint, scene, config), joint.motion, joint.upper, in_the_way([obstacle], path), config.fine_poses
     )
     # What overlaps at rest already cannot be avoided by opening less.
-    return verdict.free if verdict.share and verdict.free > 0 else joint.upper
+    return verdict.free if verdict.ratio and verdict.free > 0 else joint.upper

@@ -136,7 +136,7 @@ def _installed(
     built: Built, measured: Measured, closed: dict[str, tuple[Clearance, ...]], config: RealizationConfig
 ) -> Installed:
     request, placement = built.request, built.placement
-    order, (share, gap) = measured.orders[request.moving], measured.figures[request.moving]
+    order, (ratio, gap) = measured.orders[request.moving], measured.figures[request.moving]
     waits = tuple(joint_id(name) for name in order.after)
     return Installed(
         moving=request.moving,
@@ -152,7 +152,7 @@ def _installed(
         opening=order.upper,
         reference=request.reference,
         restricted=order.upper < config.restricted * built.wanted,
-        collision_share=share,
+        collision_share=ratio,
         largest_gap=gap,
         after=waits,
         clearances=(*closed.get(request.moving, ()), *built.clearances),

@@ -41,7 +41,7 @@ class Footing:
         return self.center + s * self.u + t * self.v
 
     def gap(self, target: RayCaster, reach: float) -> float:
-        """Returns the distance after which a fair share of the rectangle rests on the target; infinity if none.
+        """Returns the distance after which a fair fraction of the rectangle rests on the target; infinity if none.
 
         The tenth part of the rays that hit first decides: a block need not rest on all of its face.
         """

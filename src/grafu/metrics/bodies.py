@@ -1,6 +1,6 @@
 """What counts as the moving and as the static body of an articulated object, and how big the object is.
 
-A body is a link with all links that are fixed to it. The static body is the root's. It knows no motion.
+A body is a link with all links that are fixed to it. The static body is the root's.
 """
 
 from collections.abc import Iterable

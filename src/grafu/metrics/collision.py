@@ -1,9 +1,9 @@
-"""Share of the poses between rest and full opening in which a moving body cuts into what stands still.
+"""Fraction of the poses between rest and full opening in which a moving body cuts into what stands still.
 
 The paper counts, of 50 frames from rest to full extent, those in which moving and static parts intersect, and states no
 tolerance. Touching counts there, so a door that lies flush on its carcass collides at rest: `tolerance=0` is that
-definition. With a tolerance a frame counts only where the body cuts deeper than a share of the object's largest side.
-docs/metrics.md compares the two.
+definition. With a tolerance a frame counts only where the body cuts deeper than a fraction of the object's largest
+side. docs/metrics.md compares the two.
 
 Does a moving body stay connected: the largest gap between it and the static body over its whole motion.
 
@@ -28,7 +28,7 @@ from grafu.metrics.bodies import anchored_mesh, largest_side, parts_mesh, rigid_
 @final
 @dataclass(frozen=True, slots=True)
 class ConnectivityConfig:
-    """How connection is measured; `tolerance` is a share of the object's largest side.
+    """How connection is measured; `tolerance` is a fraction of the object's largest side.
 
     `unit` is the side in metres to use instead of the object's own: that of the input, where parts were added to it.
 
@@ -74,7 +74,7 @@ def connected_joints(articulated: ArticulatedObject, config: ConnectivityConfig 
 
 
 def connectivity(articulated: ArticulatedObject, config: ConnectivityConfig = DEFAULT) -> float:
-    """Returns the share of moving joints that stay connected (the paper's figure per object), 1 without joints."""
+    """Returns the fraction of moving joints that stay connected (the paper's figure per object), 1 without joints."""
     found = connected_joints(articulated, config)
     return float(np.mean(list(found.values()))) if found else 1.0
 
@@ -98,9 +98,9 @@ def _largest_gap(
 class CollisionConfig:
     """How a collision is counted.
 
-    `tolerance` is a share of the object's largest side (0: strict). `hardware` counts hinges and rails on both sides;
-    `moving_bodies` also counts the other moving bodies, at rest or where they must be open first. `unit` is the side in
-    metres to use instead of the object's own: that of the input, where parts were added to it.
+    `tolerance` is a fraction of the object's largest side (0: strict). `hardware` counts hinges and rails on both
+    sides; `moving_bodies` also counts the other moving bodies, at rest or where they must be open first. `unit` is the
+    side in metres to use instead of the object's own: that of the input, where parts were added to it.
 
     Raises:
         ValueError: if there is no pose, the tolerance is negative or the unit is not positive.
@@ -126,15 +126,15 @@ TOLERANT = CollisionConfig(tolerance=0.0005)
 
 
 def collision_shares(articulated: ArticulatedObject, config: CollisionConfig = STRICT) -> dict[str, float]:
-    """Returns for each moving joint the share (0..1) of poses in which its body collides."""
+    """Returns for each moving joint the fraction (0..1) of poses in which its body collides."""
     scene = _Scene(articulated, config)
-    return {joint.id: scene.share(joint) for joint in articulated.moving_joints}
+    return {joint.id: scene.ratio(joint) for joint in articulated.moving_joints}
 
 
 def mean_collision(articulated: ArticulatedObject, config: CollisionConfig = STRICT) -> float:
-    """Returns the mean share over the object's moving joints (the paper's figure per object), 0 without joints."""
-    shares = collision_shares(articulated, config)
-    return float(np.mean(list(shares.values()))) if shares else 0.0
+    """Returns the mean fraction over the object's moving joints (the paper's figure per object), 0 without joints."""
+    ratios = collision_shares(articulated, config)
+    return float(np.mean(list(ratios.values()))) if ratios else 0.0
 
 
 @final
@@ -148,8 +148,8 @@ class _Scene:
         meshes = {link: self._mesh(link) for link in (articulated.root, *moving_bodies)}
         self._obstacles = {link: MeshCollider(mesh) for link, mesh in meshes.items() if len(mesh.faces)}
 
-    def share(self, joint: Joint) -> float:
-        """Returns the share of poses of one joint in which its body collides."""
+    def ratio(self, joint: Joint) -> float:
+        """Returns the fraction of poses of one joint in which its body collides."""
         mesh = self._mesh(joint.child)
         if not len(mesh.faces):
             return 0.0

@@ -1,8 +1,8 @@
 """How well a graph was completed: the paper's column (supplement, Loss Ablation), and what else a motion hangs on.
 
-Every figure is a share: what was right, of how many; shares of several graphs add up. Motions are read where the found
-graph states them. Where the paper's border accuracy may read the network at the true hinge, here a door that was left
-without a hinge is wrong. It knows no networks.
+Every figure is a fraction: what was right, of how many; fractions of several graphs add up. Motions are read where the
+found graph states them. Where the paper's border accuracy may read the network at the true hinge, here a door that was
+left without a hinge is wrong.
 """
 
 from collections.abc import Iterable
@@ -23,14 +23,14 @@ _DISTANCE_WEIGHT = 2.0  # against 1 for another label: the paper's weights of th
 
 @final
 @dataclass(frozen=True, slots=True)
-class Share:
+class Ratio:
     """So much of so much: right answers of all, or a sum of errors of their number."""
 
     part: float = 0.0
     whole: float = 0.0
 
-    def __add__(self, other: "Share") -> "Share":
-        return Share(self.part + other.part, self.whole + other.whole)
+    def __add__(self, other: "Ratio") -> "Ratio":
+        return Ratio(self.part + other.part, self.whole + other.whole)
 
     @property
     def value(self) -> float:
@@ -46,29 +46,29 @@ class GraphAccuracy:
     - `existence`: F1 of nodes, input nodes included (the paper's first figure). `added`: F1 of added nodes alone, right
       only with the label of a missing one and its centre within `NEAR`.
     - `category`: found nodes with the true label. `centre`, `half`: their mean absolute errors per coordinate (the
-      paper's centroid MAE); `added_centre`: that of added nodes alone; all as shares of the object's largest side.
+      paper's centroid MAE); `added_centre`: that of added nodes alone; all as fractions of the object's largest side.
     - `edges`: true edges found with their kind. `contact`, `hinge`, `rail`, `attached`: F1 by kind.
     - `border`, `sign`, `joint` (both) of true hinged doors, `slide` of true drawers.
     - `mount`: hinged doors that hang on a part that they truly hang on; `parent`: attached handles on their part.
     """
 
-    existence: Share = Share()
-    added: Share = Share()
-    category: Share = Share()
-    centre: Share = Share()
-    half: Share = Share()
-    added_centre: Share = Share()
-    edges: Share = Share()
-    contact: Share = Share()
-    hinge: Share = Share()
-    rail: Share = Share()
-    attached: Share = Share()
-    border: Share = Share()
-    sign: Share = Share()
-    joint: Share = Share()
-    slide: Share = Share()
-    mount: Share = Share()
-    parent: Share = Share()
+    existence: Ratio = Ratio()
+    added: Ratio = Ratio()
+    category: Ratio = Ratio()
+    centre: Ratio = Ratio()
+    half: Ratio = Ratio()
+    added_centre: Ratio = Ratio()
+    edges: Ratio = Ratio()
+    contact: Ratio = Ratio()
+    hinge: Ratio = Ratio()
+    rail: Ratio = Ratio()
+    attached: Ratio = Ratio()
+    border: Ratio = Ratio()
+    sign: Ratio = Ratio()
+    joint: Ratio = Ratio()
+    slide: Ratio = Ratio()
+    mount: Ratio = Ratio()
+    parent: Ratio = Ratio()
 
     def __add__(self, other: "GraphAccuracy") -> "GraphAccuracy":
         return GraphAccuracy(*(getattr(self, f.name) + getattr(other, f.name) for f in fields(self)))
@@ -134,7 +134,7 @@ def compare_graphs(
 
 def _node_figures(
     found: GraphArrays, truth: GraphArrays, pairing: np.ndarray, added: np.ndarray, unit: float
-) -> tuple[Share, ...]:
+) -> tuple[Ratio, ...]:
     """Returns existence, added, category, centre, half, added centre."""
     mine, theirs = np.flatnonzero(pairing != NONE), pairing[pairing != NONE]
     apart = (found.boxes[mine] - truth.boxes[theirs]) / unit
@@ -144,14 +144,14 @@ def _node_figures(
     return (
         _f1(len(mine), len(found.labels), len(truth.labels)),
         _f1(int((new & same & (distance <= NEAR)).sum()), int(added.sum()), missing),
-        _share(same[labelled]),
-        Share(float(np.abs(apart[:, :3]).sum()), 3.0 * len(mine)),
-        Share(float(np.abs(apart[:, 3:]).sum()), 3.0 * len(mine)),
-        Share(float(np.abs(apart[new, :3]).sum()), 3.0 * float(new.sum())),
+        _ratio(same[labelled]),
+        Ratio(float(np.abs(apart[:, :3]).sum()), 3.0 * len(mine)),
+        Ratio(float(np.abs(apart[:, 3:]).sum()), 3.0 * len(mine)),
+        Ratio(float(np.abs(apart[new, :3]).sum()), 3.0 * float(new.sum())),
     )
 
 
-def _edge_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> tuple[Share, ...]:
+def _edge_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> tuple[Ratio, ...]:
     """Returns edges, contact, hinge, rail, attached; each pair of nodes counts once."""
     once = np.triu(np.ones_like(truth.edges, dtype=bool), 1)
     answered = np.where((place == NONE)[:, None] | (place == NONE)[None, :], NULL, _at(found.edges, place, place))
@@ -162,20 +162,20 @@ def _edge_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> 
         _f1(int((right & (true == kind)).sum()), int((all_found == kind).sum()), int((true == kind).sum()))
         for kind in (CONTACT, HINGE, RAIL, ATTACHED)
     )
-    return _share(right[true != NULL]), *kinds
+    return _ratio(right[true != NULL]), *kinds
 
 
-def _motion_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> tuple[Share, ...]:
+def _motion_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> tuple[Ratio, ...]:
     """Returns border, sign, joint, slide."""
     doors, drawers = truth.border != NONE, truth.slide != NONE
     border, sign, slide = (
         (place != NONE) & (_at(mine, place) == true)
         for mine, true in ((found.border, truth.border), (found.sign, truth.sign), (found.slide, truth.slide))
     )
-    return _share(border[doors]), _share(sign[doors]), _share((border & sign)[doors]), _share(slide[drawers])
+    return _ratio(border[doors]), _ratio(sign[doors]), _ratio((border & sign)[doors]), _ratio(slide[drawers])
 
 
-def _choice_figure(found: GraphArrays, truth: GraphArrays, pairing: np.ndarray, kind: int) -> Share:
+def _choice_figure(found: GraphArrays, truth: GraphArrays, pairing: np.ndarray, kind: int) -> Ratio:
     """Returns how many children of edges of a kind hang, by such an edge, on a part that they truly hang on."""
     wanted = truth.child & (truth.edges == kind)
     answered = pairing != NONE
@@ -183,7 +183,7 @@ def _choice_figure(found: GraphArrays, truth: GraphArrays, pairing: np.ndarray, 
     stated = np.zeros_like(wanted)
     stated[pairing[children], pairing[carriers]] = True
     hanging = wanted.any(axis=1)
-    return _share((stated & wanted).any(axis=1)[hanging])
+    return _ratio((stated & wanted).any(axis=1)[hanging])
 
 
 def _at(values: np.ndarray, rows: np.ndarray, columns: np.ndarray | None = None) -> np.ndarray:
@@ -193,9 +193,9 @@ def _at(values: np.ndarray, rows: np.ndarray, columns: np.ndarray | None = None)
     return values[rows] if columns is None else values[np.ix_(rows, columns)]
 
 
-def _f1(right: int, found: int, true: int) -> Share:
-    return Share(2.0 * right, float(found + true))
+def _f1(right: int, found: int, true: int) -> Ratio:
+    return Ratio(2.0 * right, float(found + true))
 
 
-def _share(right: np.ndarray) -> Share:
-    return Share(float(right.sum()), float(right.size))
+def _ratio(right: np.ndarray) -> Ratio:
+    return Ratio(float(right.sum()), float(right.size))

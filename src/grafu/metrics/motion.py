@@ -53,8 +53,8 @@ def motion_agreement(found: ArticulatedObject, truth: ArticulatedObject, angle: 
     return compare_motions(motions_of(found), motions_of(truth), angle)
 
 
-def agreement_share(agreements: tuple[Agreement, ...]) -> float:
-    """Returns the share of true motions that agree as a whole, 1 where there are none."""
+def agreement_ratio(agreements: tuple[Agreement, ...]) -> float:
+    """Returns the fraction of true motions that agree as a whole, 1 where there are none."""
     return sum(a.whole for a in agreements) / len(agreements) if agreements else 1.0
 
 

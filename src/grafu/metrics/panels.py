@@ -1,7 +1,7 @@
 """Whether shelves and dividers that were added stand and leave all motions free, and which rooms could hold some.
 
-They are measured on an articulated object and share nothing with what makes panels and finds compartments; they know no
-scene. trimesh's collision manager looks for panels that float (an end does not rest on anything that stands still),
+They are measured on an articulated object and share nothing with what makes panels and finds compartments; they know
+no scene. trimesh's collision manager looks for panels that float (an end does not rest on anything that stands still),
 pierce (cut into anything at rest) or block (stand in the way of what moves).
 
 Empty rooms are found by rays: points in a grid look along the axes at what is at rest. A room has walls on both sides,
@@ -30,9 +30,9 @@ from grafu.vocabulary import PartLabel
 _MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 _STEPS = 30  # points along the object's longest side
 LEAST = 0.25  # metres, each way: smaller rooms are pigeonholes
-LEAST_SHARE = 0.2  # of the largest side: no room needs to be larger in a model of another scale
+LEAST_RATIO = 0.2  # of the largest side: no room needs to be larger in a model of another scale
 _MOST_TRIED = 40  # candidates that are looked at one by one
-_ACROSS, _COVERED = 7, 0.5  # rays along each side of a face, and the share of them that meets a wall there
+_ACROSS, _COVERED = 7, 0.5  # rays along each side of a face, and the fraction of them that meets a wall there
 _LEAF = 0.15  # of the next longer side: thinner sliders are doors
 
 
@@ -43,7 +43,7 @@ def empty_rooms(articulated: ArticulatedObject) -> list[Box]:
     moving = [articulated.link(joint.child).mesh for joint in articulated.joints]
     if unit <= 0 or not len(still.faces):
         return []
-    least = min(LEAST, LEAST_SHARE * unit)
+    least = min(LEAST, LEAST_RATIO * unit)
     whole = merge_meshes([still, *moving])
     points = _points(whole.box, unit / _STEPS)
     points = points[~_taken(points, articulated)]
@@ -66,13 +66,13 @@ def _is_enclosed(room: Box, everything: RayCaster) -> bool:
     steps = np.linspace(-0.8, 0.8, _ACROSS)
     covered = []
     for axis in range(3):
-        shares = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
-        origins = np.tile(room.center, (len(shares), 1))
-        origins[:, [k for k in range(3) if k != axis]] += shares * np.delete(room.half, axis)
+        ratios = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+        origins = np.tile(room.center, (len(ratios), 1))
+        origins[:, [k for k in range(3) if k != axis]] += ratios * np.delete(room.half, axis)
         for sign in (-1.0, 1.0):
             found = everything.along(origins, sign * np.eye(3)[axis])
             covered.append(float((found <= 1.1 * room.half[axis]).mean()))
-    return sum(share >= _COVERED for share in covered) >= len(covered) - 1
+    return sum(ratio >= _COVERED for ratio in covered) >= len(covered) - 1
 
 
 def _points(box: Box, step: float) -> Points:
@@ -182,7 +182,7 @@ def _cap(mesh: TriangleMesh, axis: int, side: int, other: int, half: int) -> tri
     corner = {tuple(key): v for key, v in zip(mesh.vertices > mesh.box.center, mesh.vertices, strict=True)}
 
     def at(u: float, v: float, top: bool) -> Points:
-        """Returns the point at shares along the end's axis and along the other one."""
+        """Returns the point at fractions along the end's axis and along the other one."""
         point = np.zeros(3)
         for far, farther in product((False, True), repeat=2):
             key = [top] * 3

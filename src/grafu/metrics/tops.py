@@ -3,7 +3,7 @@
 By rays, which share nothing with what makes tops. The measure of a new top is the plan that the piece's own top lay
 over: of all that one saw of it from above, what lies over the body. Near its upper end the body's plan is all that
 reaches there, and what lies between, so kneeholes and rooms belong to it and overhangs do not: nobody can tell them
-from the body alone. What stands up through a top is no part of it. It knows no labels, rims or joints.
+from the body alone. What stands up through a top is no part of it.
 """
 
 from collections.abc import Sequence
@@ -39,8 +39,8 @@ _SKIN = 0.001  # of the largest side: a top may be let in so deep
 class LostTop:
     """What becomes of a top that was taken away: `level` is the height of its face, metres.
 
-    `hollow` is the share of the plan under it that lies open without it, `covered` the share of that plan that new tops
-    lie over at about its height.
+    `hollow` is the fraction of the plan under it that lies open without it, `covered` the fraction of that plan that
+    new tops lie over at about its height.
     """
 
     level: float
@@ -82,13 +82,13 @@ def lost_tops(
         hollow = covers[plan] < under[plan] - _OPEN * grid.height
         least = np.maximum(rest - _SKIN * grid.unit, own - _NEAR * grid.height)[plan]
         covered = [(top[plan] > least) & (top[plan] <= own[plan] + _NEAR * grid.height) for top in new]
-        share = float(np.logical_or.reduce(covered).mean()) if covered else 0.0
-        found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), share))
+        ratio = float(np.logical_or.reduce(covered).mean()) if covered else 0.0
+        found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), ratio))
     return tuple(found)
 
 
-def open_share(meshes: Sequence[TriangleMesh]) -> float:
-    """Returns the share of the plan of furniture, closed, without handles, that lies open from above.
+def open_ratio(meshes: Sequence[TriangleMesh]) -> float:
+    """Returns the fraction of the plan of furniture, closed, without handles, that lies open from above.
 
     There one looks past the rim into a room that is walled on three sides, or down by more than half the height, as
     between legs. What lies lower but is neither is the desk before its hutch, or the uppermost shelf of a rack.

@@ -36,11 +36,11 @@ class GraFuConfig:
             them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
         free_boxes: the paper has free slots say their boxes in the object's frame ("absolute"). "pointed" ones point at
             nodes and say theirs in units of those: a handle sits so far along its door, a top as wide as its case.
-        geometry_dropout: in training, the share of graphs whose parts' points are hidden (authors: .3, of whole
+        geometry_dropout: in training, the fraction of graphs whose parts' points are hidden (authors: .3, of whole
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
     Raises:
-        ValueError: if a size is below 1, a share is not in [0, 1), or the heads do not divide `hidden`.
+        ValueError: if a size is below 1, a fraction is not in [0, 1), or the heads do not divide `hidden`.
     """
 
     hidden: int = 256

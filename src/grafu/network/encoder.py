@@ -54,7 +54,7 @@ def face_terms(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n n 12"]:
     """Returns how far faces of j's box are from faces of i's, along each axis, on a logarithmic scale.
 
     Low to low and high to high (0: flush), j's low to i's high (above 0: a gap), i's low to j's high; x, y, z of each.
-    A distance d, as a share of the object's size, is asinh(d / 0.004) / 5: 0.18 at 0.004, 1.24 at 1.
+    A distance d, as a fraction of the object's size, is asinh(d / 0.004) / 5: 0.18 at 0.004, 1.24 at 1.
     """
     low, high = boxes[..., :3] - boxes[..., 3:], boxes[..., :3] + boxes[..., 3:]
     distances = torch.cat(
@@ -70,7 +70,7 @@ def face_terms(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n n 12"]:
 
 
 def face_scale(distances: Float[Tensor, "*p"]) -> Float[Tensor, "*p"]:
-    """Returns distances, as shares of the object's size, on the logarithmic scale of face terms."""
+    """Returns distances, as fractions of the object's size, on the logarithmic scale of face terms."""
     return torch.asinh(distances / _FINE) / 5.0
 
 
@@ -161,7 +161,7 @@ class NodeEncoder(nn.Module):
         numbers = BOX_NUMBERS + (MARGIN_NUMBERS if config.margins else 0)
         self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
         self.points = PointEncoder(config.points, config.points_frame)
-        self.hidden_share = config.geometry_dropout
+        self.hidden_ratio = config.geometry_dropout
 
     @staticmethod
     def width(config: GraFuConfig) -> int:
@@ -171,8 +171,8 @@ class NodeEncoder(nn.Module):
     def forward(self, batch: GraphBatch) -> Float[Tensor, "b n z"]:
         """Returns the latents; in training, some graphs' points are hidden."""
         points = self.points(batch.anchors, batch.groups)[batch.point_index]
-        if self.training and self.hidden_share > 0:
-            points = points * (torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_share)
+        if self.training and self.hidden_ratio > 0:
+            points = points * (torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_ratio)
         seen = [corners(batch.boxes)] + ([margins(batch.boxes, batch.mask)] if self.sees_margins else [])
         box = self.box(torch.cat(seen, dim=-1))
         return torch.cat([self.category(batch.labels), points, box], dim=-1)

@@ -21,7 +21,7 @@ _THIN = -4.0  # shifts sizes so that at first a part adds a fiftieth of its own
 
 @final
 class Pointing(nn.Module):
-    """Each slot shares itself out over the nodes; each node says where the slot's part is, and how large."""
+    """Each slot attends to the nodes; each node predicts where the slot's part is, and how large."""
 
     def __init__(self, hidden: int) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""What may be added, in the words that the command and the Python functions share. It adds nothing."""
+"""What may be added, in the words of the command and of the Python functions. It adds nothing."""
 
 from collections.abc import Collection
 from dataclasses import replace

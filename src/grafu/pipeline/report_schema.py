@@ -16,7 +16,7 @@ from grafu.vocabulary import JointType, MechanismClass, PartLabel
 
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
-Share = Annotated[float, Field(ge=0, le=1)]
+Ratio = Annotated[float, Field(ge=0, le=1)]
 NOT_ADDED: Final = "not added"
 Grasp = Literal["handle", "recess", "edge", "none"]
 
@@ -96,11 +96,11 @@ class ClearanceRecord(ReportRecord):
     part: str = Field(description="what was cut")
     kind: str = Field(description="joined, closed, trimmed (the moving part), eased (shrunk), carved (a static part)")
     amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the surface")
-    share: Share = Field(
+    share: Ratio = Field(
         description="fraction removed: carved: the larger of the next two; eased: of the volume; trimmed: of a side"
     )
-    surface_share: Share = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
-    volume_share: Share = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
+    surface_share: Ratio = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
+    volume_share: Ratio = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
     why: str = Field(description="what it was in the way of")
 
 
@@ -128,7 +128,7 @@ class JointRecord(ReportRecord):
         description="the opening it should have: as asked for, else as usual, at most what its kind allows",
     )
     restricted: bool = Field(description="whether the opening is under 70 % of the reference")
-    collision_share: Share = Field(description="share of poses in which it still cuts into something")
+    collision_share: Ratio = Field(description="fraction of poses in which it still cuts into something")
     largest_gap: float = Field(description="the widest gap between the link and what carries it, over the motion")
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
     grasp: Grasp = Field(description="how it can be grasped")
@@ -186,9 +186,9 @@ class GuessRecord(ReportRecord):
         description="label: its category; border: the side it turns about; sign, slide: that it opens to"
     )
     choice: str = Field(description="the answer: a category, or a side of the piece")
-    score: Share = Field(description="the confidence, 0..1")
+    score: Ratio = Field(description="the confidence, 0..1")
     runner_up: str = Field(description="what would have come next, or empty")
-    runner_up_score: Share = Field(description="the confidence of the runner-up")
+    runner_up_score: Ratio = Field(description="the confidence of the runner-up")
 
 
 class FaultRecord(ReportRecord):
@@ -207,9 +207,9 @@ class VerdictRecord(ReportRecord):
     colour: Colour = Field(description="red, yellow or green: that of the worst line; green: there is none")
     sentence: str = Field(description="the same in one sentence")
     lines: tuple[FaultRecord, ...] = Field(description="all that is amiss, red lines first")
-    least_confidence: Share = Field(description="a decision with a lower score is a guess")
-    least_opening: Share = Field(description="a joint that opens by a smaller share of what it should is restricted")
-    most_carved: Share = Field(description="a part of which a larger share was cut away is carved too much")
+    least_confidence: Ratio = Field(description="a decision with a lower score is a guess")
+    least_opening: Ratio = Field(description="a joint that opens by a smaller fraction of what it should is restricted")
+    most_carved: Ratio = Field(description="a part of which a larger fraction was cut away is carved too much")
 
 
 class Report(ReportRecord):

@@ -1,6 +1,7 @@
-"""The stages of one run, one after the other: told as they begin, timed, and kept within their share of the budget.
+"""The stages of one run, one after the other: told as they begin, timed, and kept within their fraction of the budget.
 
-Shares are of the time that is left when a stage begins, so that a stage that needs little leaves its rest to the next.
+Fractions are of the time that is left when a stage begins, so that a stage that needs little leaves its rest to the
+next.
 
 What is done where a stage is more than the budget holds: less, but whole. Each says in words what was left out.
 """
@@ -77,7 +78,7 @@ def bare_fittings(scene: Scene, why: str) -> Fittings:
     return Fittings(scene, grasps=grasps, skipped=skipped)
 
 
-SHARES: Mapping[str, float] = MappingProxyType(
+RATIOS: Mapping[str, float] = MappingProxyType(
     {"parse": 0.25, "complete": 0.3, "body": 0.25, "realize": 0.6, "fittings": 0.5}
 )
 """What is left after them is for files and page; a stage that is not named here is short, and never given up."""
@@ -107,14 +108,14 @@ class Stages:
         self._budget = budget
 
     def timed(self, name: str, stage: Callable[[], T], instead: Callable[[str], T] | None = None) -> T:
-        """Returns what a stage makes, or what is made `instead`, given why, where its share does not hold it."""
+        """Returns what a stage makes, or what is made `instead`, given why, where its fraction does not hold it."""
         self._on_stage(name)
         started = perf_counter()
         if instead is None:
             found = stage()
         else:
             with self._budget.in_force():
-                found = within(SHARES[name], stage, partial(self._other, name, instead))
+                found = within(RATIOS[name], stage, partial(self._other, name, instead))
         give_back_unused()
         self.laps.append((name, perf_counter() - started))
         return found

@@ -26,13 +26,13 @@ from grafu.vocabulary import PartLabel
 LEAST_CONFIDENCE: Final = 0.8
 """A decision with a lower score is a guess that the user should check."""
 LEAST_OPENING: Final = 0.7
-"""A joint that opens less than this share of what it should is restricted."""
+"""A joint that opens less than this fraction of what it should is restricted."""
 LEAST_MOTION: Final = 0.3
-"""... and below this share it does not open."""
+"""... and below this fraction it does not open."""
 MOST_CARVED: Final = 0.05
-"""A part that lost more than this share, of what is seen of it or of its volume, is carved too much."""
+"""A part that lost more than this fraction, of what is seen of it or of its volume, is carved too much."""
 MOST_GAP: Final = 0.005
-"""A part comes loose where the gap to what carries it is wider than this share of the object's largest side."""
+"""A part comes loose where the gap to what carries it is wider than this fraction of the object's largest side."""
 _NAMED = 4  # parts that a sentence names
 
 
@@ -120,13 +120,13 @@ def _faults_of(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
 
 
 def _short(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
-    share = joint.opening / joint.wanted if joint.wanted else 1.0
+    ratio = joint.opening / joint.wanted if joint.wanted else 1.0
     said = f"it opens by {motion_kind(joint.type).worded(joint.opening)}"
     if joint.wanted:
         said += f" of {motion_kind(joint.type).worded(joint.wanted)}"
-    if share < LEAST_MOTION or joint.opening <= 0:
+    if ratio < LEAST_MOTION or joint.opening <= 0:
         yield _fault(report, joint.part, FaultKind.SHUT, said)
-    elif share < LEAST_OPENING or joint.restricted:
+    elif ratio < LEAST_OPENING or joint.restricted:
         yield _fault(report, joint.part, FaultKind.RESTRICTED, said)
 
 

@@ -1,4 +1,4 @@
-"""Numbers and lists as people read them. It knows no report."""
+"""Numbers and lists as people read them."""
 
 from collections.abc import Iterable
 
@@ -16,8 +16,8 @@ def listed(words: Iterable[str]) -> str:
     return " and ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
 
 
-def percent(share: float) -> str:
-    """Returns a share as a percentage; what is not nothing is never told as 0 %, what is not all never as 100 %."""
-    if 0 < share < 0.005:
+def percent(ratio: float) -> str:
+    """Returns a fraction as a percentage; what is not nothing is never told as 0 %, what is not all never as 100 %."""
+    if 0 < ratio < 0.005:
         return "under 1 %"
-    return "over 99 %" if 0.995 <= share < 1 else f"{100 * share:.0f} %"
+    return "over 99 %" if 0.995 <= ratio < 1 else f"{100 * ratio:.0f} %"

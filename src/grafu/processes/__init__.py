@@ -1,1 +1,1 @@
-"""Processes and what they may do: limits, signals, ends, privacy, results that are kept. It knows no furniture."""
+"""Processes and what they may do: limits, signals, ends, privacy, results that are kept."""

@@ -1,7 +1,7 @@
 """A cache by content, so that a run that changes little builds little again.
 
 A cached value is what the function would return again: the functions are pure, and the key is the content of everything
-that they are given. It knows nothing of what it holds.
+that they are given.
 
 The key is what a value is made of: equal content gives equal keys, whoever made it and when.
 

@@ -43,7 +43,7 @@ def key_direction(camera: Camera) -> Vec3:
     return (direction / np.linalg.norm(direction)).astype(np.float32)
 
 
-def sky_share(scene: RayScene, points: Rays, normals: Rays, pattern: Pattern, reach: float) -> Values:
+def sky_ratio(scene: RayScene, points: Rays, normals: Rays, pattern: Pattern, reach: float) -> Values:
     """Returns how much of the sky each point sees, 0..1, looking as far as `reach` metres."""
     seen = np.zeros(len(points), np.float32)
     for k in range(_SKY_RAYS):
@@ -52,7 +52,7 @@ def sky_share(scene: RayScene, points: Rays, normals: Rays, pattern: Pattern, re
     return seen / _SKY_RAYS
 
 
-def key_share(scene: RayScene, points: Rays, pattern: Pattern, toward: np.ndarray) -> Values:
+def key_ratio(scene: RayScene, points: Rays, pattern: Pattern, toward: np.ndarray) -> Values:
     """Returns how much of the key light each point sees: 0 or 1, soft once neighbours are averaged."""
     directions = toward + _KEY_SPREAD * _POINTS[pattern, 0]
     return (~scene.blocked(points, directions.astype(np.float32), 1e3)).astype(np.float32)
@@ -148,8 +148,8 @@ class Exposure:
         """Adds what one layer of hits sends back, in front of what is still to come."""
         points = start[rays] + self.directions[rays] * hits.distance[:, None]
         lifted = points + hits.flat_normal * (3e-4 * self.reach)
-        sky = sky_share(self.scene, lifted, hits.normal, self.pattern[rays], self.reach)
-        key = key_share(self.scene, lifted, self.pattern[rays], self.toward)
+        sky = sky_ratio(self.scene, lifted, hits.normal, self.pattern[rays], self.reach)
+        key = key_ratio(self.scene, lifted, self.pattern[rays], self.toward)
         near = replace(hits, ray=rays)
         if outlined:
             sky, key = (self._smoothed(values, near) for values in (sky, key))
@@ -207,8 +207,8 @@ class Exposure:
         up = np.tile(np.array([0, 0, 1], np.float32), (len(rays), 1))
         rows, columns = np.divmod(rays, width)
         pattern = (rows // 2 % 4) * 4 + columns // 2 % 4
-        sky = sky_share(self.scene, lifted, up, pattern, 1.6 * self.reach)
-        key = key_share(self.scene, lifted, pattern, self.toward)
+        sky = sky_ratio(self.scene, lifted, up, pattern, 1.6 * self.reach)
+        key = key_ratio(self.scene, lifted, pattern, self.toward)
         dark, known = np.zeros((2, width * height), np.float32)
         dark[rays], known[rays] = 1 - (1 - 0.24 * (1 - key)) * (1 - 0.42 * (1 - sky)), 1.0
         dark, known = (_box_mean(grid.reshape(height, width)[::2, ::2]) for grid in (dark, known))

@@ -127,7 +127,7 @@ def _shown(template: HandleTemplate, length: float, finish: Material) -> Articul
 
 
 SHEET_NAME = "templates.png"
-_SHOWN_OPENING = 0.55  # share of the range: wide open, leaves hide one another again
+_SHOWN_OPENING = 0.55  # fraction of the range: wide open, leaves hide one another again
 
 
 def gallery_files(gallery: Gallery) -> ExportFiles:

@@ -79,9 +79,9 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
     ]
 
 
-def opened_values(articulated: ArticulatedObject, share: float = 1.0) -> dict[str, float]:
-    """Returns for each moving joint the value at a share of its range, 0 closed and 1 wide open."""
-    return {j.id: j.limits.lower + share * j.limits.range for j in articulated.free_joints}
+def opened_values(articulated: ArticulatedObject, ratio: float = 1.0) -> dict[str, float]:
+    """Returns for each moving joint the value at a fraction of its range, 0 closed and 1 wide open."""
+    return {j.id: j.limits.lower + ratio * j.limits.range for j in articulated.free_joints}
 
 
 def box_of(visuals: Sequence[Visual]) -> Box:

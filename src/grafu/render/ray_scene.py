@@ -1,6 +1,6 @@
 """What a picture is taken of: all triangles with their looks in flat arrays, and rays against them (Embree).
 
-It knows neither camera nor light. Everything is 32-bit: pictures need no more and twice as much would be slow.
+Everything is 32-bit: pictures need no more and twice as much would be slow.
 """
 
 from collections.abc import Callable, Sequence

@@ -84,7 +84,7 @@ def within(view: View, shell: int, near: float) -> MaskOfShells:
 
 
 def overlaps(view: View, shell: int) -> ScalarsOfShells:
-    """Returns which share of the outline of `shell` that of each shell covers."""
+    """Returns which fraction of the outline of `shell` that of each shell covers."""
     low = np.maximum(view.low[:, :2], view.low[shell, :2])
     high = np.minimum(view.high[:, :2], view.high[shell, :2])
     size = view.size[shell, :2]

@@ -12,7 +12,7 @@ from grafu.geometry.arrays import Indices
 from grafu.segmentation.candidates import Scale, overlaps, within
 from grafu.segmentation.view import MaskOfShells, View
 
-_NESTED = 0.5  # of a smaller plate's outline: what a larger one shares with it where they are one front
+_NESTED = 0.5  # of a smaller plate's outline: the fraction that a larger one covers where they are one front
 _PANE = 0.6  # of a frame's thickness: what a pane in it has at most
 _RING = 0.5  # of its outline: what covers less is a frame
 _WHOLE = 0.8  # of an object's outline: a plate that covers so much may be its fixed front

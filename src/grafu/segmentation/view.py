@@ -19,7 +19,7 @@ ScalarsOfShells = Float[np.ndarray, " shells"]
 PointsOfShells = Float[np.ndarray, "shells 3"]
 
 _RAYS = 288  # along the longer side of what is seen
-_FAR = 2.0  # shares of the largest side that rays begin in front
+_FAR = 2.0  # fractions of the largest side that rays begin in front
 
 
 @final

@@ -98,7 +98,7 @@ TIDY: dict[str, Maker] = {
         Stack((Pair(handle="none", grip="lip"), Drawer(handle="none", grip="lip"))), case=Case()
     ),
     "fronts with finger holes": _cabinet(Pair(handle="none", grip="finger hole"), case=Case()),
-    "lying handles at the top": _cabinet(Pair(handle="bar-slim", hold=Hold("top edge", share=0.8)), case=Case()),
+    "lying handles at the top": _cabinet(Pair(handle="bar-slim", hold=Hold("top edge", ratio=0.8)), case=Case()),
     "moulding above": _cabinet(Pair(), case=Case(moulding=0.06)),
     "moulding below": _cabinet(Pair(), case=Case(moulding=0.06, moulding_at="bottom")),
     "muntin between a pair": _cabinet(Pair(muntin=0.04), case=Case()),

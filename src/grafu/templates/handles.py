@@ -108,12 +108,12 @@ def bail(length: float, protrusion: float) -> Meshes:
     return (*posts, swept(bow, circle(radius, 8), -_Y))
 
 
-def _on_posts(length: float, protrusion: float, section: Section, share: float, radius: float) -> Meshes:
-    """Returns a straight bar of a section (depth, height) on two posts, `share` of its length apart."""
+def _on_posts(length: float, protrusion: float, section: Section, ratio: float, radius: float) -> Meshes:
+    """Returns a straight bar of a section (depth, height) on two posts, `ratio` of its length apart."""
     y = float(section[:, 0].max()) - protrusion
     bar = swept(np.array([(-length / 2, y, 0.0), (length / 2, y, 0.0)]), section, _Z)
     post = circle(min(radius, length / 10), 8)
-    feet = [np.array([(x, 0.0, 0.0), (x, y, 0.0)]) for x in (-share * length / 2, share * length / 2)]
+    feet = [np.array([(x, 0.0, 0.0), (x, y, 0.0)]) for x in (-ratio * length / 2, ratio * length / 2)]
     return (*(swept(path, post, _Z) for path in feet), bar)
 
 
@@ -154,12 +154,12 @@ def _cup(size: tuple[float, float, float], fullness: float, roundness: float) ->
 def _grid(size: tuple[float, float, float], fullness: float, roundness: float) -> Rings:
     """Returns points on the shell, stations from right to left by steps from its foot above to its lip below."""
     along, round_ = np.linspace(_END, np.pi - _END, 13), np.linspace(0.0, np.pi / 2, 6)
-    share = np.cos(along) / np.cos(_END)
+    ratio = np.cos(along) / np.cos(_END)
     narrowing = (1 - np.abs(np.cos(along)) ** fullness) ** (1 / fullness)
     out, up = np.sin(round_) ** roundness, np.maximum(np.cos(round_), 0.0) ** roundness
     up[-1] = 0.0  # the cosine of a right angle is not quite nothing
     grid = np.empty((13, 6, 3))
-    grid[..., 0] = (size[0] / 2 * share)[:, None]
+    grid[..., 0] = (size[0] / 2 * ratio)[:, None]
     grid[..., 1] = -size[1] * narrowing[:, None] * out
     grid[..., 2] = size[2] * narrowing[:, None] * up
     return grid
@@ -167,7 +167,7 @@ def _grid(size: tuple[float, float, float], fullness: float, roundness: float) -
 
 _SIDES = 16
 
-# Profiles from the foot outwards: shares of the greatest radius and of the protrusion.
+# Profiles from the foot outwards: fractions of the greatest radius and of the protrusion.
 ROUND = ((0.45, 0.0), (0.38, 0.3), (0.62, 0.42), (0.92, 0.55), (1.0, 0.7), (0.9, 0.86), (0.6, 0.97), (0.0, 1.0))
 FLAT = ((0.35, 0.0), (0.35, 0.62), (0.94, 0.62), (1.0, 0.68), (1.0, 0.94), (0.94, 1.0), (0.0, 1.0))
 MUSHROOM = ((0.5, 0.0), (0.32, 0.15), (0.32, 0.5), (0.9, 0.56), (1.0, 0.64), (0.86, 0.84), (0.5, 0.96), (0.0, 1.0))
@@ -183,7 +183,7 @@ def knob(profile: tuple[tuple[float, float], ...]) -> Callable[[float, float], M
 
     @lru_cache(_CACHED)
     def shape(length: float, protrusion: float) -> Meshes:
-        rows = [(0.0, 0.0), *((radius * length / 2, share * protrusion) for radius, share in profile)]
+        rows = [(0.0, 0.0), *((radius * length / 2, ratio * protrusion) for radius, ratio in profile)]
         return (placed(turned(rows, _SIDES), _X, _Z, -_Y),)
 
     return shape
@@ -194,8 +194,8 @@ def square_knob(length: float, protrusion: float) -> Meshes:
     """Returns a square knob with bevelled edges on a square stem."""
     steps = ((0.45, 0.0), (0.45, 0.45), (0.95, 0.45), (1.0, 0.5), (1.0, 0.92), (0.9, 1.0))
     rings = []
-    for share, out in steps:
-        half = share * length / 2
+    for ratio, out in steps:
+        half = ratio * length / 2
         flat = chamfered_rectangle((half, half), 0.1 * half)
         rings.append(np.column_stack([flat[:, 0], np.full(8, -out * protrusion), flat[:, 1]]))
     return (loft(np.stack(rings)),)
@@ -211,7 +211,7 @@ def ring(length: float, protrusion: float) -> Meshes:
     hoop = swept(path, circle(thickness, 8), -_Y, closed=True).translated(vec3(0.0, thickness - protrusion, 0.0))
     wide = 0.32 * length
     steps = (1.0, 0.0), (1.0, 0.12), (0.5, 0.25), (0.4, 1.0), (0.0, 1.0)
-    boss = [(0.0, 0.0), *((share * wide, out * protrusion) for share, out in steps)]
+    boss = [(0.0, 0.0), *((ratio * wide, out * protrusion) for ratio, out in steps)]
     return (placed(turned(boss, 12), _X, _Z, -_Y).translated(vec3(0.0, 0.0, length / 2 - thickness)), hoop)
 
 

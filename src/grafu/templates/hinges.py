@@ -1,4 +1,4 @@
-"""Parametric hinges: two leaves, alternating knuckles on a pin, screws. It knows no part that they are mounted on.
+"""Parametric hinges: two leaves, alternating knuckles on a pin, screws.
 
 How a pose stays clean and connected, by construction (R is the barrel's radius; frames: `template.py`):
 
@@ -40,7 +40,7 @@ _TONGUE = 0.66  # how far from the axis a tongue ends, in radii of the barrel: i
 class HingeStyle:
     """What tells one hinge from another, apart from its size.
 
-    `opening` is the widest angle in radians. `barrel` is the barrel's share of the length; `pitch` the length of a
+    `opening` is the widest angle in radians. `barrel` is the barrel's fraction of the length; `pitch` the length of a
     knuckle in metres that sets how many there are (odd, 3 to 41), `knuckles` a fixed count instead.
     """
 

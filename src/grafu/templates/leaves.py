@@ -1,7 +1,7 @@
 """Leaf shapes of hinges, drawn flat, and hinge pins with what ends them: flat heads, ball tips, acorn finials.
 
-s runs from the pin to the leaf's far edge, t along the pin. No third dimension. A shape is given as shares: s in 0..1
-of the leaf, t in -1..1 of the half length, then cut and drilled in metres.
+s runs from the pin to the leaf's far edge, t along the pin. No third dimension. A shape is given as fractions: s in
+0..1 of the leaf, t in -1..1 of the half length, then cut and drilled in metres.
 """
 
 from collections.abc import Callable
@@ -89,9 +89,9 @@ class LeafArea:
         """How far the leaf reaches beyond the barrel."""
         return self.leaf - self.start
 
-    def s(self, share: float) -> float:
-        """Returns the s at a share of the way from the barrel to the far edge."""
-        return self.start + share * self.width
+    def s(self, ratio: float) -> float:
+        """Returns the s at a fraction of the way from the barrel to the far edge."""
+        return self.start + ratio * self.width
 
     def screw_radius(self) -> float:
         """Returns a screw hole's radius: 3.4 mm as on a common no. 8 screw, less on a small leaf."""
@@ -123,27 +123,27 @@ def rounded(area: LeafArea) -> Polygon:
 
 def butterfly(area: LeafArea) -> Polygon:
     """Narrow at the pin, wide outside, with a wavy outer edge: one wing of a butterfly."""
-    shares = [(0.0, 0.55), (0.22, 0.55), (0.55, 0.95), (0.78, 1.0), (0.97, 0.8), (1.0, 0.55), (0.93, 0.22), (0.88, 0.0)]
-    return _mirrored(area, shares)
+    ratios = [(0.0, 0.55), (0.22, 0.55), (0.55, 0.95), (0.78, 1.0), (0.97, 0.8), (1.0, 0.55), (0.93, 0.22), (0.88, 0.0)]
+    return _mirrored(area, ratios)
 
 
 def h_shape(area: LeafArea) -> Polygon:
     """An upright joined to the pin by a short bar: one half of an H, its ends pointed."""
-    shares = [(0.0, 0.42), (0.45, 0.42), (0.45, 0.88), (0.725, 1.0), (1.0, 0.88)]
-    return _mirrored(area, [*shares, (1.0, 0.0)])
+    ratios = [(0.0, 0.42), (0.45, 0.42), (0.45, 0.88), (0.725, 1.0), (1.0, 0.88)]
+    return _mirrored(area, [*ratios, (1.0, 0.0)])
 
 
 def strap(area: LeafArea) -> Polygon:
     """A band that tapers away from the pin and ends in a round tip."""
     tip = min(0.34 * area.half, 0.2 * area.width)
-    shares = [(0.0, 1.0), (0.12, 1.0), (0.2, 0.8), (1.0 - 3.2 * tip / area.width, 0.42), (1.0 - tip / area.width, 0.3)]
-    return unary_union([_mirrored(area, shares), disc((area.leaf - tip, 0.0), tip, 20)])
+    ratios = [(0.0, 1.0), (0.12, 1.0), (0.2, 0.8), (1.0 - 3.2 * tip / area.width, 0.42), (1.0 - tip / area.width, 0.3)]
+    return unary_union([_mirrored(area, ratios), disc((area.leaf - tip, 0.0), tip, 20)])
 
 
 def scalloped(area: LeafArea) -> Polygon:
     """An ornamental outline: shoulders, a waist and a tongue, as on cast half-mortise hinges."""
-    shares = [(0.0, 1.0), (0.3, 1.0), (0.36, 0.86), (0.5, 0.86), (0.6, 0.72), (0.58, 0.58), (0.7, 0.5), (0.84, 0.42)]
-    return _mirrored(area, [*shares, (0.95, 0.26), (1.0, 0.0)])
+    ratios = [(0.0, 1.0), (0.3, 1.0), (0.36, 0.86), (0.5, 0.86), (0.6, 0.72), (0.58, 0.58), (0.7, 0.5), (0.84, 0.42)]
+    return _mirrored(area, [*ratios, (0.95, 0.26), (1.0, 0.0)])
 
 
 def quarter_round(area: LeafArea) -> Polygon:
@@ -152,9 +152,9 @@ def quarter_round(area: LeafArea) -> Polygon:
     return _mirrored(area, [(0.0, 1.0), *((0.15 + 0.85 * float(np.cos(a)), float(np.sin(a))) for a in angles)])
 
 
-def _mirrored(area: LeafArea, shares: list[tuple[float, float]]) -> Polygon:
+def _mirrored(area: LeafArea, ratios: list[tuple[float, float]]) -> Polygon:
     """Returns the outline whose upper half is given, mirrored across the leaf's middle."""
-    upper = [(area.s(s), t * area.half) for s, t in shares]
+    upper = [(area.s(s), t * area.half) for s, t in ratios]
     lower = [(s, -t) for s, t in reversed(upper) if t > 0]
     return Polygon([*upper, *lower])
 

@@ -1,4 +1,4 @@
-"""Parametric drawer rails: a channel on the wall, a bar on the drawer that runs in it. It knows no drawer.
+"""Parametric drawer rails: a channel on the wall, a bar on the drawer that runs in it.
 
 How a pose stays clean and connected, by construction (frames: `template.py`; t is the thickness, h the height):
 
@@ -29,8 +29,8 @@ from grafu.templates.solids import COATED, NYLON, SCREW, STEEL, ZINC, disc, extr
 from grafu.templates.template import RailModel, RailSize, RailTemplate, SnapPlane, TemplateEnd
 from grafu.vocabulary import MechanismClass
 
-TRAVEL = 0.85  # share of the length that a rail gives (it must keep a lap to carry the drawer)
-_CHANNEL = 0.55  # share of the thickness that the static channel fills
+TRAVEL = 0.85  # fraction of the length that a rail gives (it must keep a lap to carry the drawer)
+_CHANNEL = 0.55  # fraction of the thickness that the static channel fills
 
 
 @final
@@ -171,7 +171,7 @@ def _hollow(bar: Polygon, c: _Section) -> BaseGeometry:
 
 def _stations(size: RailSize) -> list[float]:
     """Returns where along the slide the screws sit."""
-    return [share * size.length for share in (-0.42, -0.2, 0.2, 0.42)]
+    return [ratio * size.length for ratio in (-0.42, -0.2, 0.2, 0.42)]
 
 
 def _balls(size: RailSize, c: _Section) -> TriangleMesh:

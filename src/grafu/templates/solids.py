@@ -1,7 +1,7 @@
 """Closed solids that mechanisms are made of: plates, profiles, turned pieces; and their metal and plastic finishes.
 
 Every solid is closed and faces outward, with smooth curved sides and sharp edges. Plates are drawn in two coordinates
-(s, t) and grow along a third, d; `placed` maps (s, t, d) to the template's axes. It knows no hinge and no rail.
+(s, t) and grow along a third, d; `placed` maps (s, t, d) to the template's axes.
 """
 
 from collections.abc import Sequence

@@ -116,8 +116,8 @@ def box_errors(found: Float[Tensor, "b s 3"], wanted: Float[Tensor, "b s 3"], er
 def exists_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, balanced: bool) -> Float[Tensor, ""]:
     """Returns the cross-entropy of existence over all slots: those anchored or matched should exist."""
     should, slots = truth.anchored | truth.matched, truth.anchored | truth.free
-    share = slots.sum() / should.sum().clamp(min=1)
-    return mean_where(_existence(exists, should, share if balanced else torch.ones_like(share)), slots)
+    ratio = slots.sum() / should.sum().clamp(min=1)
+    return mean_where(_existence(exists, should, ratio if balanced else torch.ones_like(ratio)), slots)
 
 
 def free_exists_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, positive: float) -> Float[Tensor, ""]:
@@ -195,7 +195,7 @@ def choice_loss(
     candidates: Bool[Tensor, "b s s"],
     right: Bool[Tensor, "b s s"],
 ) -> Float[Tensor, ""]:
-    """Returns minus the log of the share that right candidates, or else abstaining, have in the softmax over all.
+    """Returns minus the log of the fraction that right candidates, or else abstaining, have in the softmax over all.
 
     It is the mean over the slots that choose.
     """

@@ -41,7 +41,7 @@ class CopyMix:
     `corruption`; mirror images are drawn elsewhere, for all copies at once, so its mirror probability must be 0.
 
     Raises:
-        ValueError: if a share is not in 0..1, there is nothing to draw, or the corruption mirrors.
+        ValueError: if a fraction is not in 0..1, there is nothing to draw, or the corruption mirrors.
     """
 
     natural: float
@@ -51,7 +51,7 @@ class CopyMix:
 
     def __post_init__(self) -> None:
         if min(self.natural, self.masked) < 0 or self.natural + self.masked > 1:
-            raise ValueError(f"`natural` and `masked` must be shares of one: got {self.natural}, {self.masked}")
+            raise ValueError(f"`natural` and `masked` must be fractions of one: got {self.natural}, {self.masked}")
         if self.folds is not None and (self.folds < 0 or (not self.folds and self.natural + self.masked < 1)):
             raise ValueError(f"`folds` must be at least 1 where folds are drawn: got {self.folds}")
         if self.corruption.mirror_probability > 0:

@@ -1,4 +1,4 @@
-"""What the network is to answer about a graph, as arrays, and the padded batch of several. It knows no losses.
+"""What the network is to answer about a graph, as arrays, and the padded batch of several.
 
 Boxes stand in the frame of the INPUT graph's features, since that is where the network answers. Batches of ever new
 sizes would be slow: for each size of a product oneDNN builds code of its own, keeps a thousand of them, and litters the

@@ -32,7 +32,7 @@ def correction_buttons(options: tuple[str, ...]) -> Html:
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT, FaultKind.NOTHING_MOVES)
 _SHOWN = 6  # ids in a cell; more of them are counted
-_LEAST = 5e-4  # a share that is not written as 0.0 %
+_LEAST = 5e-4  # a fraction that is not written as 0.0 %
 
 
 def plain_rows(columns: Sequence[str], rows: Sequence[Sequence[str]], label: str) -> Html:
@@ -143,13 +143,13 @@ def _notes(joint: JointRecord) -> list[str]:
 
 
 def _clearance(cut: ClearanceRecord) -> str:
-    """Returns what was taken away: as a depth where material was pressed back, else as a share."""
-    share = f", {_shares(cut)}" if cut.share >= _LEAST else ", a trace"
+    """Returns what was taken away: as a depth where material was pressed back, else as a fraction."""
+    ratio = f", {_ratios(cut)}" if cut.share >= _LEAST else ", a trace"
     amount = {"trimmed": f" by {1000 * cut.amount:.1f} mm", "joined": "", "closed": ""}
-    return f"{cut.part} {cut.kind}{amount.get(cut.kind, share)}: {cut.why}"
+    return f"{cut.part} {cut.kind}{amount.get(cut.kind, ratio)}: {cut.why}"
 
 
-def _shares(cut: ClearanceRecord) -> str:
+def _ratios(cut: ClearanceRecord) -> str:
     if cut.kind != "carved":
         return f"{cut.share:.1%} of it"
     return f"{cut.surface_share:.1%} of its surface and {cut.volume_share:.1%} of its volume"

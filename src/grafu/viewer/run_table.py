@@ -26,7 +26,7 @@ LIGHTS = ("failed", "red", "yellow", "green")
 class Column:
     """A column: its heading, how its values are written, whether their spread is drawn, and what it means in words.
 
-    A share (0..1) in a column of percents is written as a percentage; a column of lights holds one of `LIGHTS`.
+    A fraction (0..1) in a column of percents is written as a percentage; a column of lights holds one of `LIGHTS`.
     """
 
     name: str
@@ -131,7 +131,7 @@ _COLUMNS = (
     Column("drawers", "number", about="joints that slide"),
     Column("not built", "number", about="doors and drawers without a joint, and other requests that were not built"),
     Column("restricted", "number", about="joints that open less than 70 % of what they should"),
-    Column("collision", "percent", histogram=True, about="the worst joint's share of poses that cut into something"),
+    Column("collision", "percent", histogram=True, about="the worst joint's fraction of poses that cut into something"),
     Column("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
     Column("no grasp", "number", about="joints that cannot be grasped"),
     Column("added", "number", histogram=True, about="parts that the input did not have, hinges and rails left out"),

@@ -3,7 +3,7 @@
 Everything is at rest in the object frame (metres, Z up, front -Y). The form is ours and private to the page: the
 scripts beside this module read it, docs/pages.md describes it.
 
-Surfaces take few bytes, each corner stored once. A vertex is 8 bytes: three unsigned 16-bit shares of the mesh's box
+Surfaces take few bytes, each corner stored once. A vertex is 8 bytes: three unsigned 16-bit fractions of the mesh's box
 and a normal as two signed bytes (octahedral).
 """
 
@@ -69,7 +69,7 @@ def pack_surface(surface: Surface, textured: bool) -> PackedSurface:
     low, high = extremes(used)
     size = high - low
     vertices = np.zeros((len(used), 4), np.uint16)
-    vertices[:, :3] = _shares(used, low, size)
+    vertices[:, :3] = _ratios(used, low, size)
     vertices[:, 3] = _octahedral(np.asarray(shading.normals)).view(np.uint16)[:, 0][shading.corners.ravel()]
     keys = [vertices.view(np.uint64)[:, 0]]
     uv, uv_low, uv_size = np.zeros((0, 2), np.uint16), np.zeros(2), np.ones(2)
@@ -78,7 +78,7 @@ def pack_surface(surface: Surface, textured: bool) -> PackedSurface:
         flipped = flipped - np.floor(extremes(flipped)[0])  # textures repeat: whole turns change nothing
         uv_low, uv_high = extremes(flipped)
         uv_size = uv_high - uv_low
-        uv = _shares(flipped, uv_low, uv_size)
+        uv = _ratios(flipped, uv_low, uv_size)
         keys.append(uv.view(np.uint32)[:, 0].astype(np.uint64))
     colors = np.zeros((0, 4), np.uint8) if surface.colors is None else surface.colors[faces.ravel()]
     if len(colors):
@@ -98,8 +98,8 @@ def pack_surface(surface: Surface, textured: bool) -> PackedSurface:
     return PackedSurface(mesh, (x, y, z), (dx, dy, dz), (u, v), (du, dv))
 
 
-def _shares(values: np.ndarray, low: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Returns where values lie between low and low + size, as 16-bit shares."""
+def _ratios(values: np.ndarray, low: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Returns where values lie between low and low + size, as 16-bit fractions."""
     return np.rint((values - low) / np.where(size > 0, size, 1.0) * _STEPS).astype(np.uint16)
 
 

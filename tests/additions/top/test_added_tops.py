@@ -41,7 +41,7 @@ def volume(mesh: TriangleMesh) -> float:
 def opens_freely(moving: Part, joint: JointRequest, top: Part, reach: float) -> bool:
     body = SweptBody(moving.mesh, 4e-4, np.eye(3))
     motion = joint.kind.along(joint.axis)
-    return sweep(body, motion, reach, [Obstacle("top", MeshCollider(top.mesh))], 41).share == 0.0
+    return sweep(body, motion, reach, [Obstacle("top", MeshCollider(top.mesh))], 41).ratio == 0.0
 
 
 @settings(max_examples=40, deadline=None)

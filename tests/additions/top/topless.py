@@ -75,7 +75,7 @@ def top(low: float = H, thickness: float = 0.03, label: PartLabel = PartLabel.UN
 
 
 def holed_top(part: float) -> Part:
-    """A worktop with a hole that takes this share of each side in its middle."""
+    """A worktop with a hole that takes this fraction of each side in its middle."""
     x, y, a, b = W / 2, D / 2, part * W / 2, part * D / 2
     spans = [((-x, -y), (x, -b)), ((-x, b), (x, y)), ((-x, -b), (-a, b)), ((a, -b), (x, b))]
     return merged("worktop", *(((p[0], p[1], H), (q[0], q[1], H + 0.03)) for p, q in spans))

@@ -98,17 +98,17 @@ def test_both_two_and_three_categories_occur():
 
 
 @given(seeds)
-def test_a_handful_and_a_share_go(seed):
+def test_a_handful_and_a_fraction_go(seed):
     assert 1 <= len(by("random", seed).missing) <= 4
-    share = by("random_share", seed)
-    assert 0.25 <= len(share.missing) / len(LABELS) <= 0.5
-    assert not {PartLabel.DOOR, PartLabel.DRAWER} & set(lost_labels(share))
+    ratio = by("random_ratio", seed)
+    assert 0.25 <= len(ratio.missing) / len(LABELS) <= 0.5
+    assert not {PartLabel.DOOR, PartLabel.DRAWER} & set(lost_labels(ratio))
     nodes = by("drop_nodes_keep_edge_types", seed)
     assert 0.25 <= len(nodes.missing) / len(LABELS) <= 0.5
     assert set(nodes.input.edges) <= set(cabinet().edges)
 
 
-def test_a_category_that_is_not_there_falls_back_on_a_share_of_still_parts():
+def test_a_category_that_is_not_there_falls_back_on_a_fraction_of_still_parts():
     bare = FunctionalGraph("bare", tuple(n for n in cabinet().nodes if n.label is not PartLabel.TOP_PANEL))
     pair = by("drop_top", target=bare)
     assert pair.missing
@@ -168,8 +168,8 @@ def test_a_door_is_alone(seed):
 def test_labels_are_masked_as_often_as_asked():
     config = CorruptionConfig(max_dropped=1)
     counts = [len(by("random", seed, config).input.labelled(PartLabel.UNKNOWN)) for seed in range(600)]
-    share = np.mean(counts) / (len(LABELS) - 1)
-    assert 0.13 < share < 0.17  # 15 % of 10,200 labels: four standard deviations are 1.4 %
+    ratio = np.mean(counts) / (len(LABELS) - 1)
+    assert 0.13 < ratio < 0.17  # 15 % of 10,200 labels: four standard deviations are 1.4 %
 
 
 def test_masking_leaves_functional_edges():
@@ -199,17 +199,17 @@ def test_strategies_come_as_often_as_their_weights(config):
 
 
 def test_weights_are_the_papers():
-    share = dict(zip(STRATEGY_NAMES, probabilities(PAPER), strict=True))
-    assert share["fully_functional_drop"] == pytest.approx(0.20 / 1.15)
-    assert share["isolate_door"] == 0
+    ratio = dict(zip(STRATEGY_NAMES, probabilities(PAPER), strict=True))
+    assert ratio["fully_functional_drop"] == pytest.approx(0.20 / 1.15)
+    assert ratio["isolate_door"] == 0
     families = Counter(STRATEGIES[n].family for n in STRATEGY_NAMES)
     assert families == {"category drop": 7, "label masking": 2, "edge-preserving": 3, "authors' code": 3}
 
 
 def test_the_authors_boost_is_theirs():
-    share = dict(zip(STRATEGY_NAMES, probabilities(OFFICIAL), strict=True))
-    assert sum(share[n] for n in KEEP_KINDS) == pytest.approx(0.59, abs=0.005)
-    assert share["fully_functional_drop"] == pytest.approx(0.60 / 1.98)
+    ratio = dict(zip(STRATEGY_NAMES, probabilities(OFFICIAL), strict=True))
+    assert sum(ratio[n] for n in KEEP_KINDS) == pytest.approx(0.59, abs=0.005)
+    assert ratio["fully_functional_drop"] == pytest.approx(0.60 / 1.98)
 
 
 def test_half_of_the_pairs_are_mirror_images():

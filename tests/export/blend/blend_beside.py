@@ -25,9 +25,9 @@ def _poses(built) -> dict:
     return {link: np.array(o.evaluated_get(graph).matrix_world).tolist() for link, o in built.links.items()}
 
 
-def _refused(empty, share: float) -> bool:
+def _refused(empty, ratio: float) -> bool:
     try:
-        set_open(empty, share)
+        set_open(empty, ratio)
     except ValueError:
         return True
     return False

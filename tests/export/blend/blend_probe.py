@@ -1,7 +1,4 @@
-"""Reads a .blend in a Blender of its own and writes down what is there: `python blend_probe.py FILE OUT`.
-
-It knows nothing of the writer but the custom properties that the documentation names.
-"""
+"""Reads a .blend in a Blender of its own and writes down what is there: `python blend_probe.py FILE OUT`."""
 
 import os
 import pickle

@@ -112,13 +112,13 @@ def test_all_is_open_at_the_middle_and_nothing_moves_before_what_it_waits_for(co
 
     assert len(keys) == count
     for k in range(count):
-        frames, shares = zip(*keys[f"j{k}"], strict=True)
-        assert (frames[0], shares[0], frames[-1], shares[-1]) == (0.0, 0.0, 100.0, 0.0)
+        frames, ratios = zip(*keys[f"j{k}"], strict=True)
+        assert (frames[0], ratios[0], frames[-1], ratios[-1]) == (0.0, 0.0, 100.0, 0.0)
         assert list(frames) == sorted(set(frames))
-        assert np.interp(50.0, frames, shares) == 1.0
+        assert np.interp(50.0, frames, ratios) == 1.0
         if k:
             waited = keys[f"j{k - 1}"]
-            moving = [frame for frame in np.linspace(0, 100, 201) if 0 < np.interp(frame, frames, shares) < 1]
+            moving = [frame for frame in np.linspace(0, 100, 201) if 0 < np.interp(frame, frames, ratios) < 1]
             assert np.allclose(np.interp(moving, *zip(*waited, strict=True)), 1.0)
 
 

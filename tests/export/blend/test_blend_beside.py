@@ -51,7 +51,7 @@ def test_a_limit_is_changed_by_its_property(beside, cabinet):
     assert_links(beside["limited"], cabinet, {"door_1_hinge": 0.7, "drawer_1_rail": 0.28})
 
 
-def test_what_is_no_moving_joint_or_no_share_is_refused(beside):
+def test_what_is_no_moving_joint_or_no_fraction_is_refused(beside):
     assert beside["refused"] == [True, True, True]
 
 

@@ -103,9 +103,9 @@ def test_halfway_the_door_is_half_open(reopened_cabinet, cabinet):
 
 @pytest.mark.parametrize("joint", ["door_1_hinge", "drawer_1_rail"])
 def test_with_the_animation_muted_one_property_moves_one_joint(reopened_cabinet, cabinet, joint):
-    share, poses = reopened_cabinet["alone"][joint]
+    ratio, poses = reopened_cabinet["alone"][joint]
 
-    assert share == 0.4
+    assert ratio == 0.4
     assert_posed(reopened_cabinet, poses, cabinet, {joint: 0.4 * all_open(cabinet)[joint]})
 
 
@@ -269,8 +269,8 @@ def test_joints_on_joints_about_any_axis_move_as_the_kinematics_say(reopened):
 
     assert_posed(found, found["frames"][50], made, all_open(made))
     assert_posed(found, found["frames"][0], made, dict.fromkeys(all_open(made), 0.05))
-    for joint, (share, poses) in found["alone"].items():
-        values = dict.fromkeys(all_open(made), 0.05) | {joint: 0.05 + share * 0.85}
+    for joint, (ratio, poses) in found["alone"].items():
+        values = dict.fromkeys(all_open(made), 0.05) | {joint: 0.05 + ratio * 0.85}
         assert_posed(found, poses, made, values)
 
 

@@ -34,8 +34,8 @@ def assert_works(found, made: ArticulatedObject) -> None:
     assert_posed(found, found["frames"][50], made, all_open(made))
     assert_posed(found, found["frames"][100], made, {})
     for joint in made.moving_joints:
-        share, poses = found["alone"][joint.id]
-        assert_posed(found, poses, made, {joint.id: share * joint.limits.upper})
+        ratio, poses = found["alone"][joint.id]
+        assert_posed(found, poses, made, {joint.id: ratio * joint.limits.upper})
     assert not any(o["mended"] for _, o in visuals_of(found).values())
     assert_looks(found, made)
 

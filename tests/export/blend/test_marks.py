@@ -22,9 +22,9 @@ def angles(points):
     return np.arctan2(points[..., 1], points[..., 0])
 
 
-@given(width=SIZES, high=SIZES, upper=st.floats(0.1, 3.0), share=st.floats(0.0, 1.0))
-def test_a_doors_arc_goes_from_closed_to_open_at_one_distance(width, high, upper, share):
-    marks = motion_marks(JointType.REVOLUTE, JointLimits(0.0, upper), share * upper, door(width, high))
+@given(width=SIZES, high=SIZES, upper=st.floats(0.1, 3.0), ratio=st.floats(0.0, 1.0))
+def test_a_doors_arc_goes_from_closed_to_open_at_one_distance(width, high, upper, ratio):
+    marks = motion_marks(JointType.REVOLUTE, JointLimits(0.0, upper), ratio * upper, door(width, high))
     arc, head = marks.range[:-2], marks.range[-2:]
     assert angles(arc[0, 0]) == pytest.approx(0.0, abs=1e-9)
     assert angles(arc[-1, 1]) == pytest.approx(upper)
@@ -35,7 +35,7 @@ def test_a_doors_arc_goes_from_closed_to_open_at_one_distance(width, high, upper
     assert arc[1:, 0] == pytest.approx(arc[:-1, 1])
     assert head[:, 0] == pytest.approx(np.stack([arc[-1, 1]] * 2))
     assert (angles(head[:, 1]) < upper).all()
-    assert angles(marks.now[0, 1]) == pytest.approx(share * upper)
+    assert angles(marks.now[0, 1]) == pytest.approx(ratio * upper)
     assert marks.now[0, 0, :2] == pytest.approx([0.0, 0.0])
 
 
@@ -46,13 +46,13 @@ def test_a_doors_axis_stands_out_above_and_below_it(width, high):
     assert axis[0, 2] < -high / 2 < high / 2 < axis[1, 2]
 
 
-@given(long=SIZES, way=st.floats(0.01, 2.0), share=st.floats(0.0, 1.0))
-def test_a_drawers_arrow_goes_from_its_front_as_far_as_it_slides(long, way, share):
+@given(long=SIZES, way=st.floats(0.01, 2.0), ratio=st.floats(0.0, 1.0))
+def test_a_drawers_arrow_goes_from_its_front_as_far_as_it_slides(long, way, ratio):
     box = Box(np.array([-0.2, 0.1, -long]), np.array([0.2, 0.3, 0.0]))
-    marks = motion_marks(JointType.PRISMATIC, JointLimits(0.0, way), share * way, box)
+    marks = motion_marks(JointType.PRISMATIC, JointLimits(0.0, way), ratio * way, box)
     assert marks.range[0] == pytest.approx(np.array([[0.0, 0.2, 0.0], [0.0, 0.2, way]]))
     assert (marks.range[1:, 1, 2] < way).all()
-    assert marks.now[..., 2] == pytest.approx(share * way)
+    assert marks.now[..., 2] == pytest.approx(ratio * way)
 
 
 def test_what_turns_about_its_own_middle_has_an_arc_within_it():

@@ -97,10 +97,10 @@ def poses_in(stage: Usd.Stage, furniture: ArticulatedObject, values: dict[str, f
     return poses
 
 
-@pytest.mark.parametrize("share", [0.0, 0.37, 1.0])
-def test_links_stand_where_the_kinematics_say(made, share):
+@pytest.mark.parametrize("ratio", [0.0, 0.37, 1.0])
+def test_links_stand_where_the_kinematics_say(made, ratio):
     furniture, stage = made
-    values = {joint.id: joint.limits.lower + share * joint.limits.range for joint in furniture.joints}
+    values = {joint.id: joint.limits.lower + ratio * joint.limits.range for joint in furniture.joints}
     found, expected, origins = (
         poses_in(stage, furniture, values),
         link_poses(furniture, values),

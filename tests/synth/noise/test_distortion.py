@@ -69,8 +69,8 @@ def test_handles_go_with_what_is_ajar() -> None:
     assert np.allclose(shift, [0.0, -0.5 * TIDY.joints[-1].upper, 0.0])
 
 
-def test_a_share_is_a_share() -> None:
-    with pytest.raises(ValueError, match="share"):
+def test_a_fraction_is_a_fraction() -> None:
+    with pytest.raises(ValueError, match="ratio"):
         ajar(TIDY, "door", 1.5)
 
 

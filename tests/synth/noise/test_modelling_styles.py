@@ -37,22 +37,22 @@ def draws(family: str = "") -> tuple[ModellingNoise, ...]:
     return tuple(draw_noise(rng, TIDY, family) for _ in range(NUMBER))
 
 
-def share(found: list[bool]) -> float:
+def ratio(found: list[bool]) -> float:
     return sum(found) / len(found)
 
 
-def test_styles_come_at_their_shares() -> None:
+def test_styles_come_at_their_fractions() -> None:
     counts = Counter(u.style for u in draws())
 
-    assert sum(h.share for h in STYLES.values()) == pytest.approx(1.0)
+    assert sum(h.ratio for h in STYLES.values()) == pytest.approx(1.0)
     for name, style in STYLES.items():
-        assert counts[name] / NUMBER == pytest.approx(style.share, abs=0.04)
+        assert counts[name] / NUMBER == pytest.approx(style.ratio, abs=0.04)
 
 
 def test_maskings_are_distributions_and_labels_survive_in_about_half() -> None:
     assert all(sum(h.masking) == pytest.approx(1.0) for h in STYLES.values())
-    assert share([u.masked == 0 for u in draws()]) == pytest.approx(0.53, abs=0.04)
-    assert share([u.masked == 1 for u in draws()]) == pytest.approx(0.10, abs=0.03)
+    assert ratio([u.masked == 0 for u in draws()]) == pytest.approx(0.53, abs=0.04)
+    assert ratio([u.masked == 1 for u in draws()]) == pytest.approx(0.10, abs=0.03)
 
 
 @pytest.mark.parametrize(
@@ -62,33 +62,33 @@ def test_maskings_are_distributions_and_labels_survive_in_about_half() -> None:
 def test_parts_are_missing_at_their_rates(part: str | set[str], rate: float) -> None:
     wanted = {part} if isinstance(part, str) else part
 
-    assert share([wanted <= set(u.missing) for u in draws()]) == pytest.approx(rate, abs=0.03)
+    assert ratio([wanted <= set(u.missing) for u in draws()]) == pytest.approx(rate, abs=0.03)
 
 
 @pytest.mark.parametrize("family", ["base cabinet", "sideboard", "desk"])
 def test_tops_are_missing_where_nobody_sees_them(family: str) -> None:
-    assert share(["top_panel" in u.missing for u in draws(family)]) == pytest.approx(NO_TOP[family], abs=0.04)
+    assert ratio(["top_panel" in u.missing for u in draws(family)]) == pytest.approx(NO_TOP[family], abs=0.04)
 
 
 def test_faces_are_drawn_as_exporters_do() -> None:
-    assert share([u.both_sides for u in draws()]) == pytest.approx(BOTH_SIDES, abs=0.07)
-    assert share([u.density == "plain" for u in draws()]) == pytest.approx(DENSITY["plain"], abs=0.03)
+    assert ratio([u.both_sides for u in draws()]) == pytest.approx(BOTH_SIDES, abs=0.07)
+    assert ratio([u.density == "plain" for u in draws()]) == pytest.approx(DENSITY["plain"], abs=0.03)
 
 
 def test_few_look_the_wrong_way() -> None:
-    assert share([abs(u.yaw) > 1.0 for u in draws()]) == pytest.approx(TURNED, abs=0.015)
-    assert share([0 < abs(u.yaw) < 1.0 for u in draws()]) < 0.03
+    assert ratio([abs(u.yaw) > 1.0 for u in draws()]) == pytest.approx(TURNED, abs=0.015)
+    assert ratio([0 < abs(u.yaw) < 1.0 for u in draws()]) < 0.03
 
 
 def test_few_are_ajar_and_few_mislabelled() -> None:
-    assert share([bool(u.ajar) for u in draws()]) == pytest.approx(AJAR, abs=0.015)
-    assert share([u.mislabelled for u in draws()]) < 0.03
+    assert ratio([bool(u.ajar) for u in draws()]) == pytest.approx(AJAR, abs=0.015)
+    assert ratio([u.mislabelled for u in draws()]) < 0.03
 
 
 def test_sizes_are_off_by_no_more_than_people_are() -> None:
     factors = np.array([u.factors for u in draws()])
 
-    assert share((factors[:, 0] < 0).tolist()) == pytest.approx(0.5, abs=0.04)
+    assert ratio((factors[:, 0] < 0).tolist()) == pytest.approx(0.5, abs=0.04)
     assert np.all(factors[:, 1:] > 0)
     assert np.abs(factors).min() > 0.5
     assert np.abs(factors).max() < 2.0
@@ -100,7 +100,7 @@ def test_a_merging_modeller_merges_and_never_cuts_panels() -> None:
 
     assert all(u.joined for u in merging)
     assert not any(u.cuts for u in merging)
-    assert share([bool(u.cuts) for u in exploding]) > 0.6
+    assert ratio([bool(u.cuts) for u in exploding]) > 0.6
 
 
 def test_what_is_absent_is_missing() -> None:

@@ -58,8 +58,8 @@ def test_wordings_come_at_their_rates() -> None:
     rng = np.random.default_rng(3)
     drawn = [draw_wording(rng) for _ in range(1500)]
 
-    for name, (_, share) in STYLES.items():
-        assert sum(name in d for d in drawn) / len(drawn) == pytest.approx(share, abs=0.05)
+    for name, (_, ratio) in STYLES.items():
+        assert sum(name in d for d in drawn) / len(drawn) == pytest.approx(ratio, abs=0.05)
 
 
 def test_masked_parts_have_names_that_say_nothing() -> None:

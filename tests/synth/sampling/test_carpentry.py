@@ -95,5 +95,5 @@ def test_the_needed_gap_grows_with_thickness_and_shrinks_with_width():
 def test_stacks_of_drawers_are_alike_or_deeper_below():
     rng = np.random.default_rng(4)
     for _ in range(50):
-        shares = drawer_heights(rng, 4)
-        assert shares == () or (len(shares) == 4 and shares[0] >= shares[-1])
+        ratios = drawer_heights(rng, 4)
+        assert ratios == () or (len(ratios) == 4 and ratios[0] >= ratios[-1])

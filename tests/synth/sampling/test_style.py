@@ -62,7 +62,7 @@ def test_the_same_generator_state_draws_the_same_style():
     assert styles("ornate", 5) == styles("ornate", 5)
 
 
-def test_mixed_tables_keep_their_shares():
+def test_mixed_tables_keep_their_fractions():
     table = mixed((0.75, {"bar-round": 3.0, "ring": 1.0}), (0.25, {"ring": 2.0}))
     assert table == pytest.approx({"bar-round": 0.5625, "ring": 0.4375})
 

@@ -24,13 +24,13 @@ from grafu.scene.scene import Scene
 _LEVEL = 0.3  # the most of a unit direction that points up where a front stands upright
 _SQUARE = float(np.cos(np.radians(8.0)))  # how near to an axis of the object a front's way is taken to be along it
 _SAME_WAY = 0.97  # cosine between the directions of two fronts of one view
-_INNER = np.linspace(0.15, 0.85, 7)  # shares of a front's sides: its edges lap onto the case
+_INNER = np.linspace(0.15, 0.85, 7)  # fractions of a front's sides: its edges lap onto the case
 _DEEP = 24  # places along the depth at which walls are felt for
 _FINE = 17  # places between two of those at which the walls' edges are
 _FRONT = 0.02  # metres: the thickness of fronts, where a drawer is drawn with its box
-_ALIKE = 0.04  # share of the object's largest side by which the walls of one space may differ
-_MANY, _COARSE = 4000, 0.008  # faces from which a part is coarsened, to cells of this share of the largest side
-_APART = 0.08  # share of it that parts drawers above each other at most: a rail between them
+_ALIKE = 0.04  # fraction of the object's largest side by which the walls of one space may differ
+_MANY, _COARSE = 4000, 0.008  # faces from which a part is coarsened, to cells of this fraction of the largest side
+_APART = 0.08  # fraction of it that parts drawers above each other at most: a rail between them
 
 
 @final
@@ -66,7 +66,7 @@ class View:
 class Bay(ArrayValue):
     """A space behind fronts: its low and high corner in the view, from the walls' front edges to their rear ones.
 
-    `outline` is what the fronts themselves cover: x and z from and to. `walled` is the share of the depth at which
+    `outline` is what the fronts themselves cover: x and z from and to. `walled` is the fraction of the depth at which
     walls stand on both sides; `has_door` whether one of the fronts is a door, `inset` whether they lie between them,
     `lowest` how high the lowest of them is.
     """

@@ -30,8 +30,8 @@ from grafu.joints.plan import RealizationPlan
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel
 
-_SPREAD = np.linspace(-0.4, 0.4, 9)  # shares of a bay's side around a spot from which walls are felt for
-_BEFORE = 0.1  # share of a bay's side before its end from which a wall is felt for, and beyond it
+_SPREAD = np.linspace(-0.4, 0.4, 9)  # fractions of a bay's side around a spot from which walls are felt for
+_BEFORE = 0.1  # fraction of a bay's side before its end from which a wall is felt for, and beyond it
 _LET_IN = 2e-4  # metres by which a board is let into the walls that hold it
 _NEAR = 2e-3  # metres within which a board is held
 
@@ -104,13 +104,13 @@ class BoardRoom:
         moving = pieces_in(meeting(self.moving, inside), inside, (8, 8, 8))
         return not len(still.low) and not len(moving.low)
 
-    def behind_fronts(self, board: Box, share: float) -> float:
-        """Returns the y from which on a board is clear of what stands in the first `share` of its depth (fronts, bars).
+    def behind_fronts(self, board: Box, ratio: float) -> float:
+        """Returns the y from which on a board is clear of what stands in the first `ratio` of its depth (fronts, bars).
 
         What reaches further back does not count.
         """
-        end = float(board.low[1] + share * board.size[1])
-        inside = Box(board.low, np.array([board.high[0], end + share * board.size[1], board.high[2]]))
+        end = float(board.low[1] + ratio * board.size[1])
+        inside = Box(board.low, np.array([board.high[0], end + ratio * board.size[1], board.high[2]]))
         pieces = pieces_in(np.concatenate([self._still, self.moving]), inside, (16, 16, 2))
         ends = pieces.high[pieces.within(Box.from_center(inside.center, 0.98 * inside.half)), 1]
         return max(float(ends[ends <= end].max(initial=board.low[1])), float(board.low[1]))
@@ -128,10 +128,10 @@ class BoardRoom:
         return len(pieces_in(self._still, Box(low, high), (16, 16, 16)).low) > 0
 
 
-_SIDE_BY_SIDE = 0.06  # share of the object's largest side: bays nearer than this share one back
-_WASTED = 0.15  # share of a common back that may cover what lacks none
-_FILLED = 0.7  # share of a bay's sides that a board must close
-_FRAME = 0.2  # share of the depth in which a face frame or a front may stand before a bottom
+_SIDE_BY_SIDE = 0.06  # fraction of the object's largest side: bays nearer than this fraction one back
+_WASTED = 0.15  # fraction of a common back that may cover what lacks none
+_FILLED = 0.7  # fraction of a bay's sides that a board must close
+_FRAME = 0.2  # fraction of the depth in which a face frame or a front may stand before a bottom
 _NO_ROOM = "no board fits between the walls without piercing something"
 _TOUCH = 5e-4  # metres: less deep than this a board and its neighbour merely touch
 
@@ -234,12 +234,12 @@ def _room(view: View, around: Surroundings) -> BoardRoom:
 def _backs(bay: Bay, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
     """Yields backs, best first: between the walls, at their rear edges; then planted on these."""
     width, height = float(bay.high[0] - bay.low[0]), float(bay.high[2] - bay.low[2])
-    thick = min(config.back, config.thickness_share * min(width, height))
+    thick = min(config.back, config.thickness_ratio * min(width, height))
     rear, middle = float(bay.high[1]), (bay.low + bay.high) / 2
     spot = vec3(float(middle[0]), rear - thick / 2, float(middle[2]))
     (x0, x1), (z0, z1) = room.between(spot, 0, bay, 2), room.between(spot, 2, bay, 0)
     yield _box((x0, rear - thick, z0), (x1, rear, z1))
-    lap = min(config.on_edge, config.thickness_share * min(width, height))
+    lap = min(config.on_edge, config.thickness_ratio * min(width, height))
     body = room.box
     low = vec3(
         max(float(bay.low[0]) - lap, body.low[0]), rear - 0.02 * width, max(float(bay.low[2]) - lap, body.low[2])
@@ -256,7 +256,7 @@ def _bottoms(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Ite
     """
     bay = panel.bay
     width, depth = (float(bay.high[axis] - bay.low[axis]) for axis in (0, 1))
-    full = min(config.bottom, config.thickness_share * min(width, depth))
+    full = min(config.bottom, config.thickness_ratio * min(width, depth))
     foot, floor = float(bay.outline[2]), float(room.box.low[2])
     for thick in (full, 0.4 * full):
         below = foot - min(config.gap, 0.2 * thick) - thick

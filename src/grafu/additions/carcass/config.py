@@ -9,25 +9,25 @@ from grafu.joints.config import require_positive
 @final
 @dataclass(frozen=True)
 class CarcassConfig:
-    """Lengths are metres and hold for furniture of real size; shares keep them sensible in any other.
+    """Lengths are metres and hold for furniture of real size; fractions keep them sensible in any other.
 
     Raises:
-        ValueError: if a length or a share is not above 0.
+        ValueError: if a length or a fraction is not above 0.
     """
 
     covered: float = 0.5
-    """Share of a back or bottom that must be there for it to count as there."""
+    """Fraction of a back or bottom that must be there for it to count as there."""
     walled: float = 0.6
-    """Share of the depth at which walls must stand on both sides: else it is a table, a rack, or a front alone."""
+    """Fraction of the depth at which walls must stand on both sides: else it is a table, a rack, or a front alone."""
     filled: float = 0.35
-    """Share of the height under them that drawers must fill where there is no door: fewer hang in a table."""
+    """Fraction of the height under them that drawers must fill where there is no door: fewer hang in a table."""
     least_depth: float = 0.08
-    """Share of the object's largest side below which a body is too shallow to be one."""
+    """Fraction of the object's largest side below which a body is too shallow to be one."""
     back: float = 0.006
     """Thickness of a back: the common 6 mm board."""
     bottom: float = 0.016
     """Thickness of a bottom: the common 16 mm board."""
-    thickness_share: float = 0.03
+    thickness_ratio: float = 0.03
     """Most of a bay's smaller side that either takes."""
     gap: float = 0.002
     """Room between a bottom and a door or drawer above it."""

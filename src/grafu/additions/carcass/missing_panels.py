@@ -21,17 +21,15 @@ from grafu.vocabulary import PartLabel
 
 DEFAULT = CarcassConfig()
 
-_GRID = np.linspace(0.12, 0.88, 13)  # shares of a bay's sides at which rays are cast: walls and edges lie outside
-_BELOW = (
-    0.2,
-    0.15,
-)  # share of the lowest front's height, and of the object's largest side, from which a bottom is looked for
+_GRID = np.linspace(0.12, 0.88, 13)  # fractions of a bay's sides at which rays are cast: walls and edges lie outside
+# A bottom is searched from this fraction of the lowest front's height, and of the object's largest side.
+_BELOW = (0.2, 0.15)
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class MissingPanel:
-    """A board that a carcass lacks, behind or below which doors and drawers: `covered` is the share that is there.
+    """A board that a carcass lacks, behind or below which doors and drawers: `covered` is the fraction that is there.
 
     `view` and `bay` say where, for `complete_carcass`.
     """
@@ -90,7 +88,7 @@ def _is_carcass(bay: Bay, unit: float, view: View, config: CarcassConfig) -> boo
 
 
 def _back_covered(view: View, bay: Bay) -> float:
-    """Returns the share of a bay's back at which something stands, seen through the fronts."""
+    """Returns the fraction of a bay's back at which something stands, seen through the fronts."""
     (x0, y0, z0), (x1, _, z1) = bay.low.tolist(), bay.high.tolist()
     x, z = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), z0 + _GRID * (z1 - z0), indexing="ij"))
     y = y0 + 0.3 * (float(bay.high[1]) - y0)  # past whatever frames the opening
@@ -99,7 +97,7 @@ def _back_covered(view: View, bay: Bay) -> float:
 
 
 def _bottom_covered(view: View, bay: Bay, unit: float) -> float:
-    """Returns the share of a bay's bottom at which something stands below it."""
+    """Returns the fraction of a bay's bottom at which something stands below it."""
     (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
     x, y = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), y0 + _GRID * (y1 - y0), indexing="ij"))
     start = z0 + min(_BELOW[0] * bay.lowest, _BELOW[1] * unit)

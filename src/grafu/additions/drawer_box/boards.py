@@ -1,4 +1,4 @@
-"""The boards that complete a drawer box, as boxes in the drawer's frame. It knows no parts and no other bodies.
+"""The boards that complete a drawer box, as boxes in the drawer's frame.
 
 A mere front gets all four within the room behind it; an incomplete box is completed from the boards that are there:
 their outer faces, their height, their length.
@@ -20,7 +20,7 @@ from grafu.joints.rail.body_region import DrawerFrame
 from grafu.refusal import Reason, Refusal
 
 _LET_IN = 2e-4  # metres by which a board is let into what it is fixed to, so that the two hold together
-_TO_FRONT = 0.05  # metres, and share of the depth, over which a board is lengthened to meet a front that is hollow
+_TO_FRONT = 0.05  # metres, and fraction of the depth, over which a board is lengthened to meet a front that is hollow
 _GRID = 5
 
 
@@ -92,7 +92,7 @@ def boards_to_complete(
 
 
 def _wall(frame: DrawerFrame, config: DrawerBoxConfig) -> float:
-    return min(config.wall, config.wall_share * min(frame.width, frame.height))
+    return min(config.wall, config.wall_ratio * min(frame.width, frame.height))
 
 
 def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: float) -> float:
@@ -145,7 +145,7 @@ def _boards(
     """
     (x0, y0, z0), (x1, y1, z1) = outline.outer.low.tolist(), outline.outer.high.tolist()
     left, right, back = outline.inner.tolist()
-    bottom = min(config.bottom, config.wall_share * min(frame.width, frame.height) / 2)
+    bottom = min(config.bottom, config.wall_ratio * min(frame.width, frame.height) / 2)
     found: dict[BoardName, Box] = {}
     front = float(_front_face(drawer, outline.outer, y0, frame))
     if "side_left" in missing:

@@ -21,7 +21,7 @@ from grafu.vocabulary import PartLabel
 _NEVER = frozenset(
     {PartLabel.TOP_PANEL, PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.FACE_FRAME, PartLabel.LEG}
 )
-_TOUCH = 0.004  # metres, or this share of the front's width, across which boards hang together
+_TOUCH = 0.004  # metres, or this fraction of the front's width, across which boards hang together
 
 
 def loose_boards(
@@ -48,7 +48,7 @@ def loose_boards(
         DrawerFrame(frame.origin, frame.rotation, frame.width, depth, frame.height),
         config,
     )
-    there = {name for name, share in verdict.shares if share >= config.covered}
+    there = {name for name, ratio in verdict.ratios if ratio >= config.covered}
     is_box = {"side_left", "side_right"} <= there and there & {"bottom", "back"}
     return held if is_box else ()
 

@@ -22,9 +22,9 @@ from grafu.refusal import Reason, Refusal
 _COLUMNS = (32, 16)  # across and upwards
 _SLICES = 6  # along the way into the cabinet
 _LEVELS = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)  # of all columns' depths: those that a box may end at
-_CROOKED = 0.02  # share of the depth by which a back may lie crooked before its columns differ in depth
+_CROOKED = 0.02  # fraction of the depth by which a back may lie crooked before its columns differ in depth
 _INSIDE = 5e-4  # metres by which the front's outline is drawn in: what merely touches it is not in the way
-_OPEN = 0.85  # share of the depth that a box takes where nothing but the furniture's rear edge ends it
+_OPEN = 0.85  # fraction of the depth that a box takes where nothing but the furniture's rear edge ends it
 _SHALLOW = "the space behind the front is only {:.3f} m deep"
 
 
@@ -159,12 +159,12 @@ def _widened(seed: Box, around: Box, pieces: Pieces, frame: DrawerFrame) -> Box:
 
 def _with_clearance(free: Box, frame: DrawerFrame, config: DrawerBoxConfig) -> Room | Refusal:
     """Returns the room for a box within a free space, or what it is too small in."""
-    side = min(config.side_gap, config.side_share * frame.width)
+    side = min(config.side_gap, config.side_ratio * frame.width)
     height, depth = float(free.size[2]), float(free.high[1]) - frame.depth
-    under, over = (min(gap, config.height_share * height) for gap in (config.under, config.over))
-    behind = min(config.behind, config.behind_share * depth)
+    under, over = (min(gap, config.height_ratio * height) for gap in (config.under, config.over))
+    behind = min(config.behind, config.behind_ratio * depth)
     high = float(free.high[2]) - over
-    most = max(config.highest, config.high_share * height)
+    most = max(config.highest, config.high_ratio * height)
     high = min(high, float(free.low[2]) + under + most)
     low = vec3(float(free.low[0]) + side, frame.depth, float(free.low[2]) + under)
     far = vec3(float(free.high[0]) - side, float(free.high[1]) - behind, high)

@@ -1,4 +1,4 @@
-"""What a drawer has of a box behind its front, told by rays on its real meshes. It adds nothing and knows no scene.
+"""What a drawer has of a box behind its front, told by rays on its real meshes. It adds nothing.
 
 All is measured in the drawer's frame (`DrawerFrame`): x across, y from the front into the cabinet, z up. A board counts
 where rays meet it on its side of the drawer: the bottom from above, sides and back from outside. Solid blocks are met
@@ -26,12 +26,12 @@ BoardName = Literal["side_left", "side_right", "back", "bottom"]
 BOARDS: tuple[BoardName, ...] = ("side_left", "side_right", "back", "bottom")
 
 _COLUMNS, _LEVELS = 16, 32
-_INNER = 0.8  # share of the width in which the bottom and the back are looked for: walls and overhangs lie outside
-_OUTER = 0.35  # share of the half width from which on a board is the one on that side
-_RIM = (0.006, 0.04)  # metres, share of the height: what stands higher than this above a bottom is a wall
-_WALL = 0.35  # share of the height that makes a wall where there is no bottom: a slider's bar is lower
-_BLOCK = 0.9  # share of the height from which on an upper side is that of a solid block, which has walls below it
-_FLAT = 0.12  # a part lower than this share of its smaller level side is a board or a tray
+_INNER = 0.8  # fraction of the width in which the bottom and the back are looked for: walls and overhangs lie outside
+_OUTER = 0.35  # fraction of the half width from which on a board is the one on that side
+_RIM = (0.006, 0.04)  # metres, fraction of the height: what stands higher than this above a bottom is a wall
+_WALL = 0.35  # fraction of the height that makes a wall where there is no bottom: a slider's bar is lower
+_BLOCK = 0.9  # fraction of the height from which on an upper side is that of a solid block, which has walls below it
+_FLAT = 0.12  # a part lower than this fraction of its smaller level side is a board or a tray
 _EPS = 1e-3
 
 
@@ -47,14 +47,14 @@ class _Wall:
 @final
 @dataclass(frozen=True, slots=True)
 class BoxVerdict:
-    """What a drawer has: the share of each board of its box that is there (0..1), and the boards that are missing.
+    """What a drawer has: the fraction of each board of its box that is there (0..1), and the boards that are missing.
 
     `inner_front` is the y of the front's inner face, metres in the drawer's frame; `why` says in words what was seen.
     """
 
     drawer: str
     kind: BoxKind
-    shares: tuple[tuple[BoardName, float], ...] = ()
+    ratios: tuple[tuple[BoardName, float], ...] = ()
     missing: tuple[BoardName, ...] = ()
     inner_front: float = 0.0
     why: str = ""
@@ -73,14 +73,14 @@ def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: Dra
     if bottom >= config.covered and floor < (_BLOCK - 0.5) * frame.height:
         wall = _Wall(floor, min(max(_RIM[0], _RIM[1] * frame.height), 0.3 * frame.height))
     left, right = (_side(caster, frame, inner, sign, wall) for sign in (-1.0, 1.0))
-    shares = {"side_left": left, "side_right": right, "back": _back(caster, frame, inner, wall), "bottom": bottom}
-    missing = tuple(name for name in BOARDS if shares[name] < config.covered)
+    ratios = {"side_left": left, "side_right": right, "back": _back(caster, frame, inner, wall), "bottom": bottom}
+    missing = tuple(name for name in BOARDS if ratios[name] < config.covered)
     if len(missing) == len(BOARDS):
         return _front_only(drawer, frame, "no board of a box is behind it")
-    stated = tuple((name, round(shares[name], 3)) for name in BOARDS)
+    stated = tuple((name, round(ratios[name], 3)) for name in BOARDS)
     if not missing:
         return BoxVerdict(drawer, "whole", stated, (), inner, "bottom, sides and back are there")
-    said = ", ".join(f"{name} covered to {shares[name]:.0%}" for name in missing)
+    said = ", ".join(f"{name} covered to {ratios[name]:.0%}" for name in missing)
     return BoxVerdict(drawer, "incomplete", stated, missing, inner, said)
 
 
@@ -108,7 +108,7 @@ def _inner_front(caster: RayCaster, frame: DrawerFrame) -> float:
 
 
 def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float) -> tuple[float, float]:
-    """Returns the share of the bottom that is there, and the z of its upper side."""
+    """Returns the fraction of the bottom that is there, and the z of its upper side."""
     x, y = (
         a.ravel()
         for a in np.meshgrid(
@@ -122,7 +122,7 @@ def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float) -> tuple[float,
 
 
 def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall: _Wall) -> float:
-    """Returns the share of one side's length at which a wall stands."""
+    """Returns the fraction of one side's length at which a wall stands."""
     y, z = (a.ravel() for a in np.meshgrid(_along(frame, inner), _levels(frame), indexing="ij"))
     outside = frame.width / 2 + _EPS
     origins = np.column_stack([np.full(y.size, sign * outside), y, z])
@@ -131,7 +131,7 @@ def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall
 
 
 def _back(caster: RayCaster, frame: DrawerFrame, inner: float, wall: _Wall) -> float:
-    """Returns the share of the back's width at which a wall stands."""
+    """Returns the fraction of the back's width at which a wall stands."""
     x = np.linspace(-_INNER, _INNER, _COLUMNS) * frame.width / 2
     x, z = (a.ravel() for a in np.meshgrid(x, _levels(frame), indexing="ij"))
     origins = np.column_stack([x, np.full(x.size, frame.depth + _EPS), z])

@@ -1,10 +1,10 @@
-"""Sizes of recessed grips. Lengths are metres, made for hands, and capped by shares of the front."""
+"""Sizes of recessed grips. Lengths are metres, made for hands, and capped by fractions of the front."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, final
 
-from grafu.joints.config import require_positive, require_shares
+from grafu.joints.config import require_positive, require_ratios
 
 
 class GripKind(StrEnum):
@@ -53,7 +53,7 @@ class GripConfig:
     """Which grip is carved, and what must remain.
 
     Raises:
-        ValueError: if a length or share is out of its range.
+        ValueError: if a length or fraction is out of its range.
     """
 
     kind: GripKind | Literal["auto"] = "auto"
@@ -74,18 +74,18 @@ class GripConfig:
     """Whether a groove or oval hole lies across the gripped edge instead of along it."""
     finger_room: float = 0.02
     """Free depth that fingers need behind a notch or hole, metres."""
-    length_share: float = 0.5
-    """Longest grip, as a share of the gripped edge."""
-    width_share: float = 0.3
-    """Widest grip, as a share of the front's side across the gripped edge."""
-    depth_share: float = 0.65
-    """Deepest groove, as a share of the front's thickness."""
+    length_ratio: float = 0.5
+    """Longest grip, as a fraction of the gripped edge."""
+    width_ratio: float = 0.3
+    """Widest grip, as a fraction of the front's side across the gripped edge."""
+    depth_ratio: float = 0.65
+    """Deepest groove, as a fraction of the front's thickness."""
     thickest: float = 0.05
     """Thickest front through which a hole or notch is cut, metres."""
 
     def __post_init__(self) -> None:
         require_positive(self, "margin", "wall", "finger_room", "thickest")
-        require_shares(self, "length_share", "width_share", "depth_share")
+        require_ratios(self, "length_ratio", "width_ratio", "depth_ratio")
         own = (*(self.size or ()), *(() if self.depth is None else (self.depth,)))
         if not all(length > 0 for length in own):
             raise ValueError(f"a grip's own size and depth must be above 0: got {self.size} and {self.depth}")

@@ -17,19 +17,20 @@ from grafu.refusal import Reason
 
 _SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
 _INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn
-_ALONG = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)  # shares of the gripped edge, from the best place
+_ALONG = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)  # fractions of the gripped edge, from the best place
 _FINGERS = GripSize(0.02, 0.012)  # metres: one finger's width and thickness
 _SHALLOW = 0.003  # metres: a groove less deep is none
 _LINES = (21, 17)  # near enough for beads and narrow mouldings
 _REACH = 1.0  # metres above the floor: where tall doors are gripped (EN 12098 and joiners: 0.9 to 1.1)
-_TALL, _HIGH, _LOW = 0.5, 1.2, 0.25  # metres: doors are gripped off their middle; hung high; share of a door's height
-_EVEN = 0.25  # steps in the face where a groove is cut, as a share of its depth
+# Metres: doors are gripped off their middle; hung high. Fraction of a door's height.
+_TALL, _HIGH, _LOW = 0.5, 1.2, 0.25
+_EVEN = 0.25  # steps in the face where a groove is cut, as a fraction of its depth
 _STEP = 0.003  # metres: steps in the face where a hole is cut
 _STEEPEST = 0.35  # metres per metre: how much a bowed front may slope where it is carved
-_RIM = 0.12  # share of a front's sides that a margin takes at most
+_RIM = 0.12  # fraction of a front's sides that a margin takes at most
 _BLUNT = 0.0015  # metres: how far edges may be rounded, and be straight all the same
 _BEFORE = 0.012  # metres: a finger's thickness before the front
-_SHOWN = 0.8  # share of a hole behind which fingers must find room
+_SHOWN = 0.8  # fraction of a hole behind which fingers must find room
 _AWAY = 0.06  # metres: what is attached and stands farther before the front leaves the hand room
 _CLEAR = 0.004  # metres between a grip and what is attached
 
@@ -41,8 +42,8 @@ def spots(front: Front, config: GripConfig, kind: GripKind, scale: float, wish: 
     """
     margin = _margin(front, config, scale)
     wanted = config.wanted(kind)
-    length = min(wanted.length * scale, config.length_share * front.length)
-    width = min(wanted.width * scale, config.width_share * front.breadth)
+    length = min(wanted.length * scale, config.length_ratio * front.length)
+    width = min(wanted.width * scale, config.width_ratio * front.breadth)
     if kind is GripKind.HOLE and wanted.length == wanted.width:
         length = width = min(length, width)
     edge = float(front.box.high[1])
@@ -120,7 +121,7 @@ def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | R
         return Reason.NO_THICKNESS
     face = float(np.median(ground.face))
     room = float((face - ground.back).min())
-    depth = min(cut.size.depth, config.depth_share * room, room - config.wall * site.scale)
+    depth = min(cut.size.depth, config.depth_ratio * room, room - config.wall * site.scale)
     if depth < _SHALLOW * site.scale:
         return Reason.TOO_THIN
     if float(np.ptp(ground.face)) > _EVEN * depth:

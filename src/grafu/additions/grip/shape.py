@@ -100,9 +100,9 @@ Outline = Float[np.ndarray, "n 2"]
 _QUARTER = 6  # straight pieces of a quarter turn
 _STEPS = 5  # levels of a rounded bottom
 _RIM = 3  # slices of an eased rim
-_BOTTOM = 0.7  # the radius of a groove's rounded bottom, as a share of its depth
+_BOTTOM = 0.7  # the radius of a groove's rounded bottom, as a fraction of its depth
 _FLAT = 1e-9  # metres
-_EASED = 0.15  # the radius of a hole's rounded rim, as a share of the front's thickness
+_EASED = 0.15  # the radius of a hole's rounded rim, as a fraction of the front's thickness
 
 
 @final

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
-from grafu.joints.config import require_not_negative, require_positive, require_shares
+from grafu.joints.config import require_not_negative, require_positive, require_ratios
 
 _COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
 
@@ -14,7 +14,7 @@ class GraspConfig:
     """What counts as room for fingers; see `at_scale` for models of another size.
 
     Raises:
-        ValueError: if a length is not above 0, or `lever` is no share.
+        ValueError: if a length is not above 0, or `lever` is no fraction.
     """
 
     gap: float = 0.012
@@ -48,11 +48,11 @@ class GraspConfig:
     pinch: float = 0.045
     """The thickest thing that is taken between thumb and fingers."""
     lever: float = 0.5
-    """Share of the way from the hinge to the free edge beyond which a door can be pulled open."""
+    """Fraction of the way from the hinge to the free edge beyond which a door can be pulled open."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_shares(self, "lever")
+        require_ratios(self, "lever")
 
 
 @final
@@ -61,7 +61,7 @@ class HandleConfig:
     """Which handles are added, how large, and where; see `size_factor` for models of another scale.
 
     Raises:
-        ValueError: if a length or share is out of its range, or there are fewer than two poses.
+        ValueError: if a length or fraction is out of its range, or there are fewer than two poses.
     """
 
     style: str = ""
@@ -85,7 +85,7 @@ class HandleConfig:
     high: float = 0.25
     """Drawer fronts higher than this have their handle in the upper part."""
     most: float = 0.5
-    """Largest share of the front's side that a handle takes along it."""
+    """Largest fraction of the front's side that a handle takes along it."""
     margin: float = 0.006
     """What a handle keeps from the border of its front."""
     weak: float = 0.65

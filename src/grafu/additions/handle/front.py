@@ -80,7 +80,7 @@ def front_of(scene: Scene, moving_id: str) -> Front:
     """Returns the front of a moving body of the scene, its handles left out of account.
 
     Raises:
-        KeyError: if the scene knows no such moving body, or not how it moves.
+        KeyError: if the scene has no such moving body, or no motion for it.
     """
     mesh = _body_mesh(scene, moving_id)
     joint_motion = scene.joint_motions[moving_id]

@@ -52,7 +52,7 @@ def find_grasp(
     doors beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, if they exist already.
 
     Raises:
-        KeyError: if the scene knows no such moving body, or not how it moves.
+        KeyError: if the scene has no such moving body, or no motion for it.
     """
     handle = held_by_label(scene, moving_id)
     return handle or _without_label(scene, moving_id, (reliefs or Reliefs(scene)).of(moving_id), config)

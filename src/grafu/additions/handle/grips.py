@@ -1,6 +1,6 @@
 """Grips that are geometry of a door or drawer itself: what stands out, holes, channels, notches, free edges.
 
-It weighs what `finger_room` finds and states the confidence of each; it knows no handle parts.
+It weighs what `finger_room` finds and states the confidence of each.
 
 Cells that lie together on a relief, and their extents.
 """
@@ -127,7 +127,7 @@ def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarra
     if lip < relief.plane - s * STANDS_OUT:
         out = length + relief.cell >= s * config.knob
         return Grip("edge", 0.95, "a grip of its own mesh stands out of it", center, length) if out else None
-    within = _share_within(relief, cluster)
+    within = _ratio_within(relief, cluster)
     narrow = min(cluster.extent(relief, 0), cluster.extent(relief, 1)) + relief.cell
     if within > 0.9 and any(way ^ 1 in runs for way in runs) and narrow >= s * config.hole:
         return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
@@ -244,8 +244,8 @@ def _meets_border(relief: Relief, cluster: Cluster) -> bool:
     return bool((ends <= 1.2 * relief.cell).any())
 
 
-def _share_within(relief: Relief, cluster: Cluster) -> float:
-    """Returns the share of a cluster's cells that lie in the front's outline."""
+def _ratio_within(relief: Relief, cluster: Cluster) -> float:
+    """Returns the fraction of a cluster's cells that lie in the front's outline."""
     box, (i, j) = relief.outline, cluster.cells.T
     u, v = relief.u[i], relief.v[j]
     return float(np.mean((u > box.low[0]) & (u < box.high[0]) & (v > box.low[2]) & (v < box.high[2])))

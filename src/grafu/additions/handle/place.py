@@ -156,16 +156,16 @@ def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple
     most = config.most * side
     seen = set()
     for flat in _FLATTER:
-        for share in _SMALLER:
-            length = min(share * style.length, most)
+        for ratio in _SMALLER:
+            length = min(ratio * style.length, most)
             scale = length / style.length if style.template.family == "knob" else 1.0
             size = (style.template, length, flat * scale * style.protrusion)
             if length >= s * _LEAST and size[1:] not in seen:
                 seen.add(size[1:])
                 yield size
-    for name, share, out in _SPARE:
+    for name, ratio, out in _SPARE:
         template = named_template(name, {})
-        length = min(share * s * template.natural.length, most)
+        length = min(ratio * s * template.natural.length, most)
         if length >= s * _LEAST:
             yield template, length, out * s * template.natural.protrusion
 

@@ -28,7 +28,7 @@ _CELLS = 12_000
 _MARGIN = 0.036  # metres around the front that are looked at: three fingers' thickness
 _LEAD = 0.09  # metres before the front where rays set out: beyond any grip
 _BEHIND = 0.1  # metres behind the front's plane up to which anything matters to fingers
-_AREA = 0.15  # share of the area that lies no deeper than the front's plane: a grip that stands out covers less
+_AREA = 0.15  # fraction of the area that lies no deeper than the front's plane: a grip that stands out covers less
 _FAR = 1e3  # metres: what sees nothing sees this far
 _BEFORE = 0.002  # metres: what ends this little behind a front's foremost plane stands before it
 _BODY = 0.04  # metres behind the plane within which the front's outline is taken
@@ -87,7 +87,7 @@ class Reliefs:
         """Returns the relief of a moving body's front.
 
         Raises:
-            KeyError: if the scene knows no such moving body, or not how it moves.
+            KeyError: if the scene has no such moving body, or no motion for it.
         """
         if moving_id not in self._found:
             self._found[moving_id] = self._made(moving_id)
@@ -139,7 +139,7 @@ def _looked_at(front: Front, factor: float, moving: RayCaster, others: RayCaster
 
 
 def _plane(face: Grid) -> float:
-    """Returns the depth that a share of the moving body's visible cells does not exceed; 0 where nothing is hit."""
+    """Returns the depth that a fraction of the moving body's visible cells does not exceed; 0 where nothing is hit."""
     hits = face[np.isfinite(face)]
     return float(np.quantile(hits, _AREA)) if len(hits) else 0.0
 

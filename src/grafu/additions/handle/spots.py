@@ -1,6 +1,6 @@
 """Where on a front a handle belongs, best first: from the motion, from habit, and from the model's other handles.
 
-It casts no rays and knows no neighbours.
+It casts no rays.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,8 +16,8 @@ from grafu.additions.handle.style import Sibling
 from grafu.geometry.arrays import Mat3, Vec3
 
 _FIFTH = 0.2  # of a front's side: the farthest that a handle lies from the free edge, where there is room for more
-_INSETS = (1.0, 0.7, 1.4, 0.5, 1.9)  # shares of the usual inset that are tried
-_ALONG = (0.0, 0.12, -0.12, 0.25, -0.25)  # shares of a side by which a handle is moved along its edge
+_INSETS = (1.0, 0.7, 1.4, 0.5, 1.9)  # fractions of the usual inset that are tried
+_ALONG = (0.0, 0.12, -0.12, 0.25, -0.25)  # fractions of a side by which a handle is moved along its edge
 _BOTH = 0.65  # of a drawer's width: what two handles take of it at most
 _FROM_END = 0.1  # metres from the end of a door to the near end of its handle
 _LEVEL = 0.7  # cosine: fronts that look up more than this are lids
@@ -108,9 +108,9 @@ def _hinted(relief: Relief, extent: Extent, hint: Vec3, side: Side | None, confi
     box = relief.outline
     if not (box.low[0] < u < box.high[0] and box.low[2] < v < box.high[2]):
         return
-    share = {"left": box.high[0] - u, "right": u - box.low[0]}.get(side or "", np.inf) / box.size[0]
-    share = min(share, {"bottom": box.high[2] - v, "top": v - box.low[2]}.get(side or "", np.inf) / box.size[2])
-    if share >= 0.5:
+    ratio = {"left": box.high[0] - u, "right": u - box.low[0]}.get(side or "", np.inf) / box.size[0]
+    ratio = min(ratio, {"bottom": box.high[2] - v, "top": v - box.low[2]}.get(side or "", np.inf) / box.size[2])
+    if ratio >= 0.5:
         upright = extent.turns and side in ("left", "right")
         yield from _fitting(relief, extent, [(u, v)], _above(side, upright, extent), "where it was predicted", config)
 
@@ -133,8 +133,8 @@ def _on_drawer(relief: Relief, extent: Extent, siblings: Sequence[Sibling], conf
         level = 1.0
     pairs = box.size[0] > s * config.wide and 2 * extent.along < _BOTH * box.size[0]
     wants_two = _pairs(alike) if alike else pairs
-    for share in dict.fromkeys((level, 0.5, 0.7, 0.82, 0.3, 0.9, 0.18)):
-        v = float(box.low[2]) + share * height
+    for ratio in dict.fromkeys((level, 0.5, 0.7, 0.82, 0.3, 0.9, 0.18)):
+        v = float(box.low[2]) + ratio * height
         if wants_two:
             apart = [float(box.low[0]) + part * float(box.size[0]) for part in (0.25, 0.75)]
             yield from _fitting(relief, extent, [(u, v) for u in apart], "top", "two on a wide drawer", config)
@@ -180,7 +180,7 @@ def _insets(
     if not upright:
         usual = max(usual, wide / 2 + 0.4 * usual)
     found = [_sibling_inset(q) for q in alike]
-    return list(dict.fromkeys([*found[:1], *(share * usual for share in _INSETS)]))
+    return list(dict.fromkeys([*found[:1], *(ratio * usual for ratio in _INSETS)]))
 
 
 def _sibling_inset(sibling: Sibling) -> float:
@@ -224,7 +224,7 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
 def _on_flap(relief: Relief, extent: Extent, side: Side, config: HandleConfig) -> Iterator[Spot]:
     s, box = relief.factor, relief.outline
     usual = min(s * config.inset, _FIFTH * float(box.size[2]))
-    insets = [extent.across / 2 + s * config.margin] if extent.at_edge else [share * usual for share in _INSETS]
+    insets = [extent.across / 2 + s * config.margin] if extent.at_edge else [ratio * usual for ratio in _INSETS]
     for inset in insets:
         v = float(box.low[2]) + inset if side == "bottom" else float(box.high[2]) - inset
         for aside in _ALONG:

@@ -21,7 +21,7 @@ FINISHES: dict[str, Material] = {"steel": STEEL, "nickel": NICKEL, "brass": BRAS
 
 _KNOB = 0.05  # metres: what is no longer either way than this is a knob
 _SQUARE = 1.7  # of its shorter side: a knob is no longer than this
-_SHARE = 0.3  # of the fronts' longer sides: a good length for a bar
+_RATIO = 0.3  # of the fronts' longer sides: a good length for a bar
 _BARS = (0.096, 0.32)  # metres: the shortest and longest bars that are chosen by the size of fronts
 
 
@@ -103,7 +103,7 @@ def _length(template: HandleTemplate, fronts: Sequence[Front], factor: float) ->
     natural = factor * template.natural.length
     if template.family != "bar" or not fronts:
         return natural
-    wanted = _SHARE * float(np.median([max(f.width, f.height) for f in fronts]))
+    wanted = _RATIO * float(np.median([max(f.width, f.height) for f in fronts]))
     low, high = (factor * length for length in _BARS)
     return min(max(wanted, low), max(high, natural))
 

@@ -188,7 +188,7 @@ def _home(compartments: Sequence[Compartment], hint: PanelHint) -> int | None:
 
 
 def _shared_part(one: Box, other: Box) -> float:
-    """Returns the product of the shares of `other`'s sides that lie in `one`; flat sides count by their place."""
+    """Returns the product of the fractions of `other`'s sides that lie in `one`; flat sides count by their place."""
     low, high = np.maximum(one.low, other.low), np.minimum(one.high, other.high)
     sides = np.maximum(other.size, 1e-3 * float(other.size.max()) + 1e-9)
     return float(np.prod(np.clip((high - low + 1e-9) / sides, 0.0, 1.0)))

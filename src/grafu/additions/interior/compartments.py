@@ -1,7 +1,7 @@
 """Compartments: maximal empty boxes inside storage furniture, from real meshes; labels are not needed.
 
 Cells say where there is room, rays where exactly it ends. A compartment is a box: rooms of other shapes hold several or
-none. It knows nothing of panels.
+none.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from grafu.additions.interior.surroundings import Surroundings
 from grafu.geometry.box import Box
 from grafu.scene.scene import Scene
 
-_DOOR_SHARE = 0.3  # of an opening that moving bodies must cover where floor or ceiling is missing
+_DOOR_RATIO = 0.3  # of an opening that moving bodies must cover where floor or ceiling is missing
 _CLOSED = 0.6  # of a face that walls cover for it to be no opening
 _MOST = 60  # compartments of one object; a pigeonhole desk has fewer
 
@@ -85,15 +85,15 @@ def _compartment(
     still = [face.still for face in faces]
     fronts = (LID,) if opens == "z" else (2, 3) if opens == "y" else (0, 1)
     doors = [faces[front].moving for front in fronts]
-    opening = fronts[int(np.argmax(doors))] if max(doors) >= _DOOR_SHARE else None
+    opening = fronts[int(np.argmax(doors))] if max(doors) >= _DOOR_RATIO else None
     opening = next((f for f in fronts if still[f] < _CLOSED), None) if opening is None else opening
     if opening is None:
         return None
     depth = opening // 2
     sides = [f for f in range(4) if f // 2 != depth]
-    is_walled = all(still[f] >= config.wall_share for f in sides)
-    has_door = faces[opening].moving >= _DOOR_SHARE
-    held = (still[f] >= config.wall_share or around.meets_a_drawer(box, f) for f in (4, 5))
+    is_walled = all(still[f] >= config.wall_ratio for f in sides)
+    has_door = faces[opening].moving >= _DOOR_RATIO
+    held = (still[f] >= config.wall_ratio or around.meets_a_drawer(box, f) for f in (4, 5))
     is_held = has_door or all(held)  # a door's cells are held one by one
     if not (is_walled and is_held):
         return None

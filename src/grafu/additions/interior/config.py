@@ -1,6 +1,6 @@
 """What an interior is made of, and how small a compartment may be.
 
-Lengths are metres, held between shares of the object: so a model that is drawn ten times too large or too small gets
+Lengths are metres, held between fractions of the object: so a model that is drawn ten times too large or too small gets
 panels in its own scale.
 """
 
@@ -16,7 +16,7 @@ class InteriorConfig:
     """The sizes of panels, and of compartments worth furnishing.
 
     Raises:
-        ValueError: if a length is not positive, or a share is not in 0..1.
+        ValueError: if a length is not positive, or a fraction is not in 0..1.
     """
 
     thickness: float = 0.018
@@ -24,7 +24,7 @@ class InteriorConfig:
     inset: float = 0.02
     """From the front of the compartment (the inner face of its doors): room for what doors carry inside."""
     deepest_inset: float = 0.4
-    """Share of a compartment's depth up to which a panel is set back to clear a door's swing or a hinge."""
+    """Fraction of a compartment's depth up to which a panel is set back to clear a door's swing or a hinge."""
     least_side: float = 0.1
     """Smallest width, height and depth of a compartment worth furnishing; smaller holds nothing that needs a shelf."""
     least_pitch: float = 0.09
@@ -40,9 +40,9 @@ class InteriorConfig:
     touch: float = 0.0015
     """Farthest that a wall may lie from a panel's edge and still carry it."""
     carried: float = 0.35
-    """Share of each half of a panel's end that must touch the wall: pins at front and back hold a shelf."""
-    wall_share: float = 0.5
-    """Share of a compartment's side that must be wall (rails and posts of open frames are less)."""
+    """Fraction of each half of a panel's end that must touch the wall: pins at front and back hold a shelf."""
+    wall_ratio: float = 0.5
+    """Fraction of a compartment's side that must be wall (rails and posts of open frames are less)."""
     cells: int = 110
     """Cells along the object's longest side in which compartments are looked for."""
 
@@ -50,7 +50,7 @@ class InteriorConfig:
         lengths = ("thickness", "least_side", "least_pitch", "shelf_pitch", "divider_pitch", "hanging_height", "touch")
         require_positive(self, *lengths, "most_panels", "cells")
         require_not_negative(self, "inset")
-        for name in ("deepest_inset", "carried", "wall_share"):
+        for name in ("deepest_inset", "carried", "wall_ratio"):
             if not 0 <= getattr(self, name) <= 1:
                 raise ValueError(f"`InteriorConfig.{name}` must be in 0..1: got {getattr(self, name)}")
 

@@ -94,7 +94,7 @@ def clearing_of(scene: Scene) -> Clearing:
 
 
 _ALONG = 16  # rays along an edge
-_BACK = 0.3  # share of the rays towards the back that make it a wall
+_BACK = 0.3  # fraction of the rays towards the back that make it a wall
 BEYOND = (
     12.0  # cells beyond a compartment's side at which its wall may be met: brackets stand before it, or it is askew
 )

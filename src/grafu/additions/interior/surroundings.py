@@ -1,7 +1,4 @@
-"""What bounds a box of free space: rays from its middle to the still and the moving meshes around it.
-
-It knows no compartments: a box goes in, six faces come out.
-"""
+"""What bounds a box of free space: rays from its middle to the still and the moving meshes around it."""
 
 from dataclasses import dataclass
 from typing import final
@@ -22,13 +19,13 @@ _NEAR = 10.0  # cells behind the nearest hit at which a wall still counts: brack
 _SKIN = 0.05  # cells around a part's box in which a hit is still on the part
 _MOSTLY = 0.5  # of a face that one drawer takes to close it
 _BEYOND = 3.0  # cells between a box of free cells and such a drawer: what a drawer takes is counted in whole cells
-_WALL = 0.1  # share of the hits on a face that makes a part one of its walls
+_WALL = 0.1  # fraction of the hits on a face that makes a part one of its walls
 
 
 @final
 @dataclass(frozen=True)
 class Face:
-    """One side of an empty box: its place along its axis, the shares of still and of moving surface, and its walls."""
+    """One side of an empty box: its place along its axis, fractions of static and moving surface, its walls."""
 
     at: float
     still: float

@@ -55,7 +55,7 @@ _CALLED = 0.5  # of what covers at the rim: bars around so much that is called a
 @final
 @dataclass(frozen=True)
 class TopVerdict:
-    """Whether there is a top, by what share, and why; and the top to add where there is none.
+    """Whether there is a top, by what fraction, and why; and the top to add where there is none.
 
     `coverage` holds the paper's two occupancy maps (None: nothing has a face). `addition` is None where a top is there,
     and where none can be put: `why` says which. `close_call` says that the maps alone did not decide. `others` are the

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, final
 
-from grafu.joints.config import require_not_negative, require_positive, require_shares
+from grafu.joints.config import require_not_negative, require_positive, require_ratios
 
 TopShape = Literal["rectangle", "rounded", "chamfered"]
 
@@ -17,13 +17,13 @@ class TopConfig:
     """What counts as a top, and how an added one looks.
 
     Raises:
-        ValueError: if a share is not between 0 and 1, or a length is negative.
+        ValueError: if a fraction is not between 0 and 1, or a length is negative.
     """
 
     coverage: float = 0.6
-    """Share of what stands at the rim that must be covered for a top to count as there (official 7.6)."""
+    """Fraction of what stands at the rim that must be covered for a top to count as there (official 7.6)."""
     doubt: float = 0.2
-    """Distance of the covered share from `coverage` within which labels, bars and predictions are asked too."""
+    """Distance of the covered fraction from `coverage` within which labels, bars and predictions are asked too."""
     recess: float = 0.05
     """How far below its rim a surface still is the top: fillets and let-in tops are deeper than 1 % of the height."""
     gallery: float = 0.15
@@ -41,10 +41,10 @@ class TopConfig:
     gap: float = 0.001
     """Air between an added top and what moves below or before it."""
     seat: float = 0.0003
-    """How deep a top may reach into what carries it or stands in it, as a share of the largest side."""
+    """How deep a top may reach into what carries it or stands in it, as a fraction of the largest side."""
 
     def __post_init__(self) -> None:
-        require_shares(self, "coverage")
+        require_ratios(self, "coverage")
         require_positive(self, "thickness")
         require_not_negative(self, "doubt", "recess", "gallery", "front", "side", "back", "gap", "seat")
 

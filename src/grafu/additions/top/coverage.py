@@ -23,7 +23,7 @@ _CRACK = 0.02  # metres: what one looks through between boards and behind handle
 _STEP = 0.03  # metres between the rims of two openings that one top closes
 _ABOVE = 0.06  # metres above a rim at which things still stand at it
 _NICHE = 0.45  # of the height: lower down, what is open in front is a niche or an open drawer, no place for a top
-_NARROW = (0.12, 0.25)  # metres, share of the plan's smaller side: splayed legs stand so far beyond a table's top
+_NARROW = (0.12, 0.25)  # metres, fraction of the plan's smaller side: splayed legs stand so far beyond a table's top
 _SLANTS = (0.1, 3.0)  # rise per length: a rim that slants is a flap's or a lid's, no flat top lies on it
 _OVER = 0.5  # of an opening
 _LEAST = 0.15  # of the footprint: smaller holes are sinks, cable outlets and gaps
@@ -60,7 +60,7 @@ class Coverage(ArrayValue):
 
     @property
     def ratio(self) -> float:
-        """The share of everything that is covered near the top; 1 where there is nothing to cover."""
+        """The fraction of everything that is covered near the top; 1 where there is nothing to cover."""
         area = int(self.everything.sum())
         return float((self.everything & self.near_top).sum()) / area if area else 1.0
 

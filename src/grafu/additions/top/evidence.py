@@ -68,9 +68,9 @@ def plate_in(roles: Roles, views: Views, coverage: Coverage, config: TopConfig, 
             continue
         own = np.isfinite(heights_of(part.mesh.triangles, views.grid))
         spanned = _within(part.box, views)
-        share = float(own.sum()) / max(int(spanned.sum()), 1)
+        ratio = float(own.sum()) / max(int(spanned.sum()), 1)
         least = _NAMED_PLATE if part.label is PartLabel.TOP_PANEL else _PLATE
-        if share >= least and (spanned & coverage.everything).sum() >= _SPANS * coverage.everything.sum():
+        if ratio >= least and (spanned & coverage.everything).sum() >= _SPANS * coverage.everything.sum():
             return part
     return None
 

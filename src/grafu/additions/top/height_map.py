@@ -170,8 +170,8 @@ def _rise_of_uprights(flat: Corners, z: Rises, at: Float[np.ndarray, "t 2"]) -> 
         for k in range(3):
             a, b, low, high = along[:, k], along[:, (k + 1) % 3], z[:, k], z[:, (k + 1) % 3]
             level = np.abs(b - a) < 1e-9
-            share = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
-            rise = np.where(level, np.maximum(low, high), low + share * (high - low))
+            ratio = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
+            rise = np.where(level, np.maximum(low, high), low + ratio * (high - low))
             met = (t >= np.minimum(a, b) - 1e-9) & (t <= np.maximum(a, b) + 1e-9)
             found = np.where(met, np.maximum(found, rise), found)
     return np.where(np.isfinite(found), found, -_least(-z))

@@ -252,7 +252,7 @@ def _joined(body: BaseGeometry, coverage: Coverage, metre: float) -> BaseGeometr
 
 
 def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:
-    """Returns the polygons of a shape that hold a share of the openings; all of it, where there are several."""
+    """Returns the polygons of a shape that hold a fraction of the openings; all of it, where there are several."""
     x, y = coverage.grid.centers(coverage.opened).T
     held = [p for p in polygons_in(shape) if shapely.contains_xy(p, x, y).sum() > 0.02 * len(x)]
     return shapely.union_all(held) if held else EMPTY

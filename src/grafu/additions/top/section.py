@@ -121,8 +121,8 @@ def polygons_in(shape: BaseGeometry) -> list[Polygon]:
 
 
 def _at_level(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"], height: float) -> Float[np.ndarray, "n 2"]:
-    share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
-    return a[:, :2] + share[:, None] * (b[:, :2] - a[:, :2])
+    ratio = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
+    return a[:, :2] + ratio[:, None] * (b[:, :2] - a[:, :2])
 
 
 Ring = Float[np.ndarray, "n 2"]

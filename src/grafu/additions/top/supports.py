@@ -1,8 +1,8 @@
 """What a top alone joined: pedestals, end panels, walls and posts that stand apart and end at one height.
 
 Seen from above only, as the coverage test is: supports are what ends at a level, and furniture is one piece where they
-stand around most of its footprint with nothing of about their height between them. It knows neither labels nor joints,
-so what one top lay over and what was built as two pieces of one height cannot be told apart.
+stand around most of its footprint with nothing of about their height between them. Labels and
+joints are not read: two pieces of one height may have lain under one top, or may be built so.
 """
 
 from dataclasses import dataclass

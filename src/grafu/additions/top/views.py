@@ -27,7 +27,7 @@ _FACING = 0.3  # of a unit normal: what looks further away from the eye is an ed
 _BODY = 0.25  # of all that is seen: a still body that shows less is a runner, a rail, a cable tray
 _LEGS = 0.15  # of all that is seen: legs that show less are fittings
 _EYES = ((0, 1.0), (0, -1.0), (1, -1.0))  # along X to the right and to the left, and along Y in front
-_METAL = 0.5  # metallic share of a material, from which on it is metal
+_METAL = 0.5  # metallic fraction of a material, from which on it is metal
 _NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is the body's only where there is no other
 
 Triangles = Float[np.ndarray, "n 3 3"]

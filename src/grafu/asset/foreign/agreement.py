@@ -25,13 +25,14 @@ Boxes = Float[np.ndarray, "_ 2 3"]  # low and high corners
 _ASKED = 64  # points of each of the asset's parts
 _DRAWN = 30_000  # points of the whole prediction, spread evenly: a part is as finely drawn as any other
 _LEAST_DRAWN, _MOST_CORNERS = 100, 5_000
-_FAR = 0.05  # share of the object's size beyond which a point is simply elsewhere
-_LOOSE_BOX, _LOOSE_MESH = 0.02, 1e-4  # what a part's likeness to the whole predicted part weighs, in shares of the size
-_SLACK = 0.005  # share of the size by which boxes are grown before they are compared: sheets have volume then
+_FAR = 0.05  # fraction of the object's size beyond which a point is simply elsewhere
+# The weight of a part's likeness to the whole predicted part, as fractions of the size.
+_LOOSE_BOX, _LOOSE_MESH = 0.02, 1e-4
+_SLACK = 0.005  # fraction of the size by which boxes are grown before they are compared: sheets have volume then
 _REGRESSED = 0.1  # up to which boxes that lie apart are still taken in order: regressed ones err by 0.06 to 0.08
 _FEW = 100  # points that are as quickly taken all
 _TRIED = 100  # predicted parts that are compared with one of the asset's: those that may be likest, by their boxes
-_UNMATCHED = 0.25  # what a predicted body that covers no part adds, in shares of the size
+_UNMATCHED = 0.25  # what a predicted body that covers no part adds, in fractions of the size
 
 LEAST_OVERLAP = 0.3
 """The mean overlap of bodies below which a prediction is held to be that of another object."""
@@ -43,7 +44,7 @@ class Agreement:
     """What comes of a frame.
 
     `part_of` says for each of the asset's parts which predicted part covers it (None: not to be said); `residual` is
-    how far the faces of the bodies' boxes lie apart, the mean as a share of the object's largest side; `overlap` is
+    how far the faces of the bodies' boxes lie apart, the mean as a fraction of the object's largest side; `overlap` is
     the bodies' mean intersection over union.
     """
 

@@ -55,8 +55,8 @@ def _distance(axis: Axis, box: Box) -> float:
     return float(np.linalg.norm(outside))
 
 
-_EXACT = 0.002  # a residual below which nothing needs to be turned straight, as a share of the size
-_WHOLE = 0.6  # what share of the best overlap as a whole a frame must reach to be looked at
+_EXACT = 0.002  # a residual below which nothing needs to be turned straight, as a fraction of the size
+_WHOLE = 0.6  # what fraction of the best overlap as a whole a frame must reach to be looked at
 _SOUND = 1e-9  # a residual that is rounding
 _GAIN = 0.9  # what must be left of a residual for another round to be worth it
 _ALIKE = (1.2, 0.005)  # frames fit alike whose residuals are within this factor and this addition of the best

@@ -1,1 +1,1 @@
-"""Inputs made from functional graphs by taking things away (supplement, Data Augmentation). It knows no files."""
+"""Inputs made from functional graphs by taking things away (supplement, Data Augmentation)."""

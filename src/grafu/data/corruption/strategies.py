@@ -55,10 +55,10 @@ def dropped_handful(target: FunctionalGraph, rng: np.random.Generator, config: C
     return _without(target, [n.id for n in target.nodes], handful, rng)
 
 
-def dropped_share(target: FunctionalGraph, rng: np.random.Generator, config: CorruptionConfig) -> FunctionalGraph:
+def dropped_ratio(target: FunctionalGraph, rng: np.random.Generator, config: CorruptionConfig) -> FunctionalGraph:
     """Returns the graph without 30 to 50 % of its parts, none of them a door or drawer, contacts only."""
     still = still_nodes(target)
-    count = share_of(len(target.nodes), 0.3, 0.5, rng)
+    count = ratio_of(len(target.nodes), 0.3, 0.5, rng)
     return _without(target, still, capped(count, config.max_dropped), rng)
 
 
@@ -66,7 +66,7 @@ def isolated_door(target: FunctionalGraph, rng: np.random.Generator, config: Cor
     """Returns the graph with all its parts but no edge at one of its doors, contacts only."""
     doors = [n.id for n in target.labelled(PartLabel.DOOR)]
     if not doors:
-        return dropped_share(target, rng, config)
+        return dropped_ratio(target, rng, config)
     (door,) = some(doors, 1, rng)
     return as_contacts(without_edges(target, [e for e in target.edges if door in ends_of(e)]))
 
@@ -80,7 +80,7 @@ def _without_labels(
     """Where fewer may go than there are, one of each label goes first: a lone top is not spared by a row of handles."""
     found = [n.id for n in target.labelled(*labels)]
     if not found:
-        return dropped_share(target, rng, config)
+        return dropped_ratio(target, rng, config)
     count = min(capped(len(found), config.max_dropped), len(target.nodes) - 1)
     each = [min(some([n.id for n in target.labelled(label)], 1, rng)) for label in labels]
     dropped = frozenset(each[:count])
@@ -98,7 +98,7 @@ def dropped_edges(target: FunctionalGraph, rng: np.random.Generator) -> Function
     An edge goes in both directions at once. The authors' code stores each edge twice and draws the two on their own, so
     that most of what it removes survives one way (official.md 5); that is not copied.
     """
-    count = share_of(len(target.edges), 0.25, 0.5, rng)
+    count = ratio_of(len(target.edges), 0.25, 0.5, rng)
     picked = rng.choice(len(target.edges), count, replace=False) if count else ()
     return without_edges(target, {target.edges[int(k)] for k in picked})
 
@@ -106,7 +106,7 @@ def dropped_edges(target: FunctionalGraph, rng: np.random.Generator) -> Function
 def dropped_nodes(target: FunctionalGraph, rng: np.random.Generator, config: CorruptionConfig) -> FunctionalGraph:
     """Returns the graph without 30 to 50 % of its nodes, doors and drawers among them (one node always stays)."""
     ids = [n.id for n in target.nodes]
-    count = min(capped(share_of(len(ids), 0.3, 0.5, rng), config.max_dropped), max(len(ids) - 1, 0))
+    count = min(capped(ratio_of(len(ids), 0.3, 0.5, rng), config.max_dropped), max(len(ids) - 1, 0))
     return without_nodes(target, some(ids, count, rng))
 
 
@@ -126,10 +126,10 @@ def anonymized(target: FunctionalGraph) -> FunctionalGraph:
     return relabelled(as_contacts(target), {n.id: PartLabel.UNKNOWN for n in target.nodes})
 
 
-def masked_share(target: FunctionalGraph, rng: np.random.Generator) -> FunctionalGraph:
+def masked_ratio(target: FunctionalGraph, rng: np.random.Generator) -> FunctionalGraph:
     """Returns the graph with 30 to 60 % of its labels unknown; edges keep their kinds and motions."""
     ids = [n.id for n in target.nodes]
-    masked = some(ids, share_of(len(ids), 0.3, 0.6, rng), rng)
+    masked = some(ids, ratio_of(len(ids), 0.3, 0.6, rng), rng)
     return relabelled(target, dict.fromkeys(masked, PartLabel.UNKNOWN))
 
 
@@ -147,8 +147,8 @@ def some(ids: Sequence[str], count: int, rng: np.random.Generator) -> frozenset[
     return frozenset(ids[int(k)] for k in rng.choice(len(ids), count, replace=False))
 
 
-def share_of(count: int, least: float, most: float, rng: np.random.Generator) -> int:
-    """Returns how many of `count` things are a share drawn between `least` and `most`; at least one of any."""
+def ratio_of(count: int, least: float, most: float, rng: np.random.Generator) -> int:
+    """Returns how many of `count` things are a fraction drawn between `least` and `most`; at least one of any."""
     return min(count, max(1, round(count * rng.uniform(least, most))))
 
 
@@ -200,7 +200,7 @@ STRATEGIES: MappingProxyType[StrategyName, Strategy] = MappingProxyType(
         "random": Strategy("category drop", 0.05, dropped_handful),
         "fully_anonymized": Strategy("label masking", 0.05, lambda target, _rng, _config: anonymized(target)),
         "mask_materials_keep_edges": Strategy(
-            "label masking", 0.04, lambda target, rng, _config: masked_share(target, rng), is_boosted=True
+            "label masking", 0.04, lambda target, rng, _config: masked_ratio(target, rng), is_boosted=True
         ),
         "mask_random_edges_keep_types": Strategy(
             "edge-preserving", 0.10, lambda target, rng, _config: dropped_edges(target, rng), is_boosted=True
@@ -208,7 +208,7 @@ STRATEGIES: MappingProxyType[StrategyName, Strategy] = MappingProxyType(
         "drop_nodes_keep_edge_types": Strategy("edge-preserving", 0.05, dropped_nodes, is_boosted=True),
         "fully_functional_drop": Strategy("edge-preserving", 0.20, dropped_idle, is_boosted=True),
         "isolate_door": Strategy("authors' code", 0.0, isolated_door),
-        "random_share": Strategy("authors' code", 0.0, dropped_share),
+        "random_ratio": Strategy("authors' code", 0.0, dropped_ratio),
         "drop_completion": Strategy("authors' code", 0.0, partial(dropped_categories, among=RESTORED)),
     }
 )

@@ -1,4 +1,4 @@
-"""One graph file of a release to one graph with points, and what its JSON says beyond it. It knows no folders."""
+"""One graph file of a release to one graph with points, and what its JSON says beyond it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

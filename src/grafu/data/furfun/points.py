@@ -1,6 +1,6 @@
 """The points on each part of a release: from .npy, else .ply, else from the part's box (official.md 2.3).
 
-PLY files hold points or a mesh, text or binary; a binary mesh is written, too. It knows no folders.
+PLY files hold points or a mesh, text or binary; a binary mesh is written, too.
 """
 
 import io
@@ -126,8 +126,8 @@ def drawn_on_box(box: Box, count: int, rng: np.random.Generator) -> Points:
     """Returns `count` points spread evenly over the faces of a box; a flat box has its two broad faces."""
     size = box.size
     areas = np.array([size[1] * size[2], size[0] * size[2], size[0] * size[1]])
-    shares = areas / areas.sum() if areas.sum() > 0 else np.full(3, 1 / 3)
-    axes = rng.choice(3, count, p=shares)
+    ratios = areas / areas.sum() if areas.sum() > 0 else np.full(3, 1 / 3)
+    axes = rng.choice(3, count, p=ratios)
     places = rng.random((count, 3))
     places[np.arange(count), axes] = rng.integers(0, 2, count)
     return box.low + places * size

@@ -53,9 +53,9 @@ def drive_link(link: Empty, empty: Empty, joint: Joint) -> None:
 
 
 def key_joint(empty: Empty, keys: tuple[Key, ...]) -> None:
-    """Writes keys (frames, shares of the opening) for `open`, soft at both ends of every move."""
-    for frame, share in keys:
-        empty[OPEN] = share
+    """Writes keys (frames, fractions of the opening) for `open`, soft at both ends of every move."""
+    for frame, ratio in keys:
+        empty[OPEN] = ratio
         empty.keyframe_insert(_PATH, frame=frame)
     empty[OPEN] = keys[0][1]
     for curve in open_curves(empty):
@@ -65,16 +65,16 @@ def key_joint(empty: Empty, keys: tuple[Key, ...]) -> None:
         curve.update()
 
 
-def set_open(empty: Empty, share: float) -> None:
-    """Opens a joint to a share of its range (0 closed, 1 at its limit); an animation undoes it at the next frame.
+def set_open(empty: Empty, ratio: float) -> None:
+    """Opens a joint to a fraction of its range (0 closed, 1 at its limit); an animation undoes it at the next frame.
 
     Raises:
-        ValueError: if the empty is no moving joint's, or the share is not in 0..1.
+        ValueError: if the empty is no moving joint's, or the fraction is not in 0..1.
     """
     _require_moving(empty)
-    if not 0.0 <= share <= 1.0:
-        raise ValueError(f"`share` must be in 0..1: got {share}")
-    empty[OPEN] = float(share)
+    if not 0.0 <= ratio <= 1.0:
+        raise ValueError(f"`ratio` must be in 0..1: got {ratio}")
+    empty[OPEN] = float(ratio)
     empty.update_tag()
 
 

@@ -1,4 +1,4 @@
-"""Materials in Blender: a Principled BSDF per look, images packed byte for byte. It knows no meshes."""
+"""Materials in Blender: a Principled BSDF per look, images packed byte for byte."""
 
 from typing import Any, final
 

@@ -33,8 +33,8 @@ from grafu.export.blend.layout import (
 from grafu.export.blend.materials import BlenderMaterials
 from grafu.export.blend.mesh_arrays import Look, MeshArrays, mesh_arrays
 
-_ARROW_SHARE = 0.15  # of the largest side: seen beside a door, and no longer than it
-_MARK_SHARE = 0.03
+_ARROW_RATIO = 0.15  # of the largest side: seen beside a door, and no longer than it
+_MARK_RATIO = 0.03
 _NAMED = (
     "scenes",
     "collections",
@@ -64,8 +64,8 @@ def build_object(articulated: ArticulatedObject, scene: Any = None, animate: boo
     """
     keys = cycle_keys(articulated) if animate else {}
     built = _Builder(articulated, bpy.context.scene if scene is None else scene).build()
-    for joint, shares in keys.items():
-        key_joint(built.joints[joint], shares)
+    for joint, ratios in keys.items():
+        key_joint(built.joints[joint], ratios)
     return built
 
 
@@ -168,12 +168,12 @@ class _Builder:
 
     def _add_link(self, link: Link) -> None:
         joint = self._object.joint_of.get(link.id)
-        empty = self._empty(f"{link.id}_link", "PLAIN_AXES", _MARK_SHARE)
+        empty = self._empty(f"{link.id}_link", "PLAIN_AXES", _MARK_RATIO)
         empty[KIND], empty[ID] = Kind.LINK.value, link.id
         self._built.links[link.id] = empty
         if joint is None:
             return
-        holder = self._empty(f"{joint.id}_joint", "SINGLE_ARROW", _ARROW_SHARE)
+        holder = self._empty(f"{joint.id}_joint", "SINGLE_ARROW", _ARROW_RATIO)
         self._built.joints[joint.id] = holder
         describe_joint(holder, joint)
         holder.parent = self._built.links[joint.parent]
@@ -199,9 +199,9 @@ class _Builder:
             _fill(mesh, arrays)
         return mesh
 
-    def _empty(self, name: str, display: str, share: float) -> Any:
+    def _empty(self, name: str, display: str, ratio: float) -> Any:
         empty = bpy.data.objects.new(fitted_name(name, 4), None)
-        empty.empty_display_type, empty.empty_display_size = display, share * self._side
+        empty.empty_display_type, empty.empty_display_size = display, ratio * self._side
         self._inner[RIG].objects.link(empty)
         return empty
 

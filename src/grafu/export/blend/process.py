@@ -1,6 +1,6 @@
 """A Blender process that stays while this one writes several models: starting it takes longer than most models.
 
-It knows nothing of what it is asked to write. Whatever goes wrong ends the process; the next model gets a new one.
+Whatever goes wrong ends the process; the next model gets a new one.
 
 An articulated object travels as bytes, for the other process may have an older numpy: values as what made them, without
 what was worked out meanwhile, and they check themselves again.

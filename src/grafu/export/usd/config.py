@@ -13,7 +13,7 @@ class UsdConfig:
     """What goes into a USD file.
 
     `physx` adds what only PhysX reads (Isaac Sim, Omniverse): dry friction, greatest velocity and armature of joints;
-    others ignore it. `armature` is a share of the inertia (or mass) that a joint moves.
+    others ignore it. `armature` is a fraction of the inertia (or mass) that a joint moves.
     """
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)

@@ -1,4 +1,4 @@
-"""Materials as UsdPreviewSurface, which every viewer shows; images stay byte for byte. It knows no meshes.
+"""Materials as UsdPreviewSurface, which every viewer shows; images stay byte for byte.
 
 Prims are named as OpenUSD takes it everywhere, with the name that was wished where it differs.
 """

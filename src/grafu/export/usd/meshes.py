@@ -1,4 +1,4 @@
-"""Meshes and collision shapes as prims, relative to the frame of their link. It knows no joints."""
+"""Meshes and collision shapes as prims, relative to the frame of their link."""
 
 from typing import Any
 

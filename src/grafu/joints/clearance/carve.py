@@ -64,13 +64,13 @@ def piece_boxes(axes: Mat3, mesh: TriangleMesh) -> list[Box]:
 @final
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """What goes of a part: shares of its outer surface, and of the volume of its pieces' convex hulls."""
+    """What goes of a part: fractions of its outer surface, and of the volume of its pieces' convex hulls."""
 
     surface: float
     volume: float
 
     @property
-    def share(self) -> float:
+    def ratio(self) -> float:
         """The larger of the two: a hollow part loses much of its surface with little of the volume around it."""
         return max(self.surface, self.volume)
 
@@ -81,7 +81,7 @@ def measured_loss(part: Part, solids: Sequence[ConvexSolid]) -> Loss:
 
 
 def lost_surface(part: Part, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the share of the part's outer surface that lies in the solids, 0..1.
+    """Returns the fraction of the part's outer surface that lies in the solids, 0..1.
 
     Outer is what can be seen from outside the part, so cut faces and hidden walls do not count.
     """
@@ -96,7 +96,7 @@ def lost_surface(part: Part, solids: Sequence[ConvexSolid]) -> float:
 
 
 def lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the share of the volume of the part's pieces' convex hulls that lies in the solids, 0..1.
+    """Returns the fraction of the volume of the part's pieces' convex hulls that lies in the solids, 0..1.
 
     Volumes are those of hulls because real parts are rarely closed; 1 where all pieces are flat.
     """
@@ -135,7 +135,7 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
         clipped = [clip(surface, near) for surface in part.surfaces]
         area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
         most = config.max_carve_fitting if sense_of(part.source.name).is_fitting else config.max_carve
-        if not 0 < _lost_share(part, near, area, most) < most:
+        if not 0 < _lost_ratio(part, near, area, most) < most:
             continue
         surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
@@ -145,11 +145,11 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
 
 def _carved(name: str, area: float, loss: Loss, path: Path) -> Clearance:
     why = f"stood in the way of {path.moving}"
-    return Clearance(name, "carved", float(np.sqrt(area)), loss.share, why, loss.surface, loss.volume)
+    return Clearance(name, "carved", float(np.sqrt(area)), loss.ratio, why, loss.surface, loss.volume)
 
 
-def _lost_share(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:
-    """Returns the share of the part's surface that goes, or of its volume where that is less; `area` is what goes."""
+def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:
+    """Returns the fraction of the part's surface that is cut, or of its volume if smaller; `area` is what is cut."""
     if part.mesh.area == 0 or not solids:
         return 0.0
     by_area = area / part.mesh.area

@@ -54,7 +54,7 @@ def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Clear
 
 def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
     """Whether a step helped: fewer blockers, or as many in fewer poses."""
-    return (len(after.blockers), after.share) < (len(before.blockers), before.share)
+    return (len(after.blockers), after.ratio) < (len(before.blockers), before.ratio)
 
 
 def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:

@@ -16,7 +16,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
 from grafu.scene.scene import Scene
 
-_KEPT = 0.4  # a trimmed piece keeps at least this share of its own thickness
+_KEPT = 0.4  # a trimmed piece keeps at least this fraction of its own thickness
 
 
 @final
@@ -50,9 +50,9 @@ def trim(
     if depth == 0.0:
         return scene, []
     trimmed: Part = replace(part, surfaces=tuple(surfaces))
-    share = depth / float(most.max() / config.max_trim)
+    ratio = depth / float(most.max() / config.max_trim)
     why = f"{'touched' if touching else 'cut into'} {', '.join(ids)}"
-    return scene.replaced([trimmed]), [Clearance(path.moving, "trimmed", depth, share, why)]
+    return scene.replaced([trimmed]), [Clearance(path.moving, "trimmed", depth, ratio, why)]
 
 
 def _pressed(

@@ -25,9 +25,9 @@ from grafu.scene.border import BorderFrame
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel
 
-_INSIDE = 0.1  # an axis nearer to a side than this share of the part runs along its border
+_INSIDE = 0.1  # an axis nearer to a side than this fraction of the part runs along its border
 MAKESHIFT = 5  # the preference of what is no hinge class: after C, F, P, what is let in, and pivots
-_CHUNKY = 0.45  # a part thicker than this share of its width is no door panel
+_CHUNKY = 0.45  # a part thicker than this fraction of its width is no door panel
 
 
 @final
@@ -148,8 +148,8 @@ def turns_about_itself(frame: BorderFrame, axis: Axis) -> bool:
     if frame.thickness <= _CHUNKY * frame.width:
         return False
     x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
-    shares = (float(x) / max(frame.width, 1e-9), -float(y) / max(frame.thickness, 1e-9))
-    return all(_INSIDE < share < 1 - _INSIDE for share in shares)
+    ratios = (float(x) / max(frame.width, 1e-9), -float(y) / max(frame.thickness, 1e-9))
+    return all(_INSIDE < ratio < 1 - _INSIDE for ratio in ratios)
 
 
 def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances) -> list[PinCandidate]:
@@ -174,9 +174,9 @@ def makeshift_pins(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate
             yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, MAKESHIFT + 1)
 
 
-# A hinge never exceeds this share of its door (official 7.3: 12 % of the door's axial length per hinge).
-_LENGTH_SHARE = 0.12
-_RADIUS_SHARE = 0.22
+# A hinge never exceeds this fraction of its door (official 7.3: 12 % of the door's axial length per hinge).
+_LENGTH_RATIO = 0.12
+_RADIUS_RATIO = 0.22
 _RADIUS = 0.0036  # of a common 60 mm butt hinge
 SMALLEST = 0.001
 
@@ -194,7 +194,7 @@ class FittedHinge:
 
 def barrel_radius(frame: BorderFrame) -> float:
     """Returns the barrel radius that suits a door, metres; a door drawn without thickness counts as a thin board."""
-    return max(SMALLEST, min(_RADIUS, _RADIUS_SHARE * frame.board))
+    return max(SMALLEST, min(_RADIUS, _RADIUS_RATIO * frame.board))
 
 
 def hinge_count(length: float) -> int:
@@ -218,7 +218,7 @@ def hinge_size(
     `scale` multiplies what suits the door; the pin's radius has it already, and hinges still must find room.
     """
     radius = pin.radius
-    wanted = scale * min(model.natural.length, _LENGTH_SHARE * frame.length)
+    wanted = scale * min(model.natural.length, _LENGTH_RATIO * frame.length)
     length = min(wanted, 0.8 * frame.length / (count + 1))
     leaf = min(scale * model.natural.leaf, pin.leaf_room)
     thickness = min(scale * model.natural.thickness, 0.6 * radius)

@@ -22,7 +22,7 @@ from grafu.joints.plan import PIVOT
 from grafu.templates.template import Gallery, HingeModel
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
-_LEAST_SHARE = 0.3  # an opening below this share of the wanted one is no motion
+_LEAST_RATIO = 0.3  # an opening below this fraction of the wanted one is no motion
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
 _STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
@@ -96,7 +96,7 @@ def _tries(search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
     """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
     tried = 0
     for judged in search.in_order():
-        if judged.free < _LEAST_SHARE * search.wanted or tried > _ENOUGH:
+        if judged.free < _LEAST_RATIO * search.wanted or tried > _ENOUGH:
             return
         tried += judged.pin.preference > 3
         install_at = _with_pivots if judged.pin.is_pivot else _with_hardware
@@ -111,7 +111,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
         if size is None or not choice.takes(model.id):
             continue
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
-        if upper < _LEAST_SHARE * search.wanted:
+        if upper < _LEAST_RATIO * search.wanted:
             return
         attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
         placement = attempt(is_whole=False)
@@ -122,7 +122,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
 def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[_Try]:
     """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
-    if upper < _LEAST_SHARE * search.wanted:
+    if upper < _LEAST_RATIO * search.wanted:
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
@@ -186,7 +186,7 @@ def _installed(
         return
     taken: list[float] = []
     for z in hinge_heights(search.frame.length, count):
-        levels = [float(z) + share * search.frame.length for share in _HEIGHT_SHIFTS]
+        levels = [float(z) + ratio * search.frame.length for ratio in _HEIGHT_SHIFTS]
         free = (level for level in levels if all(abs(level - other) > size.length for other in taken))
         tries = ((level, install(fit_hinge(model, size, search.frame, pin, level), pin, site)) for level in free)
         found = _first_unstruck((level, hinge) for level, hinge in tries if hinge is not None)

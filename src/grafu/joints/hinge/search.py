@@ -38,9 +38,9 @@ from grafu.joints.plan import PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Obstacle, Scene
 
-_SLIM = 0.5  # barrel radius of a slim hinge, a share of what suits the door
+_SLIM = 0.5  # barrel radius of a slim hinge, a fraction of what suits the door
 _LOOSER = 4.0  # seams and steps for a class that is forced: support blocks bridge what remains
-_NEARLY = 0.05  # a pin that leaves this share of the wanted opening blocked is still as good as free
+_NEARLY = 0.05  # a pin that leaves this fraction of the wanted opening blocked is still as good as free
 
 
 @final
@@ -224,9 +224,9 @@ class DoorSearch:
         motion = axis.rotation
         box = swept_box(self.box, motion, self.wanted)
         poses = self.config.coarse_poses
-        free, share = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
+        free, ratio = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
         neighbours = all_blockers(self.body, motion, self.wanted, in_the_way(self.neighbours, box), poses)
-        shortfall = round(1.0 - free / self.wanted, 2) + round(share, 2)
+        shortfall = round(1.0 - free / self.wanted, 2) + round(ratio, 2)
         rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
         return JudgedPin(pin, axis, free, neighbours, rank)
 

@@ -13,8 +13,8 @@ from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.scene.border import BorderFrame
 
 _LEVELS = 7  # heights along the border at which rays are cast
-_ENDS = 0.475  # the outermost heights, a share of the border: top and bottom panels may be all there is
-_START = 0.3  # rays start this share of the door's thickness inside the door
+_ENDS = 0.475  # the outermost heights, a fraction of the border: top and bottom panels may be all there is
+_START = 0.3  # rays start this fraction of the door's thickness inside the door
 
 
 def _median_of(distances: Scalars, reach: float) -> float:

@@ -20,9 +20,9 @@ from grafu.scene.border import part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
 _FINER = 24  # rows between two of those, where a body begins and ends: to a thousandth of the depth
-_BOARD = 0.15  # what is less deep than this share of its smaller side is a front without a container
-_THICKEST, _SLAT = 0.03, 0.1  # metres, share of its longer side: low fronts are thick for their height
-_SHORTEST = 0.3  # a body shorter than this share of the drawer's depth is no container (official 7.4)
+_BOARD = 0.15  # what is less deep than this fraction of its smaller side is a front without a container
+_THICKEST, _SLAT = 0.03, 0.1  # metres, fraction of its longer side: low fronts are thick for their height
+_SHORTEST = 0.3  # a body shorter than this fraction of the drawer's depth is no container (official 7.4)
 
 
 @final
@@ -113,7 +113,7 @@ class BodyRegion:
 def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> BodyRegion | None:
     """Returns the region around the median of the outer-width profile (supplement, eq. body region); None if no body.
 
-    Each flank has its own profile: a front may stand out further on one side. `tolerance` is a share of the width. A
+    Each flank has its own profile: a front may stand out further on one side. `tolerance` is a fraction of the width. A
     board has no body, however long its edges are.
     """
     if is_board(frame):
@@ -149,8 +149,8 @@ def _ends(first: float, last: float, depth: float, belongs: Callable[[np.ndarray
     """Returns where a body begins before its first row of rays and ends behind its last: rows between two tell it."""
     cell = depth / _SLIDE
     reaches = min(cell, first), min(cell, depth - last)
-    shares = (np.arange(_FINER) + 0.5) / _FINER  # away from the body
-    found = belongs(np.concatenate([first - reaches[0] * shares, last + reaches[1] * shares])).reshape(2, _FINER)
+    ratios = (np.arange(_FINER) + 0.5) / _FINER  # away from the body
+    found = belongs(np.concatenate([first - reaches[0] * ratios, last + reaches[1] * ratios])).reshape(2, _FINER)
     run = [_FINER if row.all() else int(np.argmin(row)) for row in found]
     return float(first - reaches[0] * run[0] / _FINER), float(last + reaches[1] * run[1] / _FINER)
 

@@ -165,7 +165,7 @@ def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str]
         yield Footing(middle + towards, direction, 0.9 * reach[first], 0.9 * reach[second])
 
 
-_LEAST_SHARE = 0.3  # a travel below this share of the wanted one is no motion
+_LEAST_RATIO = 0.3  # a travel below this fraction of the wanted one is no motion
 
 
 def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
@@ -178,7 +178,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
             continue
-        for spot in rail_spots(model, region, walls, search.config.rail_share):
+        for spot in rail_spots(model, region, walls, search.config.rail_ratio):
             placed = _with_hardware(model, spot, region, search)
             if placed is not None:
                 return placed
@@ -189,7 +189,7 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
     upper = search.travel(template.range)
-    if upper < _LEAST_SHARE * search.wanted:
+    if upper < _LEAST_RATIO * search.wanted:
         return None
     static: list[Visual] = []
     dynamic: list[Visual] = []

@@ -29,7 +29,7 @@ from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel
 
-_FLAT = 0.2  # a board is thinner than this share of its smaller side
+_FLAT = 0.2  # a board is thinner than this fraction of its smaller side
 _FLUSH = 1e-3  # metres by which an attached part may stand out and still count as behind a drawer's front side
 _DEEPER = 3.0  # a shallow drawer before a case so many times as deep is a front with its pull, not a container
 _TRAVEL = 0.77  # of the depth: what rails over 0.9 of a body travel with a lap of 15 %
@@ -105,8 +105,8 @@ class DrawerSearch:
         near = in_the_way(self.obstacles, swept_box(self.box, self.motion, reach))
         return widest_free(self.body, self.motion, reach, near, self.config.fine_poses)
 
-    def free_share(self) -> float:
-        """Returns the share of the wanted travel that the bare drawer slides freely, 0..1; 0 if blocked at rest."""
+    def free_ratio(self) -> float:
+        """Returns the fraction of the wanted travel that the bare drawer slides freely, 0..1; 0 if blocked at rest."""
         near = in_the_way(self.obstacles, swept_box(self.box, self.motion, self.wanted))
         return free_opening(self.body, self.motion, self.wanted, near, self.config.fine_poses)[0] / self.wanted
 

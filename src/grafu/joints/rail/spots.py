@@ -16,9 +16,9 @@ from grafu.vocabulary import MechanismClass
 
 _THINNEST = 0.0025  # thinner rails are let into the flank and the wall by what is missing
 _LOWEST = 0.004
-_COMMON_RAIL = 0.0127  # the thickness that ball-bearing slides share
-_DYNAMIC_REACH = 0.86  # share of a rail's thickness that its moving member takes, from the drawer's side
-_MOST_LET_IN = 0.5  # a rail let in deeper than this share would have its static member cut into the drawer
+_COMMON_RAIL = 0.0127  # the thickness of most ball-bearing slides
+_DYNAMIC_REACH = 0.86  # fraction of a rail's thickness that its moving member takes, from the drawer's side
+_MOST_LET_IN = 0.5  # a rail let in deeper than this fraction would have its static member cut into the drawer
 _GRID = (12, 5)
 _STEPS = 61  # places behind it at which a board above it is felt for
 _LEVELS = 7  # heights at which the room behind a mere front is felt for
@@ -80,13 +80,13 @@ def _gaps(
     return distances[distances <= reach + inside] - inside
 
 
-def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, share: float) -> Iterator[RailSpot]:
+def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, ratio: float) -> Iterator[RailSpot]:
     """Yields spots for one model, best first: at full thickness and let in, at the middle of the flank, then elsewhere.
 
-    `share` is the rail's length over the body's (supplement, Scaling).
+    `ratio` is the rail's length over the body's (supplement, Scaling).
     """
     flank = body.top - body.bottom
-    length = share * body.length
+    length = ratio * body.length
     y = body.front + length / 2 if body.is_bare else body.back - length / 2
     for thickness in _thicknesses(model, walls):
         tight = (thickness - min(max(walls.nearer, 0.0), thickness)) / 2

@@ -32,11 +32,11 @@ class Cabinet:
     sides, as free-standing pieces may). Before a pair bowed as one, a square top over the sides and a bottom under them
     that jut out follow its curve.
     Drawer boxes keep `slide_gap` from the walls on either side, 12.5 mm as real slides need. A two-sided cabinet has a
-    second layout, `rear`, that faces +Y; a wall in place of the back then parts the two, `share` of the depth for the
+    second layout, `rear`, that faces +Y; a wall in place of the back then parts the two, `ratio` of the depth for the
     front one.
 
     Raises:
-        ValueError: if `share` is not between 0.2 and 0.8.
+        ValueError: if `ratio` is not between 0.2 and 0.8.
     """
 
     name: str = "cabinet"
@@ -50,12 +50,12 @@ class Cabinet:
     slide_gap: float = 0.0125
     finish: Finish = PLAIN
     rear: Layout | None = None
-    share: float = 0.55
+    ratio: float = 0.55
     reveal: float | None = None
 
     def __post_init__(self) -> None:
-        if not 0.2 <= self.share <= 0.8:
-            raise ValueError(f"`Cabinet.share` must be between 0.2 and 0.8: got {self.share}")
+        if not 0.2 <= self.ratio <= 0.8:
+            raise ValueError(f"`Cabinet.ratio` must be between 0.2 and 0.8: got {self.ratio}")
 
     @property
     def setting(self) -> Setting:
@@ -83,7 +83,7 @@ class Cabinet:
     @property
     def _wall(self) -> tuple[float, float]:
         """The two y of the wall between the fronts of a two-sided cabinet."""
-        y = self.case.carcass + self.share * (self.case.depth / 2 - self.case.carcass)
+        y = self.case.carcass + self.ratio * (self.case.depth / 2 - self.case.carcass)
         return y - self.case.panel / 2, y + self.case.panel / 2
 
 

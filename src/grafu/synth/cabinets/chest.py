@@ -31,7 +31,7 @@ class Chest:
 
     The lid lies `seat` above the box and juts out by `overhang` at the front and the sides; with `within`, it lies
     flush between the box's walls, `gap` from them. One above the box may be a dome, `dome` higher in the middle. Inset
-    `drawers` fill the lower `drawers_share` of the front.
+    `drawers` fill the lower `drawers_ratio` of the front.
 
     Raises:
         ValueError: if the box is not deep enough for a lid between its walls.
@@ -48,7 +48,7 @@ class Chest:
     gap: float = 0.003
     edge: TopEdge = "square"
     drawers: Layout | None = None
-    drawers_share: float = 0.4
+    drawers_ratio: float = 0.4
     dome: float = 0.0
 
     def __post_init__(self) -> None:
@@ -71,7 +71,7 @@ def _front(box: Case, spec: Chest) -> Iterator[Piece]:
     x, y, t = box.width / 2 - max(box.panel, box.posts), -box.depth / 2, box.panel
     low, z = box.opening.z0, box.opening.z1
     if spec.drawers is not None:
-        top = low + spec.drawers_share * (z - low)
+        top = low + spec.drawers_ratio * (z - low)
         wide = box.width / 2 - max(box.panel, box.posts)
         yield plank(
             PartLabel.SHELF, "chest_floor", spec.finish.case, ((-wide, y, top), (wide, box.inner_back, top + t))

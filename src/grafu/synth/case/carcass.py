@@ -1,6 +1,6 @@
 """All still parts of a case together, in the order that people list them, and what stands before its panels.
 
-That is the face frame, edge strips, mouldings and pilasters. It knows no fronts.
+That is the face frame, edge strips, mouldings and pilasters.
 """
 
 from collections.abc import Iterator

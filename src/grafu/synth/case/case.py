@@ -1,4 +1,4 @@
-"""The still part of a cabinet as a value: outer sizes, construction, the opening that is left. It knows no fronts."""
+"""The still part of a cabinet as a value: outer sizes, construction, the opening that is left."""
 
 from dataclasses import dataclass
 from typing import Literal, final

@@ -47,7 +47,7 @@ class Base:
     def __post_init__(self) -> None:
         if not (self.height >= 0 and 0 <= self.stretcher_at <= 1 and 0 <= self.apron <= self.height):
             sizes = f"{self.height}, {self.stretcher_at}, {self.apron}"
-            raise ValueError(f"`Base` needs a height, a share and an apron that fit: got {sizes}")
+            raise ValueError(f"`Base` needs a height, a fraction and an apron that fit: got {sizes}")
 
 
 @final

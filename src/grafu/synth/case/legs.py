@@ -1,4 +1,4 @@
-"""Legs and feet: square, tapered, round, turned, splayed, hairpin, cabriole, on casters. It knows no furniture."""
+"""Legs and feet: square, tapered, round, turned, splayed, hairpin, cabriole, on casters."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ from grafu.synth.pieces.shapes import board, rod, turned
 LegShape = Literal[
     "square", "tapered", "round", "cone", "turned", "splayed", "hairpin", "cabriole", "block", "bun", "caster", "pad"
 ]
-# (share of the way from the floor, share of the leg's half width)
+# (fraction of the way from the floor, fraction of the leg's half width)
 BALUSTER = ((0.0, 0.45), (0.04, 0.62), (0.10, 0.5), (0.14, 0.8), (0.19, 0.5), (0.5, 0.72), (0.66, 0.98), (0.7, 0.6))
 BUN = ((0.0, 0.55), (0.2, 0.9), (0.5, 1.0), (0.8, 0.85), (0.9, 0.6), (1.0, 0.6))
-STRAIGHT = 0.8  # share of a tapered leg's height at which its straight block begins
+STRAIGHT = 0.8  # fraction of a tapered leg's height at which its straight block begins
 CABRIOLE = (
     (0.0, 0.9, 0.55),
     (0.05, 1.1, 0.5),
@@ -40,7 +40,7 @@ class Leg:
     shape: LegShape = "round"
     thick: float = 0.044
     foot: float = 0.6
-    slant: float = 0.12  # how far a splayed leg leaves the plumb line, share of its height
+    slant: float = 0.12  # how far a splayed leg leaves the plumb line, fraction of its height
 
     def __post_init__(self) -> None:
         if min(self.thick, self.foot) <= 0:
@@ -57,15 +57,15 @@ def leg_meshes(leg: Leg, at: tuple[float, float], outward: tuple[float, float], 
 
 def lean(leg: Leg, z: float, high: float) -> float:
     """Returns how far outwards of its top's middle a leg of this height stands at `z`, metres along x and along y."""
-    share, h = min(max(z / high, 0.0), 1.0), leg.thick / 2
+    ratio, h = min(max(z / high, 0.0), 1.0), leg.thick / 2
     match leg.shape:
         case "tapered":
-            return h * (1 - leg.foot) * max(1 - share / STRAIGHT, 0.0)
+            return h * (1 - leg.foot) * max(1 - ratio / STRAIGHT, 0.0)
         case "splayed":
-            return leg.slant * high * (1 - share)
+            return leg.slant * high * (1 - ratio)
         case "cabriole":
-            shares, shifts, _ = zip(*CABRIOLE, strict=True)
-            return h * float(np.interp(share, shares, shifts))
+            ratios, shifts, _ = zip(*CABRIOLE, strict=True)
+            return h * float(np.interp(ratio, ratios, shifts))
         case _:
             return 0.0
 
@@ -99,7 +99,7 @@ def _cone(leg: Leg, at: Vec3, _out: Vec3, high: float) -> list[TriangleMesh]:
 
 
 def _profiled(profile: tuple[tuple[float, float], ...], at: Vec3, half: float, high: float) -> TriangleMesh:
-    return turned(at, at + vec3(0.0, 0.0, high), tuple((share, half * radius) for share, radius in profile))
+    return turned(at, at + vec3(0.0, 0.0, high), tuple((ratio, half * radius) for ratio, radius in profile))
 
 
 def _turned(leg: Leg, at: Vec3, _out: Vec3, high: float) -> list[TriangleMesh]:
@@ -117,7 +117,7 @@ def _bun(leg: Leg, at: Vec3, _out: Vec3, high: float) -> list[TriangleMesh]:
 def _cabriole(leg: Leg, at: Vec3, out: Vec3, high: float) -> list[TriangleMesh]:
     """Returns a leg in a double curve, its knee and its foot outwards."""
     h = leg.thick / 2
-    rings = [_ring(at + out * h * shift, h * half, share * high, 8) for share, shift, half in CABRIOLE]
+    rings = [_ring(at + out * h * shift, h * half, ratio * high, 8) for ratio, shift, half in CABRIOLE]
     return [loft(np.stack(rings))]
 
 

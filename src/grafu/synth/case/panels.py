@@ -1,4 +1,4 @@
-"""The carcass of a case: sides, back and bottom in all their constructions. It knows no fronts and no tops."""
+"""The carcass of a case: sides, back and bottom in all their constructions."""
 
 from collections.abc import Iterator
 

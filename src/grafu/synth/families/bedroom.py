@@ -92,10 +92,10 @@ def shoe_cabinet(rng: np.random.Generator) -> Cabinet:
     rows = max(1, min(4, round(size[2] / between(rng, (0.32, 0.45)))))
     tilt: Layout = Row((Tilt(), Tilt())) if size[0] > 0.8 else Tilt()
     cells: tuple[Layout, ...] = (tilt,) * rows
-    shares: tuple[float, ...] = (1.0,) * rows
+    ratios: tuple[float, ...] = (1.0,) * rows
     if chance(rng, 0.3):
-        cells, shares = (*cells, drawer_row(rng, 2 if size[0] > 0.8 else 1)), (*shares, 0.45)
-    return build_cabinet(rng, "shoe_cabinet", style, size, Stack(cells, shares), LOW_LEGS, STAND)
+        cells, ratios = (*cells, drawer_row(rng, 2 if size[0] > 0.8 else 1)), (*ratios, 0.45)
+    return build_cabinet(rng, "shoe_cabinet", style, size, Stack(cells, ratios), LOW_LEGS, STAND)
 
 
 def apothecary(rng: np.random.Generator) -> Cabinet:
@@ -145,7 +145,7 @@ def chest(rng: np.random.Generator) -> Chest:
         dome=between(rng, (0.03, 0.15)) if chance(rng, DOMED) else 0.0,
         edge="square" if within else pick(rng, ORNATE_EDGES if style.tradition == "ornate" else EDGES),
         drawers=drawers,
-        drawers_share=between(rng, (0.35, 0.5)),
+        drawers_ratio=between(rng, (0.35, 0.5)),
     )
 
 

@@ -1,4 +1,4 @@
-"""From a style, a size and a layout of bare fronts to a cabinet; it knows no family."""
+"""From a style, a size and a layout of bare fronts to a cabinet."""
 
 import numpy as np
 
@@ -70,6 +70,6 @@ def cabinet_of(
         slide_gap=style.slide_gap,
         finish=style.finish,
         rear=behind,
-        share=between(rng, (0.45, 0.65)),
+        ratio=between(rng, (0.45, 0.65)),
         reveal=style.reveal,
     )

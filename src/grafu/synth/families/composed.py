@@ -123,8 +123,8 @@ def _wall_panel(rng: np.random.Generator, hung: list[Placed], width: float, edge
     """Returns the board behind wall units, from the worktop's back edge (y, z) up, which joins the two."""
     backs = (unit.spec.case.back for unit in hung)
     y = edge[0] + max(back.thickness if back.planted else 0.0 for back in backs)
-    share = 1.0 if chance(rng, 0.5) else between(rng, (0.1, 0.5))  # a splashback ends behind the units
-    top = max(unit.at[2] + share * unit.spec.case.height for unit in hung)
+    ratio = 1.0 if chance(rng, 0.5) else between(rng, (0.1, 0.5))  # a splashback ends behind the units
+    top = max(unit.at[2] + ratio * unit.spec.case.height for unit in hung)
     high = (width / 2, y + between(rng, (0.006, 0.02)), top)
     return Slab(PartLabel.MISC, "wall_panel", (-width / 2, y, edge[1] - 0.02), high)
 

@@ -141,9 +141,9 @@ def sink_cabinet(rng: np.random.Generator) -> Cabinet:
     size = draw_size(rng, (0.6, 1.2), (0.5, 0.65), (0.72, 0.9))
     doors: Layout = Pair() if size[0] > 0.65 else Door()
     if chance(rng, 0.7):
-        share = between(rng, (0.14, 0.2)) / 0.75
+        ratio = between(rng, (0.14, 0.2)) / 0.75
         blank: Layout = Row((Blank(), Blank())) if size[0] > 0.8 and chance(rng, 0.5) else Blank()
-        doors = Stack((doors, blank), (1.0 - share, share), "rail" if style.between == "panel" else style.between)
+        doors = Stack((doors, blank), (1.0 - ratio, ratio), "rail" if style.between == "panel" else style.between)
     case = draw_case(rng, style, size, BASE)
     if chance(rng, 0.5):
         thick, over = between(rng, (0.02, 0.05)), between(rng, (0.0, 0.03))

@@ -1,4 +1,4 @@
-"""Layouts of bare fronts that many families share: doors across a width, stacks and rows of drawers, a free grammar.
+"""Layouts of bare fronts of many families: doors across a width, stacks and rows of drawers, a free grammar.
 
 Hinges, leaves and handles are left at their defaults: `carpentry` decides them.
 """
@@ -69,8 +69,8 @@ def doors_under_drawers(rng: np.random.Generator, style: Style, width: float, he
     below = doors_across(rng, width)
     number = 1 if width < 0.6 or chance(rng, 0.45) else 2 if width < 1.3 else round(width / 0.55)
     above = drawer_row(rng, number) if chance(rng, 0.9) else Blank()
-    share = between(rng, (0.13, 0.19)) / max(height - 0.1, 0.3)
-    return Stack((below, above), (1.0 - share, share), _level(style))
+    ratio = between(rng, (0.13, 0.19)) / max(height - 0.1, 0.3)
+    return Stack((below, above), (1.0 - ratio, ratio), _level(style))
 
 
 def doors_beside_drawers(rng: np.random.Generator, style: Style, width: float, number: int) -> Layout:
@@ -94,13 +94,13 @@ def free_layout(rng: np.random.Generator, style: Style, width: float, height: fl
     if kind == "leaf":
         return free_leaf(rng, style, width, height)
     number = count(rng, 2, 3) if (width if kind == "row" else height) > 0.9 else 2
-    shares = weights(rng, number, pick(rng, {0.0: 0.5, 0.4: 0.5})) or (1.0,) * number
-    whole = sum(shares)
+    ratios = weights(rng, number, pick(rng, {0.0: 0.5, 0.4: 0.5})) or (1.0,) * number
+    whole = sum(ratios)
     if kind == "row":
-        cells = tuple(free_layout(rng, style, width * share / whole, height, depth - 1) for share in shares)
-        return Row(cells, shares)
-    cells = tuple(free_layout(rng, style, width, height * share / whole, depth - 1) for share in shares)
-    return Stack(cells, shares, "panel" if any(isinstance(cell, Bay) for cell in cells) else _level(style))
+        cells = tuple(free_layout(rng, style, width * ratio / whole, height, depth - 1) for ratio in ratios)
+        return Row(cells, ratios)
+    cells = tuple(free_layout(rng, style, width, height * ratio / whole, depth - 1) for ratio in ratios)
+    return Stack(cells, ratios, "panel" if any(isinstance(cell, Bay) for cell in cells) else _level(style))
 
 
 def free_leaf(rng: np.random.Generator, style: Style, width: float, height: float) -> Layout:
@@ -133,8 +133,8 @@ def with_inner_drawers(rng: np.random.Generator, layout: Layout, width: float) -
     """Returns the layout with drawers, and open room above them, behind a few of its doors; seldom."""
     match layout:
         case Row(cells=cells):
-            shares = layout.weights or (1.0,) * len(cells)
-            widths = [width * share / sum(shares) for share in shares]
+            ratios = layout.weights or (1.0,) * len(cells)
+            widths = [width * ratio / sum(ratios) for ratio in ratios]
             return replace(layout, cells=tuple(map(partial(with_inner_drawers, rng), cells, widths)))
         case Stack(cells=cells):
             return replace(layout, cells=tuple(with_inner_drawers(rng, cell, width) for cell in cells))

@@ -183,8 +183,8 @@ def display_cabinet(rng: np.random.Generator) -> Cabinet:
         tall = Row((Door(leaf=glass), Pair(leaf=glass)), (1.0, 2.0)) if chance(rng, 0.4) else Pair(leaf=glass)
     if chance(rng, 0.5):
         low = doors_across(rng, size[0]) if chance(rng, 0.6) else drawer_row(rng, 1 if size[0] < 0.7 else 2)
-        share = between(rng, (1.5, 3.0)) if not isinstance(low, Drawer) else 6.0
-        tall = Stack((low, tall), (1.0, share), style.between)
+        ratio = between(rng, (1.5, 3.0)) if not isinstance(low, Drawer) else 6.0
+        tall = Stack((low, tall), (1.0, ratio), style.between)
     return build_cabinet(rng, "display_cabinet", style, size, tall, replace(SLENDER, open_back=False))
 
 

@@ -51,8 +51,8 @@ def filing_cabinet(rng: np.random.Generator) -> Cabinet:
     mobile = chance(rng, 0.45)
     size = draw_size(rng, (0.35, 0.5), (0.42, 0.65), (0.5, 0.75) if mobile else (0.7, 1.4))
     number = count(rng, 2, 3) if mobile else count(rng, 2, 5)
-    shares = (2.0, *(1.0 for _ in range(number - 1))) if mobile and chance(rng, 0.6) else ()
-    layout = Stack((Drawer(),) * number, shares, style.between)
+    ratios = (2.0, *(1.0 for _ in range(number - 1))) if mobile and chance(rng, 0.6) else ()
+    layout = Stack((Drawer(),) * number, ratios, style.between)
     build = Build(bases=("legs", "none", "plinth"), legs=(0.03, 0.08), moulded=False, framed=False)
     return build_cabinet(rng, "filing_cabinet", style, size, layout, build, STAND)
 
@@ -65,8 +65,8 @@ def plan_chest(rng: np.random.Generator) -> Cabinet:
     high = 0.08 + number * between(rng, (0.029, 0.052))
     size = draw_size(rng, (1.0, 1.6) if large else (0.4, 0.75), (0.6, 0.95) if large else (0.3, 0.45), (high, high))
     style = replace(style, between="nothing", length=None if style.length is None else min(style.length, 0.14))
-    shares = (*(2.0,) * count(rng, 1, 2), *(1.0,) * (number - 2)) if chance(rng, 0.3) else ()
-    layout = Stack((Drawer(),) * (len(shares) or number), shares, "nothing")
+    ratios = (*(2.0,) * count(rng, 1, 2), *(1.0,) * (number - 2)) if chance(rng, 0.3) else ()
+    layout = Stack((Drawer(),) * (len(ratios) or number), ratios, "nothing")
     build = Build(bases=("none", "plinth", "legs"), legs=(0.03, 0.12), moulded=False, framed=False)
     return build_cabinet(rng, "plan_chest", style, size, layout, build, STAND)
 
@@ -93,8 +93,8 @@ def oven(rng: np.random.Generator) -> Cabinet:
     door = Door("bottom", leaf="glass" if chance(rng, 0.6) else "slab")
     panel = Blank(name="control_panel")
     cells: tuple[Layout, ...] = (door, panel) if chance(rng, 0.85) else (door,)
-    shares: tuple[float, ...] = (1.0, between(rng, (0.15, 0.3)))[: len(cells)]
+    ratios: tuple[float, ...] = (1.0, between(rng, (0.15, 0.3)))[: len(cells)]
     if chance(rng, 0.35):
-        cells, shares = (Drawer(), *cells), (between(rng, (0.2, 0.4)), *shares)
+        cells, ratios = (Drawer(), *cells), (between(rng, (0.2, 0.4)), *ratios)
     build = Build(bases=("none", "plinth", "legs"), tops=("between", "over"), legs=(0.03, 0.1))
-    return build_cabinet(rng, "oven", style, size, Stack(cells, shares, "nothing"), build, STAND)
+    return build_cabinet(rng, "oven", style, size, Stack(cells, ratios, "nothing"), build, STAND)

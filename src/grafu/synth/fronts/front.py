@@ -1,4 +1,4 @@
-"""Doors, flaps and drawers for the cells of a layout, with their true motions. It knows no case.
+"""Doors, flaps and drawers for the cells of a layout, with their true motions.
 
 A door turns about the front edge on its hinge side: there it touches neither its neighbour nor, given a gap of its
 thickness squared over twice its width, the far side of an inset opening. Fronts face -Y.

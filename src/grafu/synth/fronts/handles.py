@@ -52,7 +52,7 @@ def gripped_side(hold: Hold, hinge: Side | None) -> Side:
 
 
 def held_along(hold: Hold, side: Side | None) -> float:
-    """Returns how far along its edge a front is held, as a share upwards or to the right."""
+    """Returns how far along its edge a front is held, as a fraction upwards or to the right."""
     if hold.along is not None:
         return hold.along
     return HIGH if side in ("left", "right") else 0.5
@@ -96,7 +96,7 @@ def _size(template: HandleTemplate, hold: Hold, leaf: LeafShape, upright: bool) 
     side = rect.height if upright else rect.width
     if wanted is None or (template.family == "knob" and wanted > template.longest):
         wanted = natural.length
-    most = hold.share * side / (1 if upright else hold.count)
+    most = hold.ratio * side / (1 if upright else hold.count)
     length = min(wanted, template.longest, most, side - 2 * CLEAR)
     scale = length / natural.length if template.family == "knob" else 1.0
     return length, natural.protrusion * scale if hold.protrusion is None else hold.protrusion
@@ -122,12 +122,12 @@ def _centers(hold: Hold, leaf: LeafShape, hinge: Side | None, box: Box, at_edge:
     if side in ("left", "right") and box.size[0] > box.size[2]:  # what lies there keeps off the edge with its end
         inset = float(box.size[0]) / 2 + END_OFF * inset
     level = side in ("top", "bottom") or (side is None and hold.count == 2)  # two go side by side
-    shares = (0.25, 0.75) if hold.count == 2 else (held_along(hold, side),)
+    ratios = (0.25, 0.75) if hold.count == 2 else (held_along(hold, side),)
     height = held_along(hold, None)
     centers = []
-    for share in shares:
-        x = rect.x0 + (share if level else 0.5) * rect.width
-        z = rect.z0 + (share if side in ("left", "right", None) and not level else height) * rect.height
+    for ratio in ratios:
+        x = rect.x0 + (ratio if level else 0.5) * rect.width
+        z = rect.z0 + (ratio if side in ("left", "right", None) and not level else height) * rect.height
         x = {"left": rect.x0 + inset, "right": rect.x1 - inset}.get(side or "", x)
         z = {"bottom": rect.z0 + inset, "top": rect.z1 - inset}.get(side or "", z)
         centers.append((_within(x, rect.x0, rect.x1, box, 0), _within(z, rect.z0, rect.z1, box, 2)))

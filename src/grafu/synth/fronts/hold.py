@@ -87,35 +87,35 @@ class Hold:
     Attributes:
         place: the edge that the handle lies at. "usual": a door's free edge, a drawer's middle. "middle line" is the
             upright one through the centre. Drawers have no free edge and no hinge edge.
-        along: the handle's middle, as a share of the way along that edge, upwards or to the right; whatever it says,
+        along: the handle's middle, as a fraction of the way along that edge, upwards or to the right; whatever it says,
             the handle stays clear of the leaf's border, so that 0 and 1 mean the corners. None: 0.65 on a door's
             upright free edge, else 0.5.
         orientation: "usual" is along the free edge of a door, and lying at a top or bottom edge and on drawers.
         length: metres along the handle, at most its template's longest; None: its own. A knob that cannot be so long
             has its own size, so one length can serve bars and knobs; real knobs are 13 to 40 mm wide.
-        share: the most that the handle takes of the front's side along which it lies, in (0, 1].
+        fraction: the most that the handle takes of the front's side along which it lies, in (0, 1].
         protrusion: metres before the front; None: the handle's own (of a knob: in proportion to its width).
         inset: metres from the edge to the handle's middle; at most a fifth of the front's sides.
         count: 1, or 2 side by side, as on wide drawers.
 
     Raises:
-        ValueError: if a share is out of range, a length is not above 0, or the count is neither 1 nor 2.
+        ValueError: if a fraction is out of range, a length is not above 0, or the count is neither 1 nor 2.
     """
 
     place: Place = "usual"
     along: float | None = None
     orientation: Orientation = "usual"
     length: float | None = None
-    share: float = 0.4
+    ratio: float = 0.4
     protrusion: float | None = None
     inset: float = 0.045
     count: Literal[1, 2] = 1
 
     def __post_init__(self) -> None:
         if self.along is not None and not 0.0 <= self.along <= 1.0:
-            raise ValueError(f"`along` must be a share in [0, 1]: got {self.along}")
-        if not 0.0 < self.share <= 1.0:
-            raise ValueError(f"`share` must be in (0, 1]: got {self.share}")
+            raise ValueError(f"`along` must be a fraction in [0, 1]: got {self.along}")
+        if not 0.0 < self.ratio <= 1.0:
+            raise ValueError(f"`ratio` must be in (0, 1]: got {self.ratio}")
         for name in ("length", "protrusion", "inset"):
             value = getattr(self, name)
             if value is not None and not value > 0.0:

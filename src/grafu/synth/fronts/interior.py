@@ -1,4 +1,4 @@
-"""What fills the room behind an opening: shelves with lips and cleats, dividers, rods, baskets. It knows no fronts."""
+"""What fills the room behind an opening: shelves with lips and cleats, dividers, rods, baskets."""
 
 from collections.abc import Iterator
 

@@ -75,11 +75,11 @@ class Pair:
 @final
 @dataclass(frozen=True, slots=True)
 class Drawer:
-    """A drawer; `travel` is the share of its depth that it slides.
+    """A drawer; `travel` is the fraction of its depth that it slides.
 
     Its box keeps to the opening ("four walls": one of them behind the front), hangs in it with centimetres to spare
     ("floating"), or is a shallow tray without a front. With `runners`, slides hang on both walls as parts of their
-    own. `depth` is the share of the room behind it that the box fills.
+    own. `depth` is the fraction of the room behind it that the box fills.
     """
 
     box: DrawerBox = "whole"

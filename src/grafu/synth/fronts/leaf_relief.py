@@ -1,7 +1,5 @@
 """Leaves that are one board with a relief: bulges, panels, grooves, arches, finger channels, as a grid of heights.
 
-It knows no hinge but the free side, and no frame with a pane in it.
-
 What a door leaf or drawer front is: a style in an outline at a place.
 """
 
@@ -29,7 +27,7 @@ FRAME = 0.065  # metres: how wide the stiles and rails of framed leaves are; at 
 class LeafShape:
     """A leaf in its place, metres: its outline, the y of its outer face, its thickness; `free` is opposite the hinge.
 
-    `grip_side` is the edge that its grip is cut into, `grip_along` the share of the way along it.
+    `grip_side` is the edge that its grip is cut into, `grip_along` the fraction of the way along it.
     """
 
     style: LeafStyle
@@ -55,8 +53,8 @@ class LeafShape:
     @property
     def rise(self) -> float:
         """How much lower its upper edge is at its ends than at its highest point: 0 but for arched outlines."""
-        share = {"arched": 0.16, "half arched": 0.25}.get(self.style, 0.0)
-        return min(share * self.rect.width, 0.15 * self.rect.height)
+        ratio = {"arched": 0.16, "half arched": 0.25}.get(self.style, 0.0)
+        return min(ratio * self.rect.width, 0.15 * self.rect.height)
 
 
 Grid = Float[np.ndarray, "n m"]
@@ -91,9 +89,9 @@ class Relief:
     def face_at(self, x: float, z: float) -> float:
         """Returns the y of the outer face at a point of the front (of the nearest one, outside it)."""
         k = int(np.clip(np.searchsorted(self.x, x) - 1, 0, len(self.x) - 2))
-        share = float(np.clip((x - self.x[k]) / (self.x[k + 1] - self.x[k]), 0.0, 1.0))
+        ratio = float(np.clip((x - self.x[k]) / (self.x[k + 1] - self.x[k]), 0.0, 1.0))
         left, right = (float(np.interp(z, self.z[i], self.front[i])) for i in (k, k + 1))
-        return left + share * (right - left)
+        return left + ratio * (right - left)
 
 
 @lru_cache(128)
@@ -210,7 +208,7 @@ def _inside(at: Line, spans: Sequence[tuple[float, float]]) -> Line:
 
 
 def _gripped(leaf: LeafShape, distances: Sequence[float], depths: Sequence[float]) -> Relief:
-    """Returns a slab whose face follows a profile of depths (shares of the thickness) from the grip's edge inwards."""
+    """Returns a slab whose face has a profile of depths (fractions of the thickness) from the grip's edge inwards."""
     r, side = leaf.rect, leaf.grip_side
     upright = side in ("left", "right")
     low, high = (r.x0, r.x1) if upright else (r.z0, r.z1)
@@ -228,10 +226,10 @@ def _gripped(leaf: LeafShape, distances: Sequence[float], depths: Sequence[float
 def _short_lip(leaf: LeafShape, at: Line, depth: Line) -> Relief:
     """Returns a leaf whose lip ends before its hinge: there it would strike the case as the door opens."""
     r, end = leaf.rect, min(LIP_END, leaf.rect.width / 6)
-    x, shares = np.array([r.x0, r.x0 + end, r.x0 + end + STEP, r.x1]), np.array([0.0, 0.0, 1.0, 1.0])
+    x, ratios = np.array([r.x0, r.x0 + end, r.x0 + end + STEP, r.x1]), np.array([0.0, 0.0, 1.0, 1.0])
     if leaf.free == "left":
-        x, shares = r.x0 + r.x1 - x[::-1], shares[::-1]
-    return _flat(leaf, x, at, shares[:, None] * depth)
+        x, ratios = r.x0 + r.x1 - x[::-1], ratios[::-1]
+    return _flat(leaf, x, at, ratios[:, None] * depth)
 
 
 # A channel of 20 mm for the fingers; a lip of 10 mm that stands 0.8 of the thickness before the front.

@@ -127,8 +127,8 @@ def _frame(leaf: LeafShape, finish: Finish) -> list[Surface]:
     return [surface_of(mesh, finish.front) for mesh in framed_opening(leaf.box, leaf.frame)]
 
 
-def _filling(leaf: LeafShape, share: float, material: Material) -> Surface:
-    half = leaf.box.half - vec3(leaf.frame, (1 - share) * leaf.box.half[1], leaf.frame)
+def _filling(leaf: LeafShape, ratio: float, material: Material) -> Surface:
+    half = leaf.box.half - vec3(leaf.frame, (1 - ratio) * leaf.box.half[1], leaf.frame)
     return surface_of(TriangleMesh.box_mesh(Box.from_center(leaf.box.center, half)), material)
 
 

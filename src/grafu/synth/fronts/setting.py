@@ -1,4 +1,4 @@
-"""Where fronts sit: their plane, and how far they reach over what surrounds their opening. It knows no case."""
+"""Where fronts sit: their plane, and how far they reach over what surrounds their opening."""
 
 from dataclasses import dataclass
 from typing import Literal, final

@@ -47,7 +47,7 @@ CLEAR = 0.001  # metres between a drawer's box and its runner
 
 def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     """Yields a bar on either side of each drawer's box, in the gap to what stands there; or one more on the drawer."""
-    height, double, share = between(rng, (0.012, 0.04)), chance(rng, 0.5), between(rng, (0.0, 0.6))
+    height, double, ratio = between(rng, (0.012, 0.04)), chance(rng, 0.5), between(rng, (0.0, 0.6))
     still = [p for p in asset.parts if p.label.is_support]
     for joint in asset.joints:
         along = int(np.argmax(np.abs(joint.axis.direction)))
@@ -56,7 +56,7 @@ def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
         body = _body(asset.part(joint.part), along, float(joint.axis.direction[along]))
         if body is None:
             continue
-        z = float(body.low[2]) + share * float(body.size[2])
+        z = float(body.low[2]) + ratio * float(body.size[2])
         for side in (-1.0, 1.0):
             gap = _gap(body, 1 - along, side, still)
             if not 0.003 < gap < 0.06:

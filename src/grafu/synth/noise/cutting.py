@@ -39,9 +39,9 @@ BOX_APART = 0.12  # of cut models: fronts moved by the artist, their boxes left 
 
 
 def draw_joined(
-    rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float, handles: float, tops: float = 1.0
+    rng: np.random.Generator, asset: Asset, parts: Sequence[Part], ratio: float, handles: float, tops: float = 1.0
 ) -> tuple[Joined, ...]:
-    """Returns which of the parts are joined: with chance `share` a group, with chance `handles` handles with fronts.
+    """Returns which of the parts are joined: with chance `ratio` a group, with chance `handles` handles with fronts.
 
     Where a case is joined, its top is one of what is joined with chance `tops`.
     """
@@ -50,7 +50,7 @@ def draw_joined(
     still = [p for p in parts if p.id not in busy and p.rides_on is None]
     if not chance(rng, tops):
         still = [p for p in still if p.label is not PartLabel.TOP_PANEL]
-    if chance(rng, share):
+    if chance(rng, ratio):
         able = {
             name: weight
             for name, (weight, labels) in GROUPS.items()
@@ -75,14 +75,14 @@ def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:
     return Joined(tuple(p.id for p in parts), label, named=alike or not nameless)
 
 
-def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], share: float) -> tuple[Cut, ...]:
-    """Returns which of the parts are in several pieces: frames often, panels with chance `share`."""
+def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], ratio: float) -> tuple[Cut, ...]:
+    """Returns which of the parts are in several pieces: frames often, panels with chance `ratio`."""
     found = []
     label = PartLabel.BAR if chance(rng, 0.7) else PartLabel.FACE_FRAME
     if chance(rng, FRAME_IN_BARS):
         frames = (p for p in parts if p.label is PartLabel.FACE_FRAME and len(p.surfaces) > 1)
         found += [Cut(p.id, "pieces", label) for p in frames]
-    if not chance(rng, share):
+    if not chance(rng, ratio):
         return tuple(found)
     boards = [p for p in parts if p.label in (*_CASE, PartLabel.SHELF) and is_board(p) and p.box.size.min() > 0.002]
     if boards and chance(rng, STRIP):

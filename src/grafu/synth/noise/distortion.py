@@ -43,16 +43,16 @@ def stretched(asset: Asset, factors: Vec3) -> Asset:
     )
 
 
-def ajar(asset: Asset, part_id: str, share: float) -> Asset:
-    """Returns the asset with a door or drawer, and what rides on it, opened by a share of its range.
+def ajar(asset: Asset, part_id: str, ratio: float) -> Asset:
+    """Returns the asset with a door or drawer, and what rides on it, opened by a fraction of its range.
 
     Raises:
-        ValueError: if the share is not in 0..1.
+        ValueError: if the fraction is not in 0..1.
     """
-    if not 0.0 <= share <= 1.0:
-        raise ValueError(f"`share` must be in 0..1: got {share}")
+    if not 0.0 <= ratio <= 1.0:
+        raise ValueError(f"`ratio` must be in 0..1: got {ratio}")
     joint = next(j for j in asset.joints if j.part == part_id)
-    amount = share * joint.upper
+    amount = ratio * joint.upper
     T = motion_kind(joint.type).transform(joint.axis, amount)
     shorter = replace(joint, upper=joint.upper - amount)
     return replace(

@@ -189,7 +189,7 @@ def _slices(box: Box, count: int) -> list[TriangleMesh]:
     return boxes
 
 
-REACH: Final = 0.0045  # share of the object's largest side within which boxes touch: a little less than in graphs
+REACH: Final = 0.0045  # fraction of the object's largest side within which boxes touch: a little less than in graphs
 
 
 def with_anchored_sheets(asset: Asset, where: Collection[str]) -> Asset:

@@ -101,8 +101,8 @@ def _thing(rng: np.random.Generator, foot: tuple[float, float, float]) -> Triang
 def _on(rng: np.random.Generator, panel: Part, number: int) -> Iterator[Addition]:
     box = panel.box
     for _ in range(number):
-        share = rng.uniform(0.2, 0.8, 2)
-        x, y = (box.low[:2] + share * box.size[:2]).tolist()
+        ratio = rng.uniform(0.2, 0.8, 2)
+        x, y = (box.low[:2] + ratio * box.size[:2]).tolist()
         yield Addition(PartLabel.MISC, "object", _thing(rng, (x, y, float(box.high[2]))), fits=True)
 
 
@@ -171,8 +171,8 @@ def _nailers(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     back = max(backs, key=lambda b: b.volume)
     (x0, _, z0), (x1, y, z1) = back.low.tolist(), back.high.tolist()
     h, t = min(between(rng, (0.05, 0.1)), (z1 - z0) / 5), between(rng, (0.01, 0.018))
-    for share in (1.0, 0.5, 0.0)[: count(rng, 1, 3)]:
-        z = z0 + share * (z1 - z0 - h)
+    for ratio in (1.0, 0.5, 0.0)[: count(rng, 1, 3)]:
+        z = z0 + ratio * (z1 - z0 - h)
         yield Addition(PartLabel.BAR, "nailer", block((x0, y, z), (x1, y + t, z + h)))
 
 

@@ -84,7 +84,7 @@ class ModellingNoise:
     """All that is noisy about one model; the parts named are those of the tidy one.
 
     `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
-    shares of their range; `masked` is the share of parts whose label is lost. `density`, `edge` (metres) and
+    fractions of their range; `masked` is the fraction of parts whose label is lost. `density`, `edge` (metres) and
     `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying
     (loose_objects, which labels are lost) follows `seed`.
     """
@@ -122,9 +122,9 @@ def apply_noise(tidy: Asset, noise: ModellingNoise) -> tuple[Asset, tuple[Defect
     asset = _recut(asset, noise)
     asset = worded(asset, noise.wording)
     defects = []
-    for part_id, share in noise.ajar:
+    for part_id, ratio in noise.ajar:
         if _has(asset, part_id):
-            asset = ajar(asset, part_id, share)
+            asset = ajar(asset, part_id, ratio)
             defects.append(Defect("ajar", (part_id,)))
     for misfit in noise.misfits:
         if _has(asset, misfit.part):
@@ -165,13 +165,13 @@ def as_given(whole: Asset, noise: ModellingNoise, removable: Collection[str]) ->
     return with_labels_masked(given, lost), tuple(defects)
 
 
-def _masked(given: Asset, share: float, rng: np.random.Generator) -> frozenset[str]:
+def _masked(given: Asset, ratio: float, rng: np.random.Generator) -> frozenset[str]:
     """Returns which parts lose their label: odd ones and bars rather than panels, unless nearly all do."""
-    if share <= 0:
+    if ratio <= 0:
         return frozenset()
     odd = {PartLabel.MISC: 6.0, PartLabel.BAR: 2.0, PartLabel.DOOR: 0.4, PartLabel.DRAWER: 0.4}
     weights = np.array([odd.get(part.label, 1.0) for part in given.parts])
-    count = min(max(round(share * len(weights)), 1), len(weights))
+    count = min(max(round(ratio * len(weights)), 1), len(weights))
     picked = rng.choice(len(weights), count, replace=False, p=weights / weights.sum())
     return frozenset(given.parts[k].id for k in picked)
 

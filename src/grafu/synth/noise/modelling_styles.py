@@ -1,7 +1,7 @@
 """Modelling styles, and the drawing of one model's modelling noise: all rates stand here, each with its reason.
 
 A modeller who draws panels as sheets does so all over the model, and one who exports merged meshes has no handles of
-their own: so a style is drawn first and makes the rest likely or not. The shares come from the seventeen development
+their own: so a style is drawn first and makes the rest likely or not. The fractions come from the seventeen development
 models (numbers in brackets), which are few, widened towards what other sources of models are known for.
 """
 
@@ -28,7 +28,7 @@ Masking = tuple[float, float, float, float]  # none, a few, many, all labels los
 class ModellingStyle:
     """A modelling style: chances per model, but `sheets` per group of panels and `loose_objects` per kind."""
 
-    share: float
+    ratio: float
     sheets: float
     cuts: float
     joined: float
@@ -51,7 +51,8 @@ STYLES: Final[dict[str, ModellingStyle]] = {
     "game asset": ModellingStyle(0.12, 0.50, 0.05, 0.50, 0.15, 0.05, 0.25, 0.25, 0.0, (0.39, 0.24, 0.18, 0.19)),
     "scan": ModellingStyle(0.03, 0.10, 0.05, 0.60, 0.20, 0.10, 0.30, 0.05, 1.0, (0.25, 0.17, 0.18, 0.40)),
 }
-LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))  # shares of labels for the four entries of a masking
+# Fractions of labels for the four entries of a masking.
+LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))
 
 # Parts that are not there. Tops: 48 % of PartNet-Mobility's storage furniture has none, mostly kitchen units (one
 # worktop is drawn over several, or none); tables nearly always have theirs. No handles at all: 3 of 17 (22692, 26608,
@@ -153,7 +154,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         family: what it is, where that is known: some are sold without a top.
         absent: ids of parts that are missing in any case.
     """
-    name = pick(rng, {key: style.share for key, style in STYLES.items()})
+    name = pick(rng, {key: style.ratio for key, style in STYLES.items()})
     style = STYLES[name]
     missing = tuple(dict.fromkeys((*_missing(rng, tidy, family), *(p.id for p in tidy.parts if p.id in absent))))
     kept = [p for p in tidy.parts if p.id not in missing]
@@ -214,7 +215,7 @@ def _missing(rng: np.random.Generator, asset: Asset, family: str) -> tuple[str, 
         (_one(rng, by[PartLabel.HANDLE]), ONE_HANDLE_LOST),
         (_one(rng, by[PartLabel.SHELF]), A_SHELF_LOST),
     )
-    gone = [part.id for parts, share in groups if chance(rng, share) for part in parts]
+    gone = [part.id for parts, ratio in groups if chance(rng, ratio) for part in parts]
     return tuple(dict.fromkeys(gone))
 
 
@@ -253,7 +254,7 @@ def _faces(
 def _misfits(rng: np.random.Generator, parts: Sequence[Part], unit: float) -> tuple[Misfit, ...]:
     """Returns one to three parts out of place, fronts before panels: a gap in a case is seldom left open.
 
-    `unit` is the object's largest side: what is shifted by much more than a share of it looks broken.
+    `unit` is the object's largest side: what is shifted by much more than a fraction of it looks broken.
     """
     weights = np.array([3.0 if p.label.is_movable else 1.0 for p in parts])
     if not len(weights):

@@ -14,7 +14,7 @@ from grafu.synth.noise.edits import with_labels_lost
 from grafu.synth.sampling.chance import chance
 from grafu.vocabulary import PartLabel
 
-LOW = 0.18  # share of the height below which a board is part of the base
+LOW = 0.18  # fraction of the height below which a board is part of the base
 
 
 def _inner_uprights(asset: Asset) -> dict[str, PartLabel]:
@@ -69,11 +69,11 @@ def _is_false_front(part: Part) -> bool:
 
 Rule = Callable[[Asset], dict[str, PartLabel]]
 
-# A rule and the share of models whose maker words it so. From the development models: toe kicks are side panels in all
-# of them (`base_side_panel`) and frame members bars (`frame_vertical_bar`); 23372 calls inner uprights side panels and
-# inner levels bottom panels, and the shelf between its legs too; 26608 has its dividers as connectors; 45001's false
-# fronts are face frame. Other makers
-# (the authors' vocabulary has divider and face frame) do otherwise, so no rule is certain.
+# A rule and the fraction of models whose maker words it so. From the development models: toe kicks are side panels in
+# all of them (`base_side_panel`) and frame members bars (`frame_vertical_bar`); 23372 calls inner uprights side panels
+# and inner levels bottom panels, and the shelf between its legs too; 26608 has its dividers as connectors; 45001's
+# false fronts are face frame. Other makers (the authors' vocabulary has divider and face frame) do otherwise, so no
+# rule is certain.
 STYLES: Final[dict[str, tuple[Rule, float]]] = {
     "inner uprights are side panels": (_inner_uprights, 0.35),
     "dividers are odds and ends": (_odd_dividers, 0.04),
@@ -102,7 +102,7 @@ MISTAKES: Final[dict[PartLabel, tuple[PartLabel, ...]]] = {
 
 def draw_wording(rng: np.random.Generator) -> tuple[str, ...]:
     """Returns the styles of one maker, drawn by their rates."""
-    return tuple(name for name, (_, share) in STYLES.items() if chance(rng, share))
+    return tuple(name for name, (_, ratio) in STYLES.items() if chance(rng, ratio))
 
 
 def worded(asset: Asset, wording: Collection[str]) -> Asset:

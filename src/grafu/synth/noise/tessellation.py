@@ -25,7 +25,7 @@ Density = Literal["plain", "broken edges", "rounded edges", "finely rounded", "s
 # Faces of a plain board: 12 as made; 44, 236 and 1052 with edges broken in 1, 4 and 10 steps; 48 and 192 split.
 STEPS: Final[dict[Density, int]] = {"broken edges": 1, "rounded edges": 4, "finely rounded": 10}
 SPLITS: Final[dict[Density, int]] = {"split": 1, "split twice": 2}
-WIDEST = 0.3  # share of a board's thickness that one broken edge takes at most
+WIDEST = 0.3  # fraction of a board's thickness that one broken edge takes at most
 THINNEST = 0.002  # metres: thinner boards keep their edges
 CUT: Final = 1.16  # widths of a broken edge by which a board's corner lies deeper: 2 / sqrt(3), and a little
 MANY = 600  # faces of a surface beyond which nobody splits it: turned knobs, curved fronts

@@ -1,1 +1,1 @@
-"""Solids, surfaces and boards, and the asset that pieces make up. It knows no furniture."""
+"""Solids, surfaces and boards, and the asset that pieces make up."""

@@ -1,6 +1,6 @@
 """What made furniture looks like: wood, paint, metal, glass, and texture coordinates by box projection.
 
-The wood texture is drawn by this code, so that it can be shipped and shown anywhere. It knows no furniture.
+The wood texture is drawn by this code, so that it can be shipped and shown anywhere.
 """
 
 import io

@@ -30,11 +30,11 @@ def sheet(low: tuple[float, float, float], high: tuple[float, float, float]) -> 
 def arched_rail(box: Box, rise: float, steps: int = 10) -> TriangleMesh:
     """Returns an upright board along x whose lower edge is an arch, `rise` higher in the middle than at its ends."""
     (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
-    shares = np.linspace(0.0, 1.0, steps + 1)
-    low = z0 + rise * (1 - (2 * shares - 1) ** 2)
+    ratios = np.linspace(0.0, 1.0, steps + 1)
+    low = z0 + rise * (1 - (2 * ratios - 1) ** 2)
     rings = [
         [(x, y0, z), (x, y1, z), (x, y1, z1), (x, y0, z1)]
-        for x, z in zip((x0 + shares * (x1 - x0)).tolist(), low.tolist(), strict=True)
+        for x, z in zip((x0 + ratios * (x1 - x0)).tolist(), low.tolist(), strict=True)
     ]
     return loft(np.array(rings))
 
@@ -52,27 +52,27 @@ def table_board(box: Box, edge: float, rounded: bool, steps: int = 4) -> Triangl
 def bow_fronted_board(box: Box, belly: float, steps: int = 12) -> TriangleMesh:
     """Returns a level board whose front edge bulges by `belly` before the box, in the middle."""
     (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
-    shares = np.linspace(0.0, 1.0, steps + 1)
-    front = zip((x0 + shares * (x1 - x0)).tolist(), (y0 - 4 * belly * shares * (1 - shares)).tolist(), strict=True)
+    ratios = np.linspace(0.0, 1.0, steps + 1)
+    front = zip((x0 + ratios * (x1 - x0)).tolist(), (y0 - 4 * belly * ratios * (1 - ratios)).tolist(), strict=True)
     return prism([*front, (x1, y1), (x0, y1)], z0, z1)
 
 
 def domed_board(box: Box, rise: float, steps: int = 12) -> TriangleMesh:
     """Returns a level board whose upper face is an arch from front to back, `rise` above the box in the middle."""
     (x0, y0, z0), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
-    shares = np.linspace(1.0, 0.0, steps + 1)
-    y, z = y0 + shares * (y1 - y0), z1 + 4 * rise * shares * (1 - shares)
+    ratios = np.linspace(1.0, 0.0, steps + 1)
+    y, z = y0 + ratios * (y1 - y0), z1 + 4 * rise * ratios * (1 - ratios)
     return prism_along_x([(y0, z0), (y1, z0), *zip(y.tolist(), z.tolist(), strict=True)], x0, x1)
 
 
 def turned(start: Vec3, end: Vec3, profile: Sequence[tuple[float, float]], sides: int = 12) -> TriangleMesh:
-    """Returns a turned solid from `start` to `end`; `profile` lists (share of the way, radius), radii above 0."""
+    """Returns a turned solid from `start` to `end`; `profile` lists (fraction of the way, radius), radii above 0."""
     direction = (end - start) / np.linalg.norm(end - start)
     across = np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))])
     across /= np.linalg.norm(across)
     angles = 2 * np.pi * (np.arange(sides) + 0.5) / sides
     circle = np.outer(np.cos(angles), across) + np.outer(np.sin(angles), np.cross(direction, across))
-    return loft(np.stack([start + share * (end - start) + radius * circle for share, radius in profile]))
+    return loft(np.stack([start + ratio * (end - start) + radius * circle for ratio, radius in profile]))
 
 
 def rod(start: Vec3, end: Vec3, radius: float, sides: int = 12) -> TriangleMesh:

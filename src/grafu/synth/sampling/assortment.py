@@ -52,10 +52,10 @@ DROPS: Handles = {"bail": 3.0, "ring": 2.0, "bar-arched": 1.0}
 NONE: Handles = {"none": 1.0}
 
 
-def mixed(*shares: tuple[float, Handles]) -> dict[HandleStyle, float]:
-    """Returns one table in which each of the given tables has its share."""
+def mixed(*ratios: tuple[float, Handles]) -> dict[HandleStyle, float]:
+    """Returns one table in which each of the given tables has its fraction."""
     table: dict[HandleStyle, float] = {}
-    for share, handles in shares:
+    for ratio, handles in ratios:
         for handle, weight in handles.items():
-            table[handle] = table.get(handle, 0.0) + share * weight / sum(handles.values())
+            table[handle] = table.get(handle, 0.0) + ratio * weight / sum(handles.values())
     return table

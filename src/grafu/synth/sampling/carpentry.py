@@ -117,15 +117,15 @@ def _leaves(layout: Layout, room: Rect) -> Iterator[tuple[Layout, Rect]]:
 
 def _divided(layout: Row | Stack, room: Rect) -> Iterator[tuple[Layout, Rect]]:
     """Yields the cells and, to within the panels between them, their rooms."""
-    shares = layout.weights or (1.0,) * len(layout.cells)
-    whole, start = sum(shares), 0.0
-    for cell, share in zip(layout.cells, shares, strict=True):
-        low, high = start / whole, (start + share) / whole
+    ratios = layout.weights or (1.0,) * len(layout.cells)
+    whole, start = sum(ratios), 0.0
+    for cell, ratio in zip(layout.cells, ratios, strict=True):
+        low, high = start / whole, (start + ratio) / whole
         if isinstance(layout, Row):
             yield cell, replace(room, x0=room.x0 + low * room.width, x1=room.x0 + high * room.width)
         else:
             yield cell, replace(room, z0=room.z0 + low * room.height, z1=room.z0 + high * room.height)
-        start += share
+        start += ratio
 
 
 def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
@@ -188,7 +188,7 @@ def _halves(room: Rect) -> tuple[Rect, Rect]:
 
 
 def drawer_heights(rng: np.random.Generator, number: int) -> tuple[float, ...]:
-    """Returns shares of the height for a stack of drawers, from the bottom: alike, deeper below, or a flat top one."""
+    """Returns fractions of the height for a stack of drawers, from the bottom: alike, deeper below, or flat on top."""
     pattern = pick(rng, {"alike": 0.45, "deeper below": 0.35, "flat top": 0.2})
     if pattern == "alike" or number == 1:
         return ()

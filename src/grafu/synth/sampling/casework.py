@@ -1,6 +1,6 @@
 """Draws the still part of a cabinet for a style: its case with base, top, sides, back, bottom and face frame.
 
-A family says what it allows (`Build`); the style's tradition weighs what is allowed. It knows no fronts.
+A family says what it allows (`Build`); the style's tradition weighs what is allowed.
 """
 
 from collections.abc import Mapping
@@ -177,8 +177,8 @@ def _back(rng: np.random.Generator, style: Style, build: Build, width: float) ->
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
     if kind == "full" and width > WIDE_BACK and style.tradition == "flat-pack" and chance(rng, 0.5):
         kind = "split"
-    share = NAILED_BANDED if style.banded else NAILED * _care(style)
-    rails = count(rng, 3 if style.banded else 2, 3) if chance(rng, share) else 0
+    ratio = NAILED_BANDED if style.banded else NAILED * _care(style)
+    rails = count(rng, 3 if style.banded else 2, 3) if chance(rng, ratio) else 0
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
 
 

@@ -1,6 +1,6 @@
 """Draws from small tables, with a passed-in generator: a word by its weight, a length between two bounds.
 
-It knows no furniture. A table is a mapping from what may be drawn to its weight; weights need not sum to 1.
+A table is a mapping from what may be drawn to its weight; weights need not sum to 1.
 """
 
 from collections.abc import Iterable, Mapping
@@ -54,5 +54,5 @@ def only(table: Mapping[T, float], allowed: Iterable[T]) -> dict[T, float]:
 
 
 def weights(rng: np.random.Generator, number: int, spread: float = 0.0) -> tuple[float, ...]:
-    """Returns shares around 1, each drawn evenly within `spread` of it; none (that is: equal) where spread is 0."""
+    """Returns fractions around 1, each drawn evenly within `spread` of it; none (that is: equal) where spread is 0."""
     return tuple(between(rng, (1.0 - spread, 1.0 + spread)) for _ in range(number)) if spread else ()

@@ -1,4 +1,4 @@
-"""One front at a time in the style of its piece: leaf, handle, hold, grip, shelves. It knows no neighbours.
+"""One front at a time in the style of its piece: leaf, handle, hold, grip, shelves.
 
 Rates: handles that say nothing about the hinge (centred on an edge) sit on about one door in ten, mostly of pairs, none
 at all on one in fourteen, one on the hinge side on fewer than one in 200.
@@ -169,8 +169,8 @@ def _plain_hold(style: Style, handle: HandleStyle) -> Hold:
     if family == "knob":
         return Hold(length=style.knob, inset=style.inset)
     bar = family == "bar" and handle != "bar-profile"
-    share, length = (0.94, 3.0) if style.full else (0.8 if style.length else 0.4, style.length)
-    return Hold(length=length, share=share, inset=style.inset, protrusion=style.protrusion if bar else None)
+    ratio, length = (0.94, 3.0) if style.full else (0.8 if style.length else 0.4, style.length)
+    return Hold(length=length, ratio=ratio, inset=style.inset, protrusion=style.protrusion if bar else None)
 
 
 def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: Style) -> int:

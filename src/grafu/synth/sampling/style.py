@@ -84,7 +84,7 @@ BARE_HANDLES = 0.3  # of the barest pieces have no handles at all
 LIGHT, LIGHT_FRONT = 0.0145, 0.014  # metres: pieces of thin boards have thin fronts too (41003, 45001, 46456)
 THICK_BOARDS = (0.028, 0.055)  # metres: of small solid pieces, and of models drawn coarsely
 PUSHED = 0.4  # of chests of drawers, beyond what their traditions say: 32052 and 46896 are held by edges alone
-# Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones. Shares; metres
+# Fronts that end with the case's outer faces: 44781, 45940, 46408, 47315; 22692 has wider ones. Fractions; metres
 FLUSH, BEYOND, JUT = 0.6, 0.14, (-0.015, -0.003)
 # Frameless boards meet in a plane: their makers leave nothing of the case beside the fronts more often.
 BOARDED: frozenset[TraditionName] = frozenset({"frameless", "flat-pack", "office", "minimal", "appliance"})
@@ -96,8 +96,8 @@ BANDED: Mapping[TraditionName, float] = {"flat-pack": 0.75, "frameless": 0.75, "
 # Nearly all whose boards are banded and half of those whose doors lie on the case touch; of the others few.
 SETBACKS: Mapping[Span, float] = {(0.0, 0.003): 0.2, (0.003, 0.015): 0.35, (0.015, 0.07): 0.45}
 FIXED_SHELF = 0.7  # of banded pieces have one behind every seam of their fronts (41003)
-TIGHT, TIGHT_BANDED, TIGHT_SHELVES = 0.5, 0.9, 0.65  # shares: doors on the case; shelves at the fronts
-LONG_SHARE = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
+TIGHT, TIGHT_BANDED, TIGHT_SHELVES = 0.5, 0.9, 0.65  # fractions: doors on the case; shelves at the fronts
+LONG_RATIO = 0.08  # pieces whose handles run along (nearly) the whole front: profiles and long bars
 PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
     {
         "glass", "mirror", "muntins", "louvred", "arched rail", "two panels", "swept", "swept frame", "half arched",
@@ -174,7 +174,7 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     frame = between(rng, (0.025, 0.055)) if chance(rng, rules.framed) and not bare else 0.0
     banded = mount == "overlay" and not (frame or bare) and chance(rng, BANDED.get(name, 0.0))
     tight = banded or chance(rng, TIGHT)
-    full = chance(rng, 0.6 if handle == "bar-profile" else LONG_SHARE)
+    full = chance(rng, 0.6 if handle == "bar-profile" else LONG_RATIO)
     return Style(
         tradition=name,
         panel=panel,
@@ -217,14 +217,14 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     )
 
 
-def pushed(rng: np.random.Generator, style: Style, share: float = PUSHED) -> Style:
-    """Returns the style, in this share of draws with fronts that are pushed open or drawn by their edge."""
-    return replace(style, handle="none", drawer_handle="none") if chance(rng, share) else style
+def pushed(rng: np.random.Generator, style: Style, ratio: float = PUSHED) -> Style:
+    """Returns the style, in this fraction of draws with fronts that are pushed open or drawn by their edge."""
+    return replace(style, handle="none", drawer_handle="none") if chance(rng, ratio) else style
 
 
-def chunky(rng: np.random.Generator, style: Style, share: float) -> Style:
-    """Returns the style, in this share of draws with boards that are thick for a small piece."""
-    return replace(style, panel=max(style.panel, between(rng, THICK_BOARDS))) if chance(rng, share) else style
+def chunky(rng: np.random.Generator, style: Style, ratio: float) -> Style:
+    """Returns the style, in this fraction of draws with boards that are thick for a small piece."""
+    return replace(style, panel=max(style.panel, between(rng, THICK_BOARDS))) if chance(rng, ratio) else style
 
 
 def _carries(name: TraditionName, handle: HandleStyle) -> Mapping[Carry, float]:

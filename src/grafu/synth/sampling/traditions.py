@@ -41,11 +41,11 @@ TraditionName = Literal[
 @final
 @dataclass(frozen=True, slots=True)
 class Tradition:
-    """What the makers of one tradition choose: tables of weights, spans in metres, shares from 0 to 1.
+    """What the makers of one tradition choose: tables of weights, spans in metres, fractions from 0 to 1.
 
-    `leaf` is a piece's door style, and the share `plain_drawers` of pieces has slab drawer fronts beside it. `bare`
-    is the share drawn with the fewest parts that still make a piece (46408 has 8, 49182 has 10), `framed` that with a
-    face frame, `moulded` with a moulding, `muntin` with an upright between the doors of a pair. `opening` is how far
+    `leaf` is a piece's door style, and the fraction `plain_drawers` of pieces has slab drawer fronts beside it. `bare`
+    is the fraction drawn with the fewest parts that still make a piece (46408 has 8, 49182 has 10), `framed` that with
+    a face frame, `moulded` with a moulding, `muntin` with an upright between the doors of a pair. `opening` is how far
     doors swing, degrees.
     """
 

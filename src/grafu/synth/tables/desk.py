@@ -30,9 +30,10 @@ END_PANEL = 0.025  # metres: the panel that carries a top where no pedestal does
 class Desk:
     """A top on one or two pedestals, metres; on the side without a pedestal it rests on a panel, or on `legs`.
 
-    Below the top, `middle` fills a zone `apron` high between the pedestals. `modesty` is the share of the height that a
-    panel between them covers at the back. Pedestals stand on `base`, and `lift` below the top, joined to it by blocks.
-    A return of length `wing` runs towards the front at the end without a pedestal. A hutch stands on the top's back.
+    Below the top, `middle` fills a zone `apron` high between the pedestals. `modesty` is the fraction of the height
+    that a panel between them covers at the back. Pedestals stand on `base`, and `lift` below the top, joined to it by
+    blocks. A return of length `wing` runs towards the front at the end without a pedestal. A hutch stands on the top's
+    back.
 
     Raises:
         ValueError: if the pedestals do not fit beside each other, or leave the middle no room.

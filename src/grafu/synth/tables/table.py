@@ -41,7 +41,7 @@ class Table:
     A hutch stands on the top at its back, or a mirror of that height. `rails` is the height of bars above and below the
     drawers; `boarded` makes them one board with openings. A `spine` is a board that runs lengthwise behind the drawers.
     A straight top has a `moulding` of that height around it, which ends above the drawers. The back apron covers the
-    share `modesty` of the room below it.
+    fraction `modesty` of the room below it.
 
     Raises:
         ValueError: if the legs leave no room between them or below the top, or the rails none for drawers.
@@ -88,8 +88,8 @@ class Table:
     @property
     def half(self) -> tuple[float, float]:
         """How far the legs' outer faces stand from the middle, along x and y."""
-        share = WITHIN_ROUND if self.outline == "round" else 1.0
-        return share * self.width / 2 - self.overhang, share * self.depth / 2 - self.overhang
+        ratio = WITHIN_ROUND if self.outline == "round" else 1.0
+        return ratio * self.width / 2 - self.overhang, ratio * self.depth / 2 - self.overhang
 
     @property
     def under(self) -> float:

@@ -1,4 +1,4 @@
-"""What tables and desks consist of besides drawers: tops, legs, hutches, mirrors. It knows no fronts."""
+"""What tables and desks consist of besides drawers: tops, legs, hutches, mirrors."""
 
 from collections.abc import Iterator
 from typing import Literal
@@ -20,7 +20,7 @@ from grafu.synth.pieces.shapes import board, prism
 from grafu.vocabulary import PartLabel
 
 Outline = Literal["straight", "round"]
-WITHIN_ROUND = 0.66  # a rectangle of this share of a round top's sides lies within it (0.66^2 * 2 < 1)
+WITHIN_ROUND = 0.66  # a rectangle of this fraction of a round top's sides lies within it (0.66^2 * 2 < 1)
 
 
 def table_top(outline: Outline, box: Box, edge: TopEdge, glass: bool, finish: Finish) -> Piece:

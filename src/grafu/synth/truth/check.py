@@ -44,8 +44,8 @@ LEAST_SLIDE = 0.03
 LEAST_DOOR, LEAST_DRAWER = 0.08, 0.03  # metres across a door, and in height: a keyboard's tray is hardly higher
 ATTACHED_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.attached`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
-_BESIDE = 0.05  # metres from a drawer within which parts are its case, and the share of its height that they share
-_OUT = 0.3  # share of its way that a drawer must come out of its case: those behind doors begin within it
+_BESIDE = 0.05  # metres from a drawer within which parts are its case, and the fraction of its height that they share
+_OUT = 0.3  # fraction of its way that a drawer must come out of its case: those behind doors begin within it
 _SAME = 1e-4  # metres within which two boxes are one
 
 BoxRows = Float[np.ndarray, "n 2 3"]

@@ -2,7 +2,7 @@
 
 Most of made furniture is boards, so that nearly every question is one of two boxes, and all poses and pairs are asked
 at once. A solid box has an inside: what lies wholly within another counts; meshes have none, as in
-`grafu.geometry.intersection`. It knows no labels and judges nothing.
+`grafu.geometry.intersection`.
 
 Made furniture as an articulated object: its true joints as links, joints and limits, and which opens before which.
 

@@ -2,7 +2,7 @@
 
 Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door is the
 still part nearest to its pin, those of a drawer the nearest ones beside its flanks, by distances from real meshes; a
-part that touches nothing has its mount all the same. It knows no grammar: a shifted or merged model is read alike.
+part that touches nothing has its mount all the same.
 """
 
 from collections.abc import Sequence
@@ -21,8 +21,8 @@ from grafu.graph.motion import axis_to_hinge, axis_to_rail
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.vocabulary import PartLabel
 
-PIN_SAMPLES = np.linspace(0.1, 0.9, 5)  # shares of a door's border: its ends are where other parts are nearest
-RAIL_SAMPLES = np.linspace(0.25, 0.9, 4)  # shares of a drawer's depth: the front itself often laps the case
+PIN_SAMPLES = np.linspace(0.1, 0.9, 5)  # fractions of a door's border: its ends are where other parts are nearest
+RAIL_SAMPLES = np.linspace(0.25, 0.9, 4)  # fractions of a drawer's depth: the front itself often laps the case
 LEAST_DEPTH = 0.15  # metres behind a front without a box in which its carriers are sought
 REACH = 0.12  # metres from a flank within which a part can carry a rail: a wider gap needs a part above instead
 NEAREST = 6  # parts whose meshes are asked, chosen by their boxes: a frame's box can hold a pin that the frame does not
@@ -90,15 +90,15 @@ def _door_mount(joint: AnnotatedJoint, door: Part, still: list[Part], touching: 
     axis = joint.axis
     along = (door.box.corners() - axis.point) @ axis.direction
     near = [p for p in still if p.box.gap(door.box) <= HINGE_REACH] or still
-    shares = along.min() + PIN_SAMPLES * np.ptp(along)
-    return _best(axis.point + shares[:, None] * axis.direction, near, touching)[0]
+    ratios = along.min() + PIN_SAMPLES * np.ptp(along)
+    return _best(axis.point + ratios[:, None] * axis.direction, near, touching)[0]
 
 
 def _drawer_mounts(joint: AnnotatedJoint, drawer: Part, still: list[Part], touching: set[str]) -> list[str]:
     """Returns one or two mounts: beside each flank; else what lies above; else the nearest part."""
     slide, up = joint.axis.direction, np.array([0.0, 0.0, 1.0])
     across = np.cross(up, slide)
-    beside = [p for p in still if _share_of_height(drawer, p) > 0.3]
+    beside = [p for p in still if _ratio_of_height(drawer, p) > 0.3]
     found: dict[str, None] = {}
     for side in (-across, across):
         samples = _flank(drawer, slide, side)
@@ -148,8 +148,8 @@ def _mesh_distances(samples: Points, parts: Sequence[Part]) -> Float[np.ndarray,
     return np.asarray(np.minimum.reduceat(all_distances, starts, axis=1).mean(axis=0))
 
 
-def _share_of_height(drawer: Part, part: Part) -> float:
-    """Returns how much of the lower of the two heights the parts share."""
+def _ratio_of_height(drawer: Part, part: Part) -> float:
+    """Returns the overlap of the two heights as a fraction of the lower one."""
     shared = min(drawer.box.high[2], part.box.high[2]) - max(drawer.box.low[2], part.box.low[2])
     return float(shared / max(min(drawer.box.size[2], part.box.size[2]), 1e-9))
 

@@ -49,7 +49,7 @@ class OrbitCamera {
     this.touched = true;
   }
 
-  // Moves sideways by shares of the picture's height.
+  // Moves sideways by fractions of the picture's height.
   pan(dx, dy) {
     const { right, up } = this.axes(), reach = 2 * this.distance * Math.tan(FOV / 2);
     const moved = add(this.target, add(times(right, -dx * reach), times(up, dy * reach)));

@@ -12,7 +12,7 @@ class Controls {
       slider.disabled = false;
       slider.addEventListener("input", () => {
         this.playing(false);
-        joints.setShare(index, slider.value / slider.max);
+        joints.setFraction(index, slider.value / slider.max);
       });
       const row = slider.closest(".joint");
       for (const name of ["pointerenter", "focusin"]) row.addEventListener(name, () => focused(index));
@@ -50,7 +50,7 @@ class Controls {
   play() {
     this.playing(true);
     const next = (open) => this.joints.move(open, SECONDS, () => this.pause(() => next(!open)));
-    next(!this.joints.joints.every((_, k) => this.joints.share(k) > 0.99));
+    next(!this.joints.joints.every((_, k) => this.joints.fraction(k) > 0.99));
     this.changed();
   }
 
@@ -79,10 +79,10 @@ class Controls {
   // Brings sliders and words in line with the values.
   show() {
     this.sliders.forEach((slider) => {
-      const index = Number(slider.dataset.joint), share = this.joints.share(index);
-      if (Math.abs(slider.value / slider.max - share) > 0.5 / slider.max) slider.value = Math.round(share * slider.max);
+      const index = Number(slider.dataset.joint), fraction = this.joints.fraction(index);
+      if (Math.abs(slider.value / slider.max - fraction) > 0.5 / slider.max) slider.value = Math.round(fraction * slider.max);
       const said = amount(this.joints.joints[index], this.joints.values[index]);
-      slider.style.setProperty("--share", share);
+      slider.style.setProperty("--fraction", fraction);
       slider.setAttribute("aria-valuetext", said);
       slider.closest(".joint").querySelector("output").textContent = said;
     });

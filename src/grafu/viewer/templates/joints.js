@@ -29,14 +29,14 @@ class Joints {
     this.watchers.forEach((watcher) => watcher());
   }
 
-  share(index) {
+  fraction(index) {
     const { lower, upper } = this.joints[index];
     return upper > lower ? (this.values[index] - lower) / (upper - lower) : 0;
   }
 
-  setShare(index, share) {
+  setFraction(index, fraction) {
     const { lower, upper } = this.joints[index];
-    this.set(index, lower + share * (upper - lower));
+    this.set(index, lower + fraction * (upper - lower));
   }
 
   // Returns the motion of every link from rest, in the order of the links, parents before children.
@@ -58,7 +58,7 @@ class Joints {
   // Moves all joints, stage after stage, to open (true) or closed; `again` is called when that is done.
   move(open, seconds, again = () => this.stop()) {
     const stages = (open ? this.stages : [...this.stages].reverse()).filter((stage) =>
-      stage.some((k) => Math.abs(this.share(k) - (open ? 1 : 0)) > 1e-6));
+      stage.some((k) => Math.abs(this.fraction(k) - (open ? 1 : 0)) > 1e-6));
     this.run = { stages, open, seconds, again, at: 0, time: 0, from: null };
   }
 
@@ -75,11 +75,11 @@ class Joints {
       run.again();
       return this.run !== null;
     }
-    run.from ??= stage.map((k) => this.share(k));
+    run.from ??= stage.map((k) => this.fraction(k));
     run.time += elapsed;
     const t = run.seconds > 0 ? clamp(run.time / run.seconds, 0, 1) : 1;
     const soft = t * t * (3 - 2 * t);
-    stage.forEach((k, i) => this.setShare(k, run.from[i] + ((run.open ? 1 : 0) - run.from[i]) * soft));
+    stage.forEach((k, i) => this.setFraction(k, run.from[i] + ((run.open ? 1 : 0) - run.from[i]) * soft));
     if (t >= 1) Object.assign(run, { at: run.at + 1, time: 0, from: null });
     return true;
   }

@@ -197,7 +197,7 @@ class Renderer {
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
   }
 
-  // Returns the index of the item at a point (shares of the picture, y downwards), or -1.
+  // Returns the index of the item at a point (fractions of the picture, y downwards), or -1.
   pick(camera, poses, view, x, y) {
     const gl = this.gl, w = this.canvas.width, h = this.canvas.height;
     const zoomed = [w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w * (1 - 2 * x), h * (2 * y - 1), 0, 1];
