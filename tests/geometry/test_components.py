@@ -1,3 +1,5 @@
+from time import process_time
+
 import numpy as np
 import trimesh
 from hypothesis import given
@@ -5,7 +7,15 @@ from hypothesis import strategies as st
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.components import clustered, connected_parts, patches_of, repeated_faces, tidy_parts, welded
+from grafu.geometry.components import (
+    clustered,
+    connected_parts,
+    part_boxes,
+    patches_of,
+    repeated_faces,
+    tidy_parts,
+    welded,
+)
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 CUBE = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0)))
@@ -147,3 +157,26 @@ def test_a_repeated_face_names_the_first_with_its_corners():
     assert repeated_faces(CUBE).tolist() == list(range(12))
     assert repeated_faces(doubled).tolist() == [*range(12), *reversed(range(12))]
     assert repeated_faces(merge_meshes([])).tolist() == []
+
+
+@given(st.lists(st.tuples(*[st.integers(-9, 9)] * 3), min_size=1, max_size=12), st.integers(0, 2))
+def test_boxes_of_pieces_are_those_of_the_meshes_of_the_pieces(places, turn):
+    axes = np.roll(np.eye(3), turn, axis=0)
+    mesh = merge_meshes([CUBE.translated(0.7 * np.array(place, dtype=float)) for place in places])
+    order = np.random.default_rng(len(places)).permutation(len(mesh.faces))
+    mixed = TriangleMesh(mesh.vertices, mesh.faces[order])
+
+    boxes = [Box.around(piece.vertices @ axes) for piece in connected_parts(mixed)]
+
+    assert np.array_equal(part_boxes(mixed, axes), np.array([[box.low, box.high] for box in boxes]))
+
+
+def test_a_mesh_of_many_pieces_is_sorted_in_time_that_grows_with_its_faces():
+    def seconds(count: int) -> float:
+        cubes = merge_meshes([CUBE.translated(vec3(2.0 * k, 0.0, 0.0)) for k in range(count)])
+        start = process_time()
+        assert len(connected_parts(cubes)) == count
+        return process_time() - start
+
+    seconds(50)  # what is loaded once
+    assert seconds(4000) < 30 * seconds(400)

@@ -9,12 +9,14 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Bool, Float, Int
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, freeze_arrays
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, freeze_arrays
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+
+BoxEnds = Float[np.ndarray, "n 2 3"]  # lowest and highest corner of each of n boxes
 
 
 @final
@@ -75,6 +77,12 @@ def part_numbers(mesh: TriangleMesh) -> Indices:
     return np.argsort(np.argsort(first))[number.reshape(-1)].astype(np.int64)
 
 
+def faces_of_parts(numbers: Indices) -> list[Int[np.ndarray, " _"]]:
+    """Returns for each piece the indices of its faces, from the number of each face's piece."""
+    order = np.argsort(numbers, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1) if len(numbers) else []
+
+
 def repeated_faces(mesh: TriangleMesh) -> Indices:
     """Returns for each face the index of the first face with the same three corners, which may be itself."""
     if not len(mesh.faces):
@@ -86,9 +94,18 @@ def repeated_faces(mesh: TriangleMesh) -> Indices:
 
 def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
     """Returns the pieces of a mesh that share no position with one another, in order of their first face."""
-    numbers = part_numbers(mesh)
-    count = int(numbers.max()) + 1 if len(numbers) else 0
-    return [mesh] if count == 1 else [mesh.with_faces(numbers == k) for k in range(count)]
+    faces = faces_of_parts(part_numbers(mesh))
+    return [mesh] if len(faces) == 1 else [mesh.with_faces(chosen) for chosen in faces]
+
+
+def part_boxes(mesh: TriangleMesh, axes: Mat3) -> BoxEnds:
+    """Returns lowest and highest corner of the boxes around the pieces, in the coordinates of the columns of `axes`."""
+    faces = faces_of_parts(part_numbers(mesh))
+    if not faces:
+        return np.zeros((0, 2, 3))
+    low, high = triangle_bounds((mesh.vertices @ axes)[mesh.faces[np.concatenate(faces)]])
+    start = np.cumsum([0, *(len(chosen) for chosen in faces[:-1])])
+    return np.stack([np.minimum.reduceat(low, start), np.maximum.reduceat(high, start)], axis=1)
 
 
 def tidy_parts(mesh: TriangleMesh) -> list[tuple[TriangleMesh, bool]]:
@@ -96,10 +113,10 @@ def tidy_parts(mesh: TriangleMesh) -> list[tuple[TriangleMesh, bool]]:
     patches = patches_of(mesh)
     whole = TriangleMesh(mesh.vertices, patches.faces)
     numbers = part_numbers(whole)
-    count = int(numbers.max()) + 1 if len(numbers) else 0
-    closed = np.ones(count, dtype=bool)
+    faces = faces_of_parts(numbers)
+    closed = np.ones(len(faces), dtype=bool)
     np.logical_and.at(closed, numbers, patches.closed[patches.patch])
-    return [(whole if count == 1 else whole.with_faces(numbers == k), bool(closed[k])) for k in range(count)]
+    return [(whole if len(faces) == 1 else whole.with_faces(chosen), bool(closed[k])) for k, chosen in enumerate(faces)]
 
 
 def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:

@@ -130,6 +130,7 @@ def _subtract_closed(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface
     if body.status() != manifold3d.Error.NoError or body.is_empty() or body.volume() <= 0:
         return None
     for solid in solids:
+        require_time()
         body = body - manifold3d.Manifold(
             manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32))
         )
@@ -148,20 +149,21 @@ def _padded(rows: np.ndarray, width: int) -> np.ndarray:
 def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     """Returns an open surface without the parts of its triangles inside the solids."""
     mesh = surface.mesh
-    near = _meet(mesh.triangles, Box.around(np.vstack([solid.vertices for solid in solids])))
+    triangles = mesh.triangles
+    near = _meet(triangles, Box.around(np.vstack([solid.vertices for solid in solids])))
     if not near.any():
         return surface
     rows = _attributes(surface)
     # Faces without area go too: they would stay behind as needles in the cut.
     owner = np.flatnonzero(near)
-    owner = owner[~_is_sliver(mesh.triangles[owner])]
-    near_each = [_touched(mesh.triangles[owner], solid) for solid in solids]
+    owner = owner[~_is_sliver(triangles[owner])]
+    near_each = [_touched(triangles[owner], solid) for solid in solids]
     pieces, gone = left_over(rows[mesh.faces[owner]], near_each, [solid.planes for solid in solids])
     cut = np.zeros(len(mesh.faces), dtype=bool)
     cut[owner[gone]] = True
     if not cut.any():
         return surface
-    flat = near & _is_sliver(mesh.triangles)
+    flat = near & _is_sliver(triangles)
     pieces = pieces[~_is_sliver(pieces)]
     new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
     faces = np.vstack([mesh.faces[~cut & ~flat], new_faces])

@@ -19,6 +19,7 @@ from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_time
 from grafu.geometry.components import connected_parts, part_numbers
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
@@ -54,11 +55,6 @@ def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVer
 def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:
     """Returns the box around a mesh in the coordinates of `axes`."""
     return Box.around(mesh.vertices @ axes)
-
-
-def piece_boxes(axes: Mat3, mesh: TriangleMesh) -> list[Box]:
-    """Returns the boxes of the connected pieces in the coordinates of `axes`."""
-    return [box_in(axes, piece) for piece in connected_parts(mesh)]
 
 
 @final
@@ -105,12 +101,14 @@ def lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
     whole = lost = 0.0
     cutter = manifold3d.Manifold.batch_boolean([_manifold(solid) for solid in solids], manifold3d.OpType.Add)
     for piece in connected_parts(part.mesh):
+        require_time()
         hull = ConvexSolid.around(piece.vertices)
         if hull is None:
             continue
         body = _manifold(hull)
         whole += body.volume()
-        lost += (body ^ cutter).volume()
+        if any(hull.box.overlaps(solid.box) for solid in solids):
+            lost += (body ^ cutter).volume()
     return min(lost / whole, 1.0) if whole > 0 else 1.0
 
 

@@ -9,9 +9,10 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
-from grafu.geometry.components import part_numbers
+from grafu.geometry.budget import require_time
+from grafu.geometry.components import BoxEnds, faces_of_parts, part_boxes, part_numbers
 from grafu.geometry.mesh import TriangleMesh
-from grafu.joints.clearance.carve import Path, box_in, piece_boxes
+from grafu.joints.clearance.carve import Path, box_in
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
 from grafu.scene.scene import Scene
@@ -40,7 +41,8 @@ def trim(
     part = scene.parts[path.moving]
     most = config.max_trim * box_in(path.axes, part.mesh).size
     play = 2.5 * config.depth * scene.unit
-    theirs = [box for name in ids for box in piece_boxes(path.axes, scene.parts[name].mesh)]
+    boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
+    theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])
     depth = 0.0
     surfaces = []
     for surface in part.surfaces:
@@ -56,14 +58,15 @@ def trim(
 
 
 def _pressed(
-    surface: Surface, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]
+    surface: Surface, theirs: BoxEnds, path: Path, most: np.ndarray, play: tuple[float, float]
 ) -> tuple[Surface, float]:
     """Returns the surface with its pieces pressed back, and by how much at most (`play`: see `_presses`)."""
     numbers = part_numbers(surface.mesh)
     local = surface.mesh.vertices @ path.axes
     deepest = 0.0
-    for k in range(int(numbers.max()) + 1 if len(numbers) else 0):
-        used = np.unique(surface.mesh.faces[numbers == k])
+    for faces in faces_of_parts(numbers):
+        require_time()
+        used = np.unique(surface.mesh.faces[faces])
         box = Box.around(local[used])
         for press in _presses(box, theirs, path, most, play):
             column = local[used, press.axis]
@@ -76,19 +79,17 @@ def _pressed(
     return replace(surface, mesh=mesh), deepest
 
 
-def _presses(box: Box, theirs: Sequence[Box], path: Path, most: np.ndarray, play: tuple[float, float]) -> list[_Press]:
+def _presses(box: Box, theirs: BoxEnds, path: Path, most: np.ndarray, play: tuple[float, float]) -> list[_Press]:
     """Returns how a piece must be pressed so that it clears the static pieces that it cuts into a little.
 
     `play` is what it gets, and up to which gap it counts as cutting in.
     """
     way = _swept(box, path)
+    depths = np.stack([theirs[:, 1] - way.low, way.high - theirs[:, 0]], axis=1)
     found: list[_Press] = []
-    for other in theirs:
-        depths = np.stack([other.high - way.low, way.high - other.low])
-        if (depths <= -play[1]).any():
-            continue
-        side, axis = (int(i) for i in np.unravel_index(int(np.argmin(depths)), depths.shape))
-        depth = float(depths[side, axis]) + play[0]
+    for both in depths[(depths > -play[1]).all(axis=(1, 2))]:
+        side, axis = (int(i) for i in np.unravel_index(int(np.argmin(both)), both.shape))
+        depth = float(both[side, axis]) + play[0]
         if depth <= most[axis] and depth <= (1 - _KEPT) * box.size[axis]:
             limit = float(way.low[axis] + depth) if side == 0 else float(way.high[axis] - depth)
             found.append(_Press(axis, side, limit, depth))
