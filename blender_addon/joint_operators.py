@@ -12,9 +12,9 @@ from .state import report_of, session_of, settings_of
 AUTO = "auto"
 PIVOT = "pivot"
 HINGES = [
-    ("C", "C: contact", "Leaves between two faces that touch"),
-    ("F", "F: flush", "Leaves on two flush faces"),
-    ("P", "P: perpendicular", "Leaves in an inner corner"),
+    ("C", "Contact", "Leaves between two faces that touch"),
+    ("F", "Flush", "Leaves on two flush faces"),
+    ("P", "Perpendicular", "Leaves in an inner corner"),
 ]
 RAILS = [
     ("centre-mount", "Centre mount", "Rails at half the height of the drawer's sides"),
@@ -69,7 +69,7 @@ def _templates() -> list:
     from grafu.templates.gallery import builtin_gallery
 
     gallery = builtin_gallery()
-    hinges = [(False, m.mechanism.value, m.id, f"{m.title} ({m.mechanism.value})", "") for m in gallery.hinges]
+    hinges = [(False, m.mechanism.value, m.id, f"{m.title} ({m.mechanism.in_words})", "") for m in gallery.hinges]
     rails = [(True, m.mechanism.value, m.id, m.title, "") for m in gallery.rails]
     return [*hinges, *rails, (False, "", PIVOT, "Pivots", "Discs at the ends of the door")]
 

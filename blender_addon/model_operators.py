@@ -28,7 +28,7 @@ class GRAFU_OT_open_result(bpy.types.Operator):
         return active_run() is None
 
     def invoke(self, context, event):
-        """Asks for the folder."""
+        """Opens the file dialog for the folder."""
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 

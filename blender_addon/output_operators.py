@@ -53,7 +53,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         return active_run() is None and session_of(context).has_result
 
     def invoke(self, context, event):
-        """Asks for the folder."""
+        """Opens the file dialog for the folder."""
         self.formats = self.formats or USUAL
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}

@@ -244,7 +244,7 @@ def _fill_joints(session, settings, report, made) -> None:
             row.type, row.template = record.type.value, record.template
             row.mechanism = f"{record.count} x {record.template.replace('_', ' ')}"
             row.figures = (
-                f"class {record.mechanism.value}, on {record.mount}\n"
+                f"{record.mechanism.in_words}, on {record.mount}\n"
                 f"collision {100 * record.collision_share:.0f} %, gap {1000 * record.largest_gap:.1f} mm"
             )
 

@@ -29,7 +29,7 @@ STAGES = {  # in their order, with what an artist calls them
     "write": "writing",
 }
 SECONDS = 900.0  # the authors' own limit for a model
-PRIVATE = {"ORT_DISABLE_TELEMETRY": "1"}  # ONNX Runtime tells its makers nothing
+PRIVATE = {"ORT_DISABLE_TELEMETRY": "1"}  # no telemetry of ONNX Runtime
 _staying = None
 
 

@@ -21,7 +21,7 @@ from grafu.render.picture import Picture, before_after, encode_png, posed_visual
 from grafu.templates.gallery import builtin_gallery
 
 ROOT = Path(__file__).parent.parent
-COLOURS = 256  # a palette is a third of the bytes, and nobody sees it on plain wood
+COLOURS = 256  # a palette is a third of the bytes, and on plain wood the difference is invisible
 BEFORE_AFTER = "before_after"
 SHEETS = {**pictures_additions.SHEETS, **pictures_pages.SHEETS}
 

@@ -20,7 +20,7 @@ def scene_of(asset: Asset) -> Scene:
     attached = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
     moving_bodies = {part: MovingBody(part, (part, *ids)) for part, ids in attached.items()}
     joint_motions = {j.part: JointMotion(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
-    return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.unit, joint_motions=joint_motions)
+    return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.extent, joint_motions=joint_motions)
 
 
 def doors_before(asset: Asset, joint: AnnotatedJoint) -> tuple[str, ...]:

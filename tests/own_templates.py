@@ -38,7 +38,7 @@ def note_of(model):
         return note | {"kind": "hinge", "axis": axis, "opening": way([0, 1, 0]), "range_deg": 90}
     if template.support:
         note["support_snap"] = plane(template.support)
-    return note | {"kind": "rail", "axis": {"direction": way([0, -1, 0])}, "range_ratio": 0.8}
+    return note | {"kind": "rail", "axis": {"direction": way([0, -1, 0])}, "range_share": 0.8}
 
 
 def write(folder, model, suffix="ply", **changes):

@@ -121,10 +121,10 @@ def additions() -> Iterator[Sentence]:
 def joints() -> Iterator[Sentence]:
     """Yields what docs/joints.md, templates.md and exports.md repeat."""
     page = "joints.md"
-    yield page, "smaller by {} units on each side", (BUILT.depth,)
-    yield page, "a face beside the door within {} units", (BUILT.contact,)
-    yield page, "a face behind the border within {} units", (BUILT.contact,)
-    yield page, "both fronts flush within {} units", (BUILT.flush,)
+    yield page, "smaller by {} of the largest side on each side", (BUILT.depth,)
+    yield page, "a face beside the door within {} of the largest side", (BUILT.contact,)
+    yield page, "a face behind the border within {} of the largest side", (BUILT.contact,)
+    yield page, "both fronts flush within {} of it", (BUILT.flush,)
     yield page, "at most the template's and {} degrees", (round(degrees(BUILT.door_opening)),)
     yield page, "length {} of the body", (BUILT.rail_ratio,)
     yield page, "Travel: {} of the rail", (TRAVEL,)

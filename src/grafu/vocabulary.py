@@ -55,7 +55,8 @@ class JointType(StrEnum):
 class MechanismClass(StrEnum):
     """How a mechanism meets its two parts (paper, figure Hinge Configurations).
 
-    C joins two contacting faces, F two flush faces, P two perpendicular faces; rails are named by their mount.
+    C (contact) joins two faces that touch, F (flush) two faces in one plane, P (perpendicular) two faces at a right
+    angle; rails are named by their mount.
     """
 
     C = "C"
@@ -63,3 +64,8 @@ class MechanismClass(StrEnum):
     P = "P"
     CENTRE = "centre-mount"
     CORNER = "corner-mount"
+
+    @property
+    def in_words(self) -> str:
+        """The name for people: `contact`, `flush` and `perpendicular` for the paper's C, F and P."""
+        return {"C": "contact", "F": "flush", "P": "perpendicular"}.get(self.value, self.value)

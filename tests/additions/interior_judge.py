@@ -13,7 +13,7 @@ from grafu.vocabulary import JointType
 
 def faults_of_panels(additions: Sequence[Addition], scene: Scene, skin: float | None = None) -> list[PanelFault]:
     """Returns (panel, fault, other part) for all that is wrong; a cut of less than `skin` metres is a touch."""
-    skin = 0.001 * scene.unit if skin is None else skin
+    skin = 0.001 * scene.extent if skin is None else skin
     return panel_faults(_standing(additions, scene), {addition.part.id for addition in additions}, skin)
 
 

@@ -167,8 +167,8 @@ def test_small_models_are_grasped_by_small_hands(factor, grip, kind):
 
 
 @pytest.mark.parametrize(("unit", "factor"), [(0.05, 0.1), (0.5, 1.0), (3.9, 1.0), (8.0, 2.0)])
-def test_hands_are_scaled_for_furniture_of_no_common_size(unit, factor):
-    assert size_factor(unit) == pytest.approx(factor)
+def test_hands_are_scaled_for_furniture_of_no_common_size(extent, factor):
+    assert size_factor(extent) == pytest.approx(factor)
 
 
 def test_a_front_without_faces_cannot_be_grasped_or_is_refused():

@@ -150,7 +150,9 @@ def test_what_a_door_carries_inside_is_kept_clear() -> None:
     rack = box("rack", (-0.3, -0.18, 0.3), (0.3, -0.08, 0.8), rides_on="door")
     joint_motions = {"door": swinging(-0.378, -0.2)}
     scene = scene_of(*CASE, INSET_DOOR, rack)
-    scene = Scene(scene.parts, {"door": MovingBody("door", ("door", "rack"))}, scene.unit, joint_motions=joint_motions)
+    scene = Scene(
+        scene.parts, {"door": MovingBody("door", ("door", "rack"))}, scene.extent, joint_motions=joint_motions
+    )
 
     result = furnish(find_compartments(scene), TWO_SHELVES, scene)
 

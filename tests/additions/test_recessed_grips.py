@@ -238,7 +238,7 @@ def test_grips_fit_models_of_any_scale(scale, kind):
     T = np.diag([scale, scale, scale, 1.0])
     door = replace(DOOR, surfaces=tuple(s.transformed(T) for s in DOOR.surfaces))
     joint_motion = replace(DOOR_MOTION, axis=DOOR_MOTION.axis.transformed(T))
-    scene = replace(scene_of(door, joint_motion), unit=scale)
+    scene = replace(scene_of(door, joint_motion), extent=scale)
     result = carved(scene, "door", of_kind(kind))
     assert_sound(door, result)
     assert result.size[0] <= 0.5 * 0.6 * scale

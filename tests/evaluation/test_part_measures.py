@@ -19,7 +19,7 @@ from sketches import board, door, sketch
 
 
 def measured(asset, plan) -> dict[str, PartMeasure]:
-    found = measure_parts(raw_object(asset, plan), counted_parts(asset), asset.unit)
+    found = measure_parts(raw_object(asset, plan), counted_parts(asset), asset.extent)
     return {measure.part: measure for measure in found}
 
 
@@ -93,7 +93,7 @@ def test_figures_are_fractions_of_the_object(factor: float) -> None:
 def test_what_was_built_works() -> None:
     asset = cabinet()
     result = made(asset)
-    for measure in measure_parts(result.object, counted_parts(asset), asset.unit):
+    for measure in measure_parts(result.object, counted_parts(asset), asset.extent):
         assert measure.works, measure
 
 
@@ -167,7 +167,7 @@ def test_an_axis_on_the_other_border_is_not_aligned() -> None:
 def test_touches_are_counted_on_request() -> None:
     asset = cabinet()
     raw, truth = raw_object(asset, plan_from_annotation(asset)), counted_parts(asset)
-    with_touch, without = (measure_parts(raw, truth, asset.unit, with_touch=wanted) for wanted in (True, False))
+    with_touch, without = (measure_parts(raw, truth, asset.extent, with_touch=wanted) for wanted in (True, False))
     assert {m.touch for m in without} == {None}
     assert all(m.touch is not None for m in with_touch)
     assert tuple(replace(m, touch=None) for m in with_touch) == without

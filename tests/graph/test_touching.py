@@ -82,7 +82,7 @@ def test_it_finds_the_contacts_of_made_furniture(name):
     asset = KINDS[name]()
     several = [part.mesh for part in asset.parts]
     pairs = all_pairs(len(several))
-    tolerance = 0.0051 * asset.unit
+    tolerance = 0.0051 * asset.extent
     expected = [(a, b) for a, b in pairs if touch_plainly(several[a], several[b], tolerance)]
     assert touching_pairs(several, pairs, tolerance) == expected
 

@@ -29,7 +29,7 @@ def outcome(asset: Asset, part: str, **choice) -> tuple[Realized, Installed | Re
 def touches(result: Realized, asset: Asset, part: str, mount: str) -> bool:
     """Whether static hardware of the part's joint sits on the mount as it was built."""
     static = next(v for v in result.object.link(result.object.root).visuals if v.name == mount)
-    within = RealizationConfig().anchor * asset.unit
+    within = RealizationConfig().anchor * asset.extent
     _, still = hardware(result, part)
     return any(MeshCollider(v.mesh).is_within(within, MeshCollider(static.mesh)) for v in still)
 

@@ -132,7 +132,7 @@ def test_a_door_that_floats_before_its_case_is_held_by_hardware():
     shifted = edits.with_shifted(asset, "door_1", vec3(0.0, -0.03, 0.0))
     result = realized(shifted)
     assert not installed(result)["door_1"].restricted
-    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.unit
+    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.extent
     moving, still = hardware(result, "door_1")
     assert any(v.name.startswith("support") for v in (*moving, *still))
 
@@ -164,7 +164,7 @@ def test_furniture_on_which_earlier_versions_failed(name):
     assert set(installed(result)) == {j.part for j in asset.joints}
     for part, outcome in installed(result).items():
         assert not outcome.restricted, part
-    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.unit
+    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.extent
 
 
 def test_the_joint_turns_about_the_placed_axis_not_the_drawn_one():

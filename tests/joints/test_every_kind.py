@@ -36,7 +36,7 @@ def test_nothing_collides_with_the_static_body(kind):
     asset, obj = made_kind(kind), realized_kind(kind).object
     for joint in obj.joints:
         hit = swept_collisions(obj, joint, 50)
-        assert max(hit.values(), default=0.0) <= TOUCH * asset.unit, (joint.child, hit)
+        assert max(hit.values(), default=0.0) <= TOUCH * asset.extent, (joint.child, hit)
 
 
 @every_kind
@@ -62,7 +62,7 @@ def test_each_axis_points_the_true_way_along_the_true_border(kind):
 def test_every_moving_body_stays_connected_through_anchored_hardware(kind):
     obj = realized_kind(kind).object
     gaps = largest_gaps(obj, ConnectivityConfig(poses=4))
-    assert max(gaps.values()) <= 0.001 * made_kind(kind).unit
+    assert max(gaps.values()) <= 0.001 * made_kind(kind).extent
 
 
 @every_kind
@@ -75,8 +75,8 @@ def test_hardware_cuts_into_no_part_of_the_other_side(kind):
         assert still
         parts = [v for v in obj.link(joint.child).visuals if v.role is not VisualRole.HARDWARE]
         body = [v for v in obj.link(obj.root).visuals if v.role is not VisualRole.HARDWARE]
-        assert deepest_cut(parts, still, joint) <= CUT * asset.unit, joint.child
-        assert deepest_cut(moving, body, joint) <= CUT * asset.unit, joint.child
+        assert deepest_cut(parts, still, joint) <= CUT * asset.extent, joint.child
+        assert deepest_cut(moving, body, joint) <= CUT * asset.extent, joint.child
 
 
 @every_kind
@@ -85,7 +85,7 @@ def test_the_report_says_what_the_judge_finds(kind):
     ratios = collision_shares(result.object, CollisionConfig(poses=12, tolerance=TOUCH))
     for outcome in result.report.installed:
         assert outcome.collision_share == ratios[outcome.joint] == 0.0
-        assert outcome.largest_gap <= 0.001 * asset.unit
+        assert outcome.largest_gap <= 0.001 * asset.extent
         assert outcome.mount in {p.id for p in asset.parts}
         assert outcome.source == "annotation"
 

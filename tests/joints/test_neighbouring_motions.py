@@ -42,7 +42,7 @@ def test_fronts_over_one_another_all_open_past_one_another(name, mount):
     result = realized(asset)
     assert set(installed(result)) == {joint.part for joint in asset.joints}
     assert not any(outcome.restricted or outcome.after for outcome in installed(result).values())
-    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.unit
+    assert max(largest_gaps(result.object).values()) <= 0.001 * asset.extent
     everything = CollisionConfig(poses=20, tolerance=0.0005, hardware=True, moving_bodies=True)
     assert collision_shares(result.object, everything) == {joint.id: 0.0 for joint in result.object.joints}
 

@@ -45,7 +45,7 @@ def test_what_is_built_collides_with_nothing_and_stays_connected(name):
     gaps = largest_gaps(result.object, ConnectivityConfig(poses=4))
     for outcome in result.report.installed:
         assert ratios[outcome.joint] == 0.0, outcome.moving
-        assert gaps[outcome.joint] <= 0.005 * asset.unit, outcome.moving
+        assert gaps[outcome.joint] <= 0.005 * asset.extent, outcome.moving
 
 
 @model

@@ -93,11 +93,11 @@ def test_what_is_missing_is_missed() -> None:
 @pytest.mark.parametrize(("label", "x", "right"), [("handle", 0.05, 1.0), ("handle", 0.5, 0.0), ("shelf", 0.0, 0.0)])
 def test_an_added_node_is_right_with_its_label_and_in_its_place(label: str, x: float, right: float) -> None:
     accuracy = graph_accuracy(with_knob_again(PartLabel(label), x), TRUTH)
-    unit = TRUTH.box.size.max()
+    extent = TRUTH.box.size.max()
     assert accuracy.existence.value == 1.0
     assert accuracy.added.value == right
-    assert accuracy.added_centre.value == pytest.approx(x / unit / 3)
-    assert accuracy.centre.value == pytest.approx(x / unit / (3 * 18))
+    assert accuracy.added_centre.value == pytest.approx(x / extent / 3)
+    assert accuracy.centre.value == pytest.approx(x / extent / (3 * 18))
     assert accuracy.category.value == pytest.approx(1.0 if label == "handle" else 17 / 18)
 
 

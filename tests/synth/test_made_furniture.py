@@ -73,7 +73,7 @@ def test_positive_opens_to_the_outside(spec):
         shift = part.mesh.box.center @ motion[:3, :3].T + motion[:3, 3] - part.mesh.box.center
         outwards = part.box.center - asset.box.center
         side = int(np.argmax(np.abs(shift)))
-        assert shift[side] * outwards[side] > 0 or abs(outwards[side]) < 0.1 * asset.unit
+        assert shift[side] * outwards[side] > 0 or abs(outwards[side]) < 0.1 * asset.extent
 
 
 @pytest.mark.parametrize("mount", ["overlay", "inset"])

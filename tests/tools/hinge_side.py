@@ -41,10 +41,12 @@ class Door:
 
 def doors_in(name: str, graph: FunctionalGraph) -> Iterator[Door]:
     """Yields the doors of a graph that hang on one of the four sides."""
-    unit = float(graph.box.size.max())
+    extent = float(graph.box.size.max())
     for front in doors_of(graph):
         if front.hinge_side in SIDES:
-            yield Door(name, front.node.id, _surroundings(front, graph, unit), _handle(front, graph), front.hinge_side)
+            yield Door(
+                name, front.node.id, _surroundings(front, graph, extent), _handle(front, graph), front.hinge_side
+            )
 
 
 def synthetic_doors(count: int, seed: int = 0) -> list[Door]:
@@ -93,14 +95,14 @@ def _plane(front: Front, graph: FunctionalGraph) -> tuple[int, float]:
     return 1 - thin, -outward if thin == 1 else outward
 
 
-def _surroundings(front: Front, graph: FunctionalGraph, unit: float) -> np.ndarray:
+def _surroundings(front: Front, graph: FunctionalGraph, extent: float) -> np.ndarray:
     """Returns the door's place and shape, and for each side how far the next door, drawer and other part is."""
     box, around = front.node.box, graph.box
     across, sign = _plane(front, graph)
     low, high = (box.low - around.low) / around.size, (box.high - around.low) / around.size
     seen = (low[across], high[across]) if sign > 0 else (1 - high[across], 1 - low[across])
-    numbers = [*seen, low[2], high[2], front.width / unit, front.height / unit, front.height / front.width]
-    numbers += [front.depth / unit, around.size[2] / around.size[0]]
+    numbers = [*seen, low[2], high[2], front.width / extent, front.height / extent, front.height / front.width]
+    numbers += [front.depth / extent, around.size[2] / around.size[0]]
     groups = (
         [n for n in graph.labelled(PartLabel.DOOR) if n.id != front.node.id],
         list(graph.labelled(PartLabel.DRAWER)),
@@ -108,20 +110,20 @@ def _surroundings(front: Front, graph: FunctionalGraph, unit: float) -> np.ndarr
     )
     for nodes in groups:
         for axis, way in ((across, -sign), (across, sign), (2, 1.0), (2, -1.0)):
-            numbers.append(min((_way_to(box, n.box, axis, way, unit) for n in nodes), default=_FAR))
+            numbers.append(min((_way_to(box, n.box, axis, way, extent) for n in nodes), default=_FAR))
     return np.array(numbers)
 
 
-def _way_to(box, other, axis: int, way: float, unit: float) -> float:
+def _way_to(box, other, axis: int, way: float, extent: float) -> float:
     """Returns how far another box begins beyond one side of a door, where it stands beside it and near its plane."""
     gaps = box.axis_gaps(other)
     beside = [a for a in range(3) if a != axis]
-    if max(gaps[a] for a in beside) > 0.02 * unit:
+    if max(gaps[a] for a in beside) > 0.02 * extent:
         return _FAR
     middle = (other.center[axis] - box.center[axis]) * way
     if middle < 0.4 * box.size[axis]:  # it lies before, behind or on the other side
         return _FAR
-    return float(gaps[axis] / unit)
+    return float(gaps[axis] / extent)
 
 
 def _handle(front: Front, graph: FunctionalGraph) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Mass, centre and inertia of links, from the volume of their parts and stated densities.
 
-Volume is told of however untidy a mesh. Closed surfaces count by what they enclose. Open ones, and sheets without
+Volume is found for any mesh, however untidy. Closed surfaces count by what they enclose. Open ones, and sheets without
 thickness, count as shells: their area, doubled faces once, times a board's thickness. Nothing counts for more than the
 box around it.
 """

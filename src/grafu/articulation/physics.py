@@ -1,4 +1,4 @@
-"""What every simulator must be told of an object, found once for all formats: frames, masses, shapes, resistance.
+"""The physics of an object, computed once for all formats: frames, masses, shapes, resistance.
 
 A joint resists by damping and friction, and has an effort and velocity. Values follow the moving mass, so that a small
 door neither sticks nor flies: a joint pushed and let go slows down with a time constant of a quarter of a second, needs

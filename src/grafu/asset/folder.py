@@ -98,7 +98,7 @@ def looked_for_fronts(surfaces: Sequence[Surface]) -> str:
     """Returns what was tried to find parts in one mesh, in vain."""
     shells = shell_count(surfaces)
     if shells == 1:
-        return "it is one connected shell, in which no front of a door or drawer can be told"
+        return "it is one connected shell, in which no front of a door or drawer is found"
     return f"none of its {shells} shells looks like the front of a door or drawer"
 
 

@@ -1,6 +1,6 @@
 """The one door between input coordinates and the object frame: decides up, front, scale and place, and says why.
 
-Object frame: metres, Z up, front -Y, standing on z = 0, centred in x and y. Up and front are told from labelled boxes;
+Object frame: metres, Z up, front -Y, standing on z = 0, centred in x and y. Up and front are found from labelled boxes;
 no joint is asked.
 """
 
@@ -188,7 +188,7 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     reasons = {
         "geometry": "doors, drawers, handles or the back panel face or open there",
         "convention": f"stated by {convention.origin}",
-        "habit": "assumed, as nothing tells the sides apart; --front changes it",
+        "habit": "assumed, as all sides look alike; --front changes it",
     }
     return _Choice(front, reasons[why])
 

@@ -36,7 +36,7 @@ def loose_parts(
 ) -> tuple[Part, ...]:
     """Returns the parts taken apart into their connected shells, those that are `held` (ids) as they are.
 
-    `allow` is told how many parts there will be at least, before they are made, and raises where that is too many.
+    `allow` receives the least number of parts before they are made, and raises where that is too many.
     Tiny shells, under 1 % of the largest side of all, stay with the shell of their part on which or in which they lie.
     Shells keep the name of their part, and its label unless it filled most of the whole: that names the piece.
     """

@@ -79,7 +79,8 @@ _SUFFIXES = ("drawers", "drawer", "doors", "door", "handle", "shelf", "hinge", "
 _LEAST_PREFIX = 4
 _LINKS = ("", "n", "en", "s", "es", "e")  # between the parts of a German compound
 _HAN = re.compile(r"[\u3005-\u30ff\u3400-\u9fff]+")
-# In Romance names the head comes first, or the owner does (`puerta_tirador`): what is told by rank is not by order.
+# In Romance names the head comes first, or the owner does (`puerta_tirador`): what is decided by rank is not decided by
+# order.
 _RANKS: Final[dict[str, int]] = {
     **dict.fromkeys(("cabinet", "carcass", "table", "desk", "bed", "kitchen", "bookcase", "sink"), 0),
     **dict.fromkeys(("door", "doors", "drawer", "drawers", "flap", "lid"), 2),

@@ -175,7 +175,7 @@ class Asset:
         return Box.enclosing(part.box for part in self.parts)
 
     @property
-    def unit(self) -> float:
+    def extent(self) -> float:
         """The object's largest side in metres: the paper's unit cube (metrics scale by it)."""
         return float(self.box.size.max())
 

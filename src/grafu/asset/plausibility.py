@@ -44,7 +44,7 @@ class _Scene:
     high: np.ndarray
 
     @property
-    def unit(self) -> float:
+    def extent(self) -> float:
         return max(float(self.whole.size.max()), 1e-12)
 
     def ratios(self, box: Box) -> Scalars:
@@ -53,10 +53,10 @@ class _Scene:
 
     def held(self, box: Box) -> int:
         """Returns how many other parts, more than specks, lie in a box."""
-        spare = _SPARE * self.unit
+        spare = _SPARE * self.extent
         inside = np.all(self.low >= box.low - spare, axis=1) & np.all(self.high <= box.high + spare, axis=1)
         sides = np.sort(self.high - self.low, axis=1)
-        others = (sides[:, 1] > _STRIP * self.unit) & np.any(self.high - self.low < 0.98 * box.size, axis=1)
+        others = (sides[:, 1] > _STRIP * self.extent) & np.any(self.high - self.low < 0.98 * box.size, axis=1)
         return int((inside & others).sum())
 
 
@@ -82,7 +82,7 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
     """Returns an unlabelled panel on which buttons or a display sit as one that stands still."""
     if part.label is not PartLabel.UNKNOWN or "panel" not in spoken(part.source.name) or not controls:
         return part
-    if _is_body(part.box, scene) or not any(part.box.overlaps(box, _TOUCH * scene.unit) for box in controls):
+    if _is_body(part.box, scene) or not any(part.box.overlaps(box, _TOUCH * scene.extent) for box in controls):
         return part
     return replace(part, label=PartLabel.MISC, labelled_by="name")
 
@@ -105,7 +105,7 @@ def _judged(part: Part, scene: _Scene) -> Part:
 def _label(part: Part, scene: _Scene) -> PartLabel:
     """Returns the label that name and shape agree on."""
     box = part.box
-    second = float(np.sort(box.size)[1]) / scene.unit
+    second = float(np.sort(box.size)[1]) / scene.extent
     if part.label.is_movable:
         blurred = sense_of(part.source.name).is_blurred
         if _is_body(box, scene):
@@ -141,6 +141,6 @@ def _is_body(box: Box, scene: _Scene) -> bool:
 def _is_front(box: Box, scene: _Scene) -> bool:
     """Whether a box is a plate of some size at the outside of the object, facing out."""
     thin = box.thin_axis
-    sides = np.sort(box.size) / scene.unit
-    gap = min(box.low[thin] - scene.whole.low[thin], scene.whole.high[thin] - box.high[thin]) / scene.unit
+    sides = np.sort(box.size) / scene.extent
+    gap = min(box.low[thin] - scene.whole.low[thin], scene.whole.high[thin] - box.high[thin]) / scene.extent
     return bool(sides[0] <= _PLATE and sides[1] >= 2 * _STRIP and gap <= _OUTSIDE)

@@ -37,7 +37,7 @@ _BROKEN: Final = (
 
 @final
 class TextureBook:
-    """The images of one model: each is decoded once, to see that it can be; `by_path` is for whoever reads files."""
+    """The images of one model: each is decoded once, to see that it can be; `by_path` is for readers of files."""
 
     def __init__(self, limits: Limits) -> None:
         self.by_path: dict[Path, Texture | str] = {}

@@ -20,7 +20,7 @@ from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, prepare_verb, run_verb
 from grafu.processes.limits import Ending, Limits
 from grafu.processes.worker import quick_start, run_each
 
-_CLEAR_LINE = "\r\x1b[2K\x1b[?25h"  # the line of a progress that nobody ended, and the cursor that it hid
+_CLEAR_LINE = "\r\x1b[2K\x1b[?25h"  # the line of a progress bar that was not closed, and the cursor that it hid
 
 
 def run_supervised(options: argparse.Namespace) -> int:

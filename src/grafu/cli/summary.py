@@ -13,7 +13,7 @@ from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
-from grafu.pipeline.words import counted, listed, percent
+from grafu.pipeline.words import counted, cut_in_words, listed, percent
 from grafu.viewer.wording import added, unused_joints
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)
@@ -76,7 +76,7 @@ def print_place(what: str, path: Path) -> None:
 def _joints_table(report: Report) -> Table:
     table = plain_table("part", "joint", "mechanism", "opening", "notes")
     for joint in report.joints:
-        mechanism = f"{joint.count} x {joint.template} ({joint.mechanism})"
+        mechanism = f"{joint.count} x {joint.template} ({joint.mechanism.in_words})"
         table.add_row(
             joint.part,
             joint.type,
@@ -155,7 +155,7 @@ def _joint_notes(joint: JointRecord) -> list[str]:
     notes = ["restricted"] if joint.restricted else []
     if joint.collision_share > 0:
         notes.append(f"collides in {percent(joint.collision_share)} of its poses")
-    notes += [f"{c.part} {c.kind}" for c in joint.clearances]
+    notes += [f"{c.part} {cut_in_words(c.kind)}" for c in joint.clearances]
     if joint.after:
         notes.append(f"opens after {', '.join(joint.after)}")
     return notes + list(joint.notes)

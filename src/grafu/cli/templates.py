@@ -64,7 +64,9 @@ def _print_gallery(gallery: "Gallery") -> None:
     table = plain_table("id", "title", "class", "natural size (mm)", "range")
     models: list[HingeModel | RailModel] = [*gallery.hinges, *gallery.rails]
     for model in models:
-        table.add_row(*(escape(cell) for cell in (model.id, model.title, model.mechanism, *_size_and_range(model))))
+        table.add_row(
+            *(escape(cell) for cell in (model.id, model.title, model.mechanism.in_words, *_size_and_range(model)))
+        )
     wide_console().print(table)
 
 

@@ -128,7 +128,7 @@ def exported(best: "BestWeights") -> bytes:
 
     keep_private()  # the exporter may look whether ONNX Runtime is there
     before = logging.root.manager.disable
-    logging.disable(logging.WARNING)  # torch's exporter tells of packages that it does not need
+    logging.disable(logging.WARNING)  # torch's exporter warns of packages that it does not need
     try:
         return onnx_bytes(best.network(), **asdict(best.config.features), half_weights=True)
     finally:

@@ -94,8 +94,8 @@ def vote_border(door: PartNode, scene: RuleScene) -> Ranking[HingeBorder]:
 def plain_flap(door: PartNode, scene: RuleScene) -> HingeBorder | None:
     """Returns the border of a door that can only be a flap, None of any other.
 
-    Half as wide again as high, and its handle in the middle of its upper or lower edge: nobody pulls a door there that
-    swings sideways.
+    Half as wide again as high, and its handle in the middle of its upper or lower edge: no hinged door is pulled there
+    that swings sideways.
     """
     if door.box.thin_axis == 2 or _aspect(door) < _PLAIN:
         return None
@@ -198,7 +198,7 @@ def _carriers(door: PartNode, border: HingeBorder, scene: RuleScene) -> list[tup
     """Returns the parts near a border with a score each, 0..1: near, alongside, of a label that carries."""
     edge = _border_box(door.box, border)
     along = next(a for a in plane_axes(door.box.thin_axis) if a != border_to_face(door.box.thin_axis, border) // 2)
-    gaps = scene.support_boxes.gaps(edge) / scene.unit
+    gaps = scene.support_boxes.gaps(edge) / scene.extent
     alongside = scene.support_boxes.overlap_ratios(edge)[:, along]
     found = []
     for k in np.flatnonzero(gaps <= _REACH):

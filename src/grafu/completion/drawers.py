@@ -45,7 +45,7 @@ def vote_direction(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
             votes.add(way, 5.0 * _sits_on(handle.box, drawer.box, way))
     blocked = _blocked_ratios(drawer, scene)
     for way in _DIRECTIONS:
-        inside = max(_depth_inside(drawer.box, scene.body, way) / scene.unit, 0.0)
+        inside = max(_depth_inside(drawer.box, scene.body, way) / scene.extent, 0.0)
         votes.add(way, 1.5 * float(np.exp(-inside / 0.05)))
         votes.add(way, -4.0 * blocked[way])
     return votes.ranking()
@@ -109,16 +109,16 @@ def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: RuleSce
     inner = float((node.box.face_center(opposite(side)) - flank) @ outward)
     outer = float((node.box.face_center(side) - flank) @ outward)
     width = float(drawer.box.size[side // 2])
-    if outer < -0.25 * width or inner > _REACH * scene.unit:
+    if outer < -0.25 * width or inner > _REACH * scene.extent:
         return 0.0
     surrounds = outer > 0 and inner < -0.5 * width
     away = inner if inner > 0 else -0.3 * inner
-    return 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.unit)))
+    return 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.extent)))
 
 
 def _nearest(drawer: PartNode, scene: RuleScene) -> list[Ranking[str]]:
     """Returns the one part that carries a drawer without flanks: a tray hangs under its top."""
-    gaps = zip(scene.supports, scene.support_boxes.gaps(drawer.box) / scene.unit, strict=True)
+    gaps = zip(scene.supports, scene.support_boxes.gaps(drawer.box) / scene.extent, strict=True)
     found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps if gap <= _REACH})
     return [] if found is None else [found]
 

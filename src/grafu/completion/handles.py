@@ -52,10 +52,10 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
 
 def _misfits(handle: PartNode, parts: NodeBoxes, graph: FunctionalGraph) -> list[float]:
     """Returns how badly a handle fits each part, as a fraction of the object: its gap, and how far it hangs over."""
-    unit = max(float(graph.box.size.max()), 1e-9)
+    extent = max(float(graph.box.size.max()), 1e-9)
     touching = [part.id in graph.neighbours[handle.id] for part in parts.nodes]
     overhang = (1.0 - _ratios_in_front(handle.box, parts)) * float(handle.box.size.max())
-    return ((parts.gaps(handle.box) + overhang) / unit - 0.002 * np.array(touching)).tolist()
+    return ((parts.gaps(handle.box) + overhang) / extent - 0.002 * np.array(touching)).tolist()
 
 
 def _ratios_in_front(handle: Box, parts: NodeBoxes) -> Scalars:

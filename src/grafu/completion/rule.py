@@ -87,13 +87,13 @@ def _mostly_unknown(graph: FunctionalGraph) -> bool:
     return 2 * len(graph.labelled(PartLabel.UNKNOWN)) > len(graph.nodes)
 
 
-def _unit(graph: FunctionalGraph) -> float:
+def _extent(graph: FunctionalGraph) -> float:
     return max(float(graph.box.size.max()), 1e-9)
 
 
 def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_Front]:
     """Returns the ways that a part may open, by its shape and by how near to the outside it lies."""
-    size, found = node.box.size / _unit(graph), []
+    size, found = node.box.size / _extent(graph), []
     for way in _FRONTS:
         depth, across = float(size[way // 2]), float(size[1 - way // 2])
         if _behind_outside(node.box, way, graph) > _SKIN or (node.box.thin_axis == 2 and depth < _LEAST_DEPTH):
@@ -110,19 +110,19 @@ def _is_case(node: PartNode, graph: FunctionalGraph) -> bool:
     ratio = node.box.size / np.maximum(graph.box.size, 1e-9)
     others = (n.box for n in graph.nodes if n.id != node.id and 0.05 < n.box.volume / max(node.box.volume, 1e-12) < 0.9)
     held = any(all(overlap_ratio(box, node.box, a) > 0.95 for a in range(3)) for box in others)
-    return held or bool(ratio[0] * ratio[1] > 0.85 and (ratio[2] > 0.6 or node.box.size[2] < _SLAB * _unit(graph)))
+    return held or bool(ratio[0] * ratio[1] > 0.85 and (ratio[2] > 0.6 or node.box.size[2] < _SLAB * _extent(graph)))
 
 
 def _is_frame(node: PartNode, way: SignedAxis, graph: FunctionalGraph) -> bool:
     """Whether an upright plate has another plate in it: a face frame, a fixed front with a hole."""
     others = [a for a in range(3) if a != way // 2]
-    unit, least = _unit(graph), _LEAST_SIDE * _unit(graph)
+    extent, least = _extent(graph), _LEAST_SIDE * _extent(graph)
     return any(
         n.id != node.id
         and min(float(n.box.size[a]) for a in others) > least
         and all(overlap_ratio(n.box, node.box, a) > 0.99 and n.box.size[a] < 0.97 * node.box.size[a] for a in others)
-        and float(n.box.axis_gaps(node.box)[way // 2]) <= _TOUCH * unit
-        and float(n.box.size[way // 2]) <= _PLATE * unit
+        and float(n.box.axis_gaps(node.box)[way // 2]) <= _TOUCH * extent
+        and float(n.box.size[way // 2]) <= _PLATE * extent
         for n in graph.nodes
     )
 
@@ -138,20 +138,20 @@ def _is_flanked(front: _Front, graph: FunctionalGraph) -> bool:
 
 def _behind_outside(box: Box, way: SignedAxis, graph: FunctionalGraph) -> float:
     outward = code_to_direction(way)
-    return float((graph.box.face_center(way) - box.face_center(way)) @ outward) / _unit(graph)
+    return float((graph.box.face_center(way) - box.face_center(way)) @ outward) / _extent(graph)
 
 
 def _handles(unknown: tuple[PartNode, ...], graph: FunctionalGraph) -> tuple[PartNode, ...]:
     """Returns the parts that are small enough in two directions to be grasped."""
-    unit = _unit(graph)
+    extent = _extent(graph)
     return tuple(
-        n for n in unknown if np.sort(n.box.size)[1] <= _HANDLE * unit and float(n.box.size.max()) <= 0.6 * unit
+        n for n in unknown if np.sort(n.box.size)[1] <= _HANDLE * extent and float(n.box.size.max()) <= 0.6 * extent
     )
 
 
 def _sits_in_front(handle: Box, front: _Front, graph: FunctionalGraph) -> bool:
     """Whether a box stands out from a front, within its outline: as wide as the front it would be a batten."""
-    box, way, unit = front.node.box, front.way, _unit(graph)
+    box, way, extent = front.node.box, front.way, _extent(graph)
     axis, outward = way // 2, code_to_direction(way)
     others = [a for a in range(3) if a != axis]
     out = float((handle.face_center(way) - box.face_center(way)) @ outward)
@@ -159,7 +159,7 @@ def _sits_in_front(handle: Box, front: _Front, graph: FunctionalGraph) -> bool:
     inside = all(overlap_ratio(handle, box, a) > 0.95 for a in others)
     widest = 0.9 if way == 2 else 0.6  # on the sides and the back, posts and battens are more common than handles
     smaller = all(handle.size[a] < widest * box.size[a] for a in others)
-    return inside and smaller and out > 0 and away <= _TOUCH * unit
+    return inside and smaller and out > 0 and away <= _TOUCH * extent
 
 
 def _closes(front: _Front, graph: FunctionalGraph) -> bool:
@@ -168,7 +168,7 @@ def _closes(front: _Front, graph: FunctionalGraph) -> bool:
     across, height = float(size[1 - front.way // 2]), float(size[2])
     if front.label is PartLabel.DOOR and (across > 4 * height or height > 12 * across):
         return False
-    if front.label is PartLabel.DRAWER and (height < _SLAB * _unit(graph) or not _is_flanked(front, graph)):
+    if front.label is PartLabel.DRAWER and (height < _SLAB * _extent(graph) or not _is_flanked(front, graph)):
         return False
     return not any(_covers(node, front) for node in graph.nodes if node.id != front.node.id)
 

@@ -63,12 +63,12 @@ class NodeBoxes:
 @final
 @dataclass(frozen=True)
 class RuleScene:
-    """A graph whose handles are attached, prepared for the rules. Lengths are metres, `unit` the largest side."""
+    """A graph whose handles are attached, prepared for the rules. Lengths are metres, `extent` the largest side."""
 
     graph: FunctionalGraph
 
     @cached_property
-    def unit(self) -> float:
+    def extent(self) -> float:
         """The object's largest side; never 0, so that fractions of it can be formed."""
         return max(float(self.graph.box.size.max()), 1e-9)
 

@@ -62,7 +62,7 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
     """Returns the door or drawer that a handle is fixed to, or why there is none."""
     if not len(view.moving_bodies):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
-    slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.unit]
+    slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.extent]
     if not len(slots):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     ratios, none = parent_ratios(view.place[handle.id], slots, view)

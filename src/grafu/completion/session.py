@@ -1,6 +1,6 @@
 """The trained network as a function of features, run by ONNX Runtime on the CPU.
 
-ONNX Runtime is imported when a file of weights is opened, so that whoever needs no network does not wait for it.
+ONNX Runtime is imported when a file of weights is opened, so that runs without the network do not wait for it.
 
 The one place that imports ONNX Runtime: late, for that takes 0.2 s, and with its telemetry off.
 """

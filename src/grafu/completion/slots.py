@@ -95,7 +95,7 @@ def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | N
 
 
 def _parent_of(slot: int, handle: PartNode, view: View) -> str | None:
-    near = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.reach * view.unit]
+    near = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.reach * view.extent]
     if not len(near):
         return None
     ratios, _ = parent_ratios(slot, near, view)
@@ -110,6 +110,6 @@ def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:
 
 def _is_there(node: PartNode, others: tuple[PartNode, ...], view: View) -> bool:
     """Whether a part of this label stands in the same place already."""
-    slack = _SLACK * view.unit
+    slack = _SLACK * view.extent
     alike = (other.box for other in others if other.label is node.label)
     return any(node.box.intersection_over_union(box, slack) > view.config.overlap for box in alike)

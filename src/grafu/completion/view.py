@@ -32,7 +32,7 @@ class View:
         return {node.id: k for k, node in enumerate(self.graph.nodes)}
 
     @cached_property
-    def unit(self) -> float:
+    def extent(self) -> float:
         """The object's largest side, metres; never 0."""
         return max(float(self.graph.box.size.max()), 1e-9)
 
@@ -59,7 +59,7 @@ class View:
 
     def within_reach(self, node: PartNode, slots: Indices) -> Int64[np.ndarray, " near"]:
         """Returns those of the slots whose boxes are near enough to the node's; all of them where none is."""
-        near = slots[self.gaps(node, slots) <= self.config.reach * self.unit]
+        near = slots[self.gaps(node, slots) <= self.config.reach * self.extent]
         return near if len(near) else slots
 
     def gaps(self, node: PartNode, slots: Indices) -> Scalars:

@@ -52,9 +52,9 @@ class PartMeasure:
 
 
 def measure_parts(
-    articulated: ArticulatedObject, truth: Sequence[MovingPart], unit: float, poses: int = 50, with_touch: bool = True
+    articulated: ArticulatedObject, truth: Sequence[MovingPart], extent: float, poses: int = 50, with_touch: bool = True
 ) -> tuple[PartMeasure, ...]:
-    """Returns one measure per part of the truth, in its order; `unit` is the input's largest side in metres.
+    """Returns one measure per part of the truth, in its order; `extent` is the input's largest side in metres.
 
     A part is found by its visual, whichever link holds it. `with_touch=False` saves the time that touches take.
     """
@@ -62,11 +62,11 @@ def measure_parts(
     motions = {part.id: _motion(joints[part.id], part) for part in truth if part.id in joints}
     true = {part.id: part.motion for part in truth}
     agreed = {agreement.part: agreement.whole for agreement in compare_motions(motions, true)}
-    tolerant = CollisionConfig(poses=poses, tolerance=TOLERANT.tolerance, unit=unit)
+    tolerant = CollisionConfig(poses=poses, tolerance=TOLERANT.tolerance, extent=extent)
     cuts = collision_shares(articulated, tolerant)
-    strict = CollisionConfig(poses=poses, tolerance=STRICT.tolerance, unit=unit)
+    strict = CollisionConfig(poses=poses, tolerance=STRICT.tolerance, extent=extent)
     touches = collision_shares(articulated, strict) if with_touch else {}
-    gaps = largest_gaps(articulated, ConnectivityConfig(poses=poses, unit=unit))
+    gaps = largest_gaps(articulated, ConnectivityConfig(poses=poses, extent=extent))
     found = []
     for part in truth:
         joint = joints.get(part.id)
@@ -80,7 +80,7 @@ def measure_parts(
                 agreed[part.id],
                 cuts[joint.id],
                 touches.get(joint.id),
-                gaps[joint.id] / unit if isfinite(gaps[joint.id]) else 1.0,
+                gaps[joint.id] / extent if isfinite(gaps[joint.id]) else 1.0,
                 min(joint.limits.range / part.reference, 1.0) if joint.type is part.motion.type else 0.0,
             )
         )

@@ -79,7 +79,7 @@ def _moving_part(request: JointRequest, asset: Asset) -> MovingPart | None:
     members = (request.moving, *request.attached)
     box = box_of(asset, members)
     _, middle, largest = np.sort(box.size)
-    if largest < LARGEST * asset.unit or middle < IN_PLANE * asset.unit:
+    if largest < LARGEST * asset.extent or middle < IN_PLANE * asset.extent:
         return None
     usual = usual_opening(request.type, request.axis, box)
     reference = min(request.reference or usual, usual)

@@ -48,7 +48,7 @@ def perform(task: Task) -> Row:
 
 
 def failed(task: Task, why: str) -> Row:
-    """Returns the row of a task that nobody could finish."""
+    """Returns the row of a task that could not be finished."""
     return Row(key=key_of(task), task=task.facts(), seconds=0.0, error=why)
 
 
@@ -84,7 +84,7 @@ def method_facts(task: MethodTask) -> MethodFacts:
     truth = counted_parts(asset)
     result = made_by(task.method, asset, task.model.id)
     raw = raw_object(result.asset, result.plan)
-    measures = measure_parts(raw, truth, asset.unit), measure_parts(result.object, truth, asset.unit)
+    measures = measure_parts(raw, truth, asset.extent), measure_parts(result.object, truth, asset.extent)
     skipped = {skip.part: f"{skip.reason.value}: {skip.why}" for skip in result.report.skipped}
     parts = []
     for part, bare, fixed in zip(truth, *measures, strict=True):
@@ -107,7 +107,7 @@ def mask_facts(task: MaskTask) -> MethodFacts:
     asset = _asset(task.model)
     truth = counted_parts(asset)
     result = made_with_labels_hidden(task.method, asset, task.ratio, task.seed)
-    measures = measure_parts(result.object, truth, asset.unit, with_touch=False)
+    measures = measure_parts(result.object, truth, asset.extent, with_touch=False)
     records = (PartRecord(part=part.id, fixed=MeasureRecord.of(m)) for part, m in zip(truth, measures, strict=True))
     return MethodFacts(parts=tuple(records))
 

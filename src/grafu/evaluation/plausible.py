@@ -71,7 +71,7 @@ class _Case:
 
     def not_held(self) -> str:
         """Returns why nothing holds it: beside its hinge line, or along its slide."""
-        near = NEAR * self._asset.unit
+        near = NEAR * self._asset.extent
         if not len(self._static.faces):
             return "there is no body"
         if self._joint.kind.slides:
@@ -112,7 +112,7 @@ class _Case:
 
     def not_free(self) -> str:
         """Returns why it does not open: it cuts into the body on the way."""
-        body, obstacle = SweptBody(self._moving, TOLERANT.tolerance * self._asset.unit), MeshCollider(self._static)
+        body, obstacle = SweptBody(self._moving, TOLERANT.tolerance * self._asset.extent), MeshCollider(self._static)
         for value in np.linspace(0.0, self._reach, _POSES):
             body.place(self._joint.motion(float(value)))
             if body.penetrates(obstacle):

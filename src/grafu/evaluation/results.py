@@ -68,7 +68,7 @@ class PartOutcome:
 @final
 @dataclass(frozen=True)
 class Results:
-    """All that the rows of a run say; models that nobody could read are in `failures` alone.
+    """All that the rows of a run say; models that could not be read are in `failures` alone.
 
     `made` and `masked` are by method (as the command spells it), then, in `masked`, by draw, then by model.
     """

@@ -115,8 +115,8 @@ def lacks_top(asset: Asset, graph: FunctionalGraph) -> bool:
         top = float(asset.box.high[2]) - 0.1 * float(asset.box.size[2])
         return _covered(faces, asset.box, top) < 0.5
     highest = max(float(n.box.high[2]) for n in moving)
-    upper = [n for n in moving if n.box.high[2] > highest - 0.02 * asset.unit]
-    spaces = [(_space_behind(n, asset.box), float(n.box.high[2]) - _BELOW * asset.unit) for n in upper]
+    upper = [n for n in moving if n.box.high[2] > highest - 0.02 * asset.extent]
+    spaces = [(_space_behind(n, asset.box), float(n.box.high[2]) - _BELOW * asset.extent) for n in upper]
     return float(np.mean([_covered(faces, box, level) for box, level in spaces])) < 0.5
 
 

@@ -57,15 +57,15 @@ def measure_model(asset: Asset, truth: FunctionalGraph) -> ModelMeasures:
     given = {part.id for part in asset.parts}
     graph = without_nodes(truth, [n.id for n in truth.nodes if n.id not in given])
     doors, drawers = doors_of(graph), drawers_of(graph)
-    unit = asset.unit
+    extent = asset.extent
     values = {
         **_part_values(asset, graph),
-        **_graph_values(graph, unit),
+        **_graph_values(graph, extent),
         "doors": float(len(doors)),
         "drawers": float(len(drawers)),
         "movable parts": float(len(doors) + len(drawers)),
-        **_front_values("door", doors, unit),
-        **_front_values("drawer", drawers, unit),
+        **_front_values("door", doors, extent),
+        **_front_values("drawer", drawers, extent),
     }
     return ModelMeasures(asset.name, values, _tallies(asset, graph, doors, drawers))
 
@@ -78,16 +78,16 @@ def _part_values(asset: Asset, graph: FunctionalGraph) -> dict[str, float]:
         "parts": float(len(asset.parts)),
         "width / height": float(width / height),
         "depth / width": float(depth / width),
-        "part length, median": float(np.median(sizes.max(axis=1)) / asset.unit),
-        "part thickness, median": float(np.median(sizes.min(axis=1)) / asset.unit),
+        "part length, median": float(np.median(sizes.max(axis=1)) / asset.extent),
+        "part thickness, median": float(np.median(sizes.min(axis=1)) / asset.extent),
         "part volume, median": float(np.median(volumes)),
         "part volume, largest": float(volumes.max()),
         "faces per part, median": float(np.median([len(p.mesh.faces) for p in asset.parts])),
     }
     panels = [p.box.size.min() for p in asset.parts if p.label in _PANELS]
     if panels:
-        values["panel thickness, median"] = float(np.median(panels) / asset.unit)
-        values["panel thickness, largest / smallest"] = float(max(panels) / max(min(panels), 1e-4 * asset.unit))
+        values["panel thickness, median"] = float(np.median(panels) / asset.extent)
+        values["panel thickness, largest / smallest"] = float(max(panels) / max(min(panels), 1e-4 * asset.extent))
     return values | _label_ratios(asset)
 
 
@@ -102,26 +102,26 @@ def _label_ratios(asset: Asset) -> dict[str, float]:
     return values
 
 
-def _graph_values(graph: FunctionalGraph, unit: float) -> dict[str, float]:
+def _graph_values(graph: FunctionalGraph, extent: float) -> dict[str, float]:
     values = {
         "contacts per node": 2 * len(graph.edges) / len(graph.nodes),
         "connected components": float(len(joined_groups(graph.neighbours))),
     }
     if graph.edges:
         depths = [-float(graph.node(a).box.axis_gaps(graph.node(b).box).max()) for a, b in map(ends_of, graph.edges)]
-        overlaps = np.maximum(depths, 0.0) / unit
+        overlaps = np.maximum(depths, 0.0) / extent
         values["boxes overlap, median"] = float(np.median(overlaps))
         values["boxes overlap, largest"] = float(overlaps.max())
     return values
 
 
-def _front_values(word: str, fronts: tuple[Front, ...], unit: float) -> dict[str, float]:
+def _front_values(word: str, fronts: tuple[Front, ...], extent: float) -> dict[str, float]:
     if not fronts:
         return {}
     lists = {
-        f"{word} width": [f.width / unit for f in fronts],
-        f"{word} height": [f.height / unit for f in fronts],
-        f"{word} {'thickness' if word == 'door' else 'depth'}": [f.depth / unit for f in fronts],
+        f"{word} width": [f.width / extent for f in fronts],
+        f"{word} height": [f.height / extent for f in fronts],
+        f"{word} {'thickness' if word == 'door' else 'depth'}": [f.depth / extent for f in fronts],
         f"{word} height / width": [f.height / f.width for f in fronts if f.width > 0],
         f"{word} handle length / front": [f.handle_ratio for f in fronts if f.handle_ratio is not None],
         f"{word} handle height on front": [f.handle_height for f in fronts if f.handle_height is not None],
@@ -136,7 +136,7 @@ def _tallies(
     fronts = (*doors, *drawers)
     sides = Counter(f.hinge_side for f in doors if f.hinge_side)
     places = Counter(f.handle_place for f in doors if f.handle_place)
-    flat = sum(float(p.box.size.min()) < _FLAT * asset.unit for p in asset.parts)
+    flat = sum(float(p.box.size.min()) < _FLAT * asset.extent for p in asset.parts)
     closed, doubled = zip(*map(_surface, asset.parts), strict=True)
     found = {
         "models without a top": (int(lacks_top(asset, graph)), 1),

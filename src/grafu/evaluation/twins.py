@@ -45,7 +45,7 @@ def fingerprint(asset: Asset) -> tuple[float, ...]:
     Its area, the sides of its box (the two level ones sorted) and the spread of its surface along its own axes, each
     over the largest side. How the surface is split into parts, and in which order, changes nothing.
     """
-    mesh, unit = merge_meshes([part.mesh for part in asset.parts]), asset.unit
+    mesh, extent = merge_meshes([part.mesh for part in asset.parts]), asset.extent
     weights = mesh.face_areas
     total = float(weights.sum())
     if not total > 0:
@@ -54,10 +54,10 @@ def fingerprint(asset: Asset) -> tuple[float, ...]:
     center = weights @ middles / total
     corners = mesh.triangles - center
     spread = np.einsum("f,fki,fkj->ij", weights, corners, corners) / (3 * total)
-    sizes = asset.box.size / unit
+    sizes = asset.box.size / extent
     level = sorted(sizes[:2].tolist())
-    axes = np.sqrt(np.maximum(np.linalg.eigvalsh(spread), 0.0)) / unit
-    return (float(np.sqrt(total) / unit), *level, float(sizes[2]), *(float(v) for v in axes))
+    axes = np.sqrt(np.maximum(np.linalg.eigvalsh(spread), 0.0)) / extent
+    return (float(np.sqrt(total) / extent), *level, float(sizes[2]), *(float(v) for v in axes))
 
 
 def alike_pairs(fingerprints: Mapping[str, Sequence[float]]) -> tuple[tuple[str, str], ...]:
@@ -73,12 +73,12 @@ def compare_twins(first: Asset, second: Asset) -> Twins:
     counts with the same box.
     """
     first_home = centred(first)
-    points, unit = _samples(first_home), first.unit
+    points, extent = _samples(first_home), first.extent
     for turns in range(4):
-        turned = centred(yawed(scaled(second, unit / second.unit), turns * np.pi / 2))
-        if not np.allclose(turned.box.size, first_home.box.size, atol=ALIKE * unit):
+        turned = centred(yawed(scaled(second, extent / second.extent), turns * np.pi / 2))
+        if not np.allclose(turned.box.size, first_home.box.size, atol=ALIKE * extent):
             continue
-        if _covers(points, turned, unit) and _covers(_samples(turned), first_home, unit):
+        if _covers(points, turned, extent) and _covers(_samples(turned), first_home, extent):
             return _exchanged(first, first_home, second, turned)
     return NOT_TWINS
 
@@ -87,9 +87,9 @@ def _agree(a: Sequence[float], b: Sequence[float]) -> bool:
     return bool(np.allclose(a, b, rtol=ALIKE, atol=ALIKE * 0.1))
 
 
-def _covers(points: Points, asset: Asset, unit: float) -> bool:
+def _covers(points: Points, asset: Asset, extent: float) -> bool:
     """Whether all points lie on the surface of an asset."""
-    mesh, near = merge_meshes([part.mesh for part in asset.parts]), ON * unit
+    mesh, near = merge_meshes([part.mesh for part in asset.parts]), ON * extent
     clusters = np.array_split(points, max(1, len(points) // _POINTS))  # of one part each: a small region
     return all(bool((distances_up_to(cluster, mesh, near) <= near).all()) for cluster in clusters)
 
@@ -104,7 +104,7 @@ def _exchanged(first: Asset, first_home: Asset, second: Asset, turned: Asset) ->
     """Returns the motions that each annotation gives the other's parts, each in the other's own frame."""
     here, there = counted_parts(first_home), counted_parts(turned)
     own = {part.id: part for part in counted_parts(first)}, {part.id: part for part in counted_parts(second)}
-    near = SAME_BOX * first.unit
+    near = SAME_BOX * first.extent
     pairs = [(a, b) for a in here for b in there if _same_place(first_home, a, turned, b, near)]
     # back into each model's own frame: both were moved by similarities that keep lines lines
     to_first = first.frame.input_to_output @ np.linalg.inv(first_home.frame.input_to_output)

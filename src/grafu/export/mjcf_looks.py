@@ -80,7 +80,7 @@ class MjcfLooks:
         ET.SubElement(self._asset, "material", attributes)
 
     def _texture(self, texture: Texture) -> str | None:
-        """Returns the name of an image's texture element; None where nobody could read the image."""
+        """Returns the name of an image's texture element; None where the image could not be read."""
         file = self._folder.add_texture(texture)
         if file not in self._textures:
             data = _as_png(texture)
@@ -115,7 +115,7 @@ def _display(linear: float) -> float:
 
 
 _FEWEST_CORNERS = 4
-_LEAST_AREA = 1e-10  # square metres: a hundredth of a millimetre each way, which nobody sees and no solver needs
+_LEAST_AREA = 1e-10  # square metres: a hundredth of a millimetre each side, invisible and useless to a solver
 
 
 @final

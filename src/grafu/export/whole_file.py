@@ -57,7 +57,7 @@ def _machine() -> str:
 
 
 def _is_alive(process: int) -> bool:
-    """Whether a process of this machine runs; where nobody can ask without harm (Windows), it does."""
+    """Whether a process of this machine runs; where this cannot be asked without harm (Windows), yes."""
     if os.name != "posix":
         return True
     try:

@@ -52,9 +52,9 @@ def parse_graph(asset: Asset, config: ParsingConfig = ParsingConfig()) -> Functi
     nodes = _nodes(asset.parts, config)
     if config.contact == "none":
         return FunctionalGraph(asset.name, nodes, ())
-    pairs = near_pairs([n.box for n in nodes], config.box_tolerance * asset.unit)
+    pairs = near_pairs([n.box for n in nodes], config.box_tolerance * asset.extent)
     if config.contact == "mesh":
-        pairs = touching_pairs([part.mesh for part in asset.parts], pairs, config.mesh_tolerance * asset.unit)
+        pairs = touching_pairs([part.mesh for part in asset.parts], pairs, config.mesh_tolerance * asset.extent)
     edges = tuple(Contact(nodes[a].id, nodes[b].id) for a, b in pairs)
     return FunctionalGraph(asset.name, nodes, edges)
 

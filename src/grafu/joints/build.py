@@ -97,11 +97,11 @@ def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearan
     if config.trim:
         walls = [o.id for o in scene.static_obstacles if o.collider.box.overlaps(search.mesh.box, 1e-3)]
         path = _path(request, scene, search.axis, search.reach)
-        eased, trimmed = trim(scene, path, walls, config, touching=True)
-        again = drawer_search(request, eased, config) if trimmed else None
+        cleared, trimmed = trim(scene, path, walls, config, touching=True)
+        again = drawer_search(request, cleared, config) if trimmed else None
         placement = place_rails(again, gallery) if again else None
         if placement is not None:
-            return placement, eased, (*clearances, *trimmed)
+            return placement, cleared, (*clearances, *trimmed)
     met = search.met_at_rest()
     despite = drawer_search(request, scene, config, met) if met else None
     placement = place_rails(despite, gallery) if despite else None
@@ -123,7 +123,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
-    if not any(o.collider.box.overlaps(box, config.contact * scene.unit) for o in scene.static_obstacles):
+    if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in scene.static_obstacles):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < 0.3:

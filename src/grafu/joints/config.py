@@ -1,4 +1,4 @@
-"""Tolerances, sizes and counts of joints. Lengths marked (unit) are fractions of the object's largest side."""
+"""Tolerances, sizes and counts of joints. Lengths marked (extent) are fractions of the object's largest side."""
 
 from dataclasses import dataclass
 from math import radians
@@ -36,15 +36,15 @@ class RealizationConfig:
     """
 
     depth: float = 0.0004
-    """Penetration that counts as a touch (unit): 0.4 mm on one metre; the official swing test warns at 0.5."""
+    """Penetration that counts as a touch (extent): 0.4 mm on one metre; the official swing test warns at 0.5."""
     contact: float = 0.012
-    """Widest seam across which two faces count as contacting (unit); official: 10 mm."""
+    """Widest seam across which two faces count as contacting (extent); official: 10 mm."""
     flush: float = 0.006
-    """Largest step between two faces that count as flush (unit); official: 4 mm."""
+    """Largest step between two faces that count as flush (extent); official: 4 mm."""
     anchor: float = 0.001
-    """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (unit)."""
+    """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (extent)."""
     bridge: float = 0.6
-    """Longest support block (unit)."""
+    """Longest support block (extent)."""
     door_opening: float = radians(110)
     """How far a door may open at most; real butt hinges stop the leaf at about 110 degrees."""
     restricted: float = 0.7

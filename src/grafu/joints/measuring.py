@@ -105,7 +105,7 @@ def _measure(
     moving = request.moving
     motion = request.kind.along(placement.axis)
     near = list(scene.static_obstacles)
-    body = scene.swept_body(moving, config.depth * scene.unit, part_axes(scene.parts[moving].mesh))
+    body = scene.swept_body(moving, config.depth * scene.extent, part_axes(scene.parts[moving].mesh))
     ratio = sweep(body, motion, upper, near, _MEASURED_POSES).ratio
     ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)]
     held = [MeshCollider(v.mesh) for v in placement.static]

@@ -130,7 +130,7 @@ def _open(other: BuiltJoint, upper: float, scene: Scene) -> Obstacle:
 
 def _body(joint: BuiltJoint, scene: Scene, config: RealizationConfig) -> SweptBody:
     axes = part_axes(scene.parts[joint.moving].mesh)
-    return scene.swept_body(joint.moving, config.depth * scene.unit, axes)
+    return scene.swept_body(joint.moving, config.depth * scene.extent, axes)
 
 
 def _is_free_of(joint: BuiltJoint, upper: float, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:

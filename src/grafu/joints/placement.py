@@ -10,7 +10,7 @@ from grafu.scene.scene import Scene
 from grafu.vocabulary import MechanismClass
 
 CHOSEN_REACH = 0.1
-"""Longest block (unit) that bridges the way to a mount that was chosen: what stands farther off does not carry it."""
+"""Longest block (extent) that bridges the way to a mount that was chosen: what stands farther off does not carry it."""
 
 
 @final
@@ -38,6 +38,6 @@ class Placement:
 def nearest_part(hardware: Visual, scene: Scene, mounts: tuple[str, ...]) -> str:
     """Returns the id of the static part that hardware sits on, "" where none is near; a wanted mount wins a draw."""
     collider = MeshCollider(hardware.mesh)
-    near = [o for o in scene.static_obstacles if o.collider.box.overlaps(collider.box, 0.1 * scene.unit)]
+    near = [o for o in scene.static_obstacles if o.collider.box.overlaps(collider.box, 0.1 * scene.extent)]
     ranked = sorted((round(collider.distance(o.collider), 4), o.id not in mounts, o.id) for o in near)
     return ranked[0][2] if ranked else ""

@@ -1,4 +1,4 @@
-"""What is asked for: joints to build, with initial axes, and choices about them. It cannot tell who asked."""
+"""What is asked for: joints to build, with initial axes, and choices about them. The requester makes no difference."""
 
 from dataclasses import dataclass
 from enum import StrEnum

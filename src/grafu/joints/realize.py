@@ -92,7 +92,7 @@ def _closed_scene(
 ) -> tuple[Scene, dict[str, tuple[Clearance, ...]]]:
     """Returns the scene with every part that is drawn ajar closed, and what was noted about it."""
     moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *r.attached)) for r in requests}
-    scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, moving_bodies, asset.unit)
+    scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, moving_bodies, asset.extent)
     notes: dict[str, tuple[Clearance, ...]] = {}
     for request in requests:
         if request.drawn_at <= 0:

@@ -53,7 +53,7 @@ class Footing:
 
 
 def block(name: str, footing: Footing, length: float, material: Material = WOOD) -> Visual:
-    """Returns the prism of the footing extruded by `length` metres, let in by a trace at both ends so that it holds."""
+    """Returns the prism of the footing extruded by `length` metres, inset by a trace at both ends so that it holds."""
     bite = 2e-4
     w = footing.direction
     half = np.array([np.linalg.norm(footing.u), np.linalg.norm(footing.v), (length + 2 * bite) / 2])

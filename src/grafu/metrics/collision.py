@@ -30,7 +30,7 @@ from grafu.metrics.bodies import anchored_mesh, largest_side, parts_mesh, rigid_
 class ConnectivityConfig:
     """How connection is measured; `tolerance` is a fraction of the object's largest side.
 
-    `unit` is the side in metres to use instead of the object's own: that of the input, where parts were added to it.
+    `extent` is the side in metres to use instead of the object's own: that of the input, where parts were added to it.
 
     Raises:
         ValueError: if there is no pose, the tolerance is negative or the unit is not positive.
@@ -38,17 +38,17 @@ class ConnectivityConfig:
 
     poses: int = 50  # as for collisions
     tolerance: float = 0.005  # the paper's 5 mm in a unit cube
-    unit: float | None = None
+    extent: float | None = None
 
     def __post_init__(self) -> None:
         if self.poses < 1 or self.tolerance < 0:
             raise ValueError(f"connectivity needs poses and a tolerance >= 0: got {self.poses}, {self.tolerance}")
-        if self.unit is not None and not self.unit > 0:
-            raise ValueError(f"`ConnectivityConfig.unit` must be above 0: got {self.unit}")
+        if self.extent is not None and not self.extent > 0:
+            raise ValueError(f"`ConnectivityConfig.extent` must be above 0: got {self.extent}")
 
     def allowed(self, articulated: ArticulatedObject) -> float:
         """Returns the widest gap in metres that still counts as connected."""
-        return self.tolerance * (self.unit or largest_side(articulated))
+        return self.tolerance * (self.extent or largest_side(articulated))
 
 
 DEFAULT = ConnectivityConfig()
@@ -99,8 +99,8 @@ class CollisionConfig:
     """How a collision is counted.
 
     `tolerance` is a fraction of the object's largest side (0: strict). `hardware` counts hinges and rails on both
-    sides; `moving_bodies` also counts the other moving bodies, at rest or where they must be open first. `unit` is the
-    side in metres to use instead of the object's own: that of the input, where parts were added to it.
+    sides; `moving_bodies` also counts the other moving bodies, at rest or where they must be open first. `extent` is
+    the side in metres to use instead of the object's own: that of the input, where parts were added to it.
 
     Raises:
         ValueError: if there is no pose, the tolerance is negative or the unit is not positive.
@@ -110,13 +110,13 @@ class CollisionConfig:
     tolerance: float = 0.0
     hardware: bool = False
     moving_bodies: bool = False
-    unit: float | None = None
+    extent: float | None = None
 
     def __post_init__(self) -> None:
         if self.poses < 1 or self.tolerance < 0:
             raise ValueError(f"a collision needs poses and a tolerance >= 0: got {self.poses}, {self.tolerance}")
-        if self.unit is not None and not self.unit > 0:
-            raise ValueError(f"`CollisionConfig.unit` must be above 0: got {self.unit}")
+        if self.extent is not None and not self.extent > 0:
+            raise ValueError(f"`CollisionConfig.extent` must be above 0: got {self.extent}")
 
 
 STRICT = CollisionConfig()
@@ -143,7 +143,7 @@ class _Scene:
 
     def __init__(self, articulated: ArticulatedObject, config: CollisionConfig) -> None:
         self._articulated, self._config = articulated, config
-        self._depth = config.tolerance * (config.unit or largest_side(articulated))
+        self._depth = config.tolerance * (config.extent or largest_side(articulated))
         moving_bodies = [joint.child for joint in articulated.moving_joints] if config.moving_bodies else []
         meshes = {link: self._mesh(link) for link in (articulated.root, *moving_bodies)}
         self._obstacles = {link: MeshCollider(mesh) for link, mesh in meshes.items() if len(mesh.faces)}

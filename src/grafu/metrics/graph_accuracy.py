@@ -88,8 +88,8 @@ def graph_accuracy(found: GraphCompletion | FunctionalGraph, truth: FunctionalGr
     mine, true = graph_arrays(graph), graph_arrays(truth)
     place = {node.id: k for k, node in enumerate(truth.nodes)}
     known = np.array([place.get(node.id, NONE) for node in graph.nodes], dtype=np.int64)
-    unit = float(truth.box.size.max()) or 1.0
-    return compare_graphs(mine, true, pair_added(mine, true, known, unit), known == NONE, unit)
+    extent = float(truth.box.size.max()) or 1.0
+    return compare_graphs(mine, true, pair_added(mine, true, known, extent), known == NONE, extent)
 
 
 def total_accuracy(accuracies: Iterable[GraphAccuracy]) -> GraphAccuracy:
@@ -98,13 +98,13 @@ def total_accuracy(accuracies: Iterable[GraphAccuracy]) -> GraphAccuracy:
 
 
 def pair_added(
-    found: GraphArrays, truth: GraphArrays, known: Int64[np.ndarray, " f"], unit: float
+    found: GraphArrays, truth: GraphArrays, known: Int64[np.ndarray, " f"], extent: float
 ) -> Int64[np.ndarray, " f"]:
     """Returns for each found node its true node: `known` where that is not `NONE`, else by label and place."""
     paired = known.copy()
     added, missing = np.flatnonzero(known == NONE), np.setdiff1d(np.arange(len(truth.labels)), known)
     other = found.labels[added][:, None] != truth.labels[missing][None, :]
-    apart = np.linalg.norm(found.boxes[added][:, None, :3] - truth.boxes[missing][None, :, :3], axis=-1) / unit
+    apart = np.linalg.norm(found.boxes[added][:, None, :3] - truth.boxes[missing][None, :, :3], axis=-1) / extent
     rows, columns = linear_sum_assignment(other + _DISTANCE_WEIGHT * apart)
     paired[added[rows]] = missing[columns]
     return paired
@@ -115,17 +115,17 @@ def compare_graphs(
     truth: GraphArrays,
     pairing: Int64[np.ndarray, " f"],
     added: Bool[np.ndarray, " f"],
-    unit: float,
+    extent: float,
 ) -> GraphAccuracy:
     """Returns the figures of found nodes against true ones, given which answers for which.
 
-    `pairing` holds a true node for each found one, or `NONE`; `added` marks those that the input lacked; `unit` is the
-    object's largest side.
+    `pairing` holds a true node for each found one, or `NONE`; `added` marks those that the input lacked; `extent` is
+    the object's largest side.
     """
     place = np.full(len(truth.labels), NONE)  # of each true node among the found ones
     place[pairing[pairing != NONE]] = np.flatnonzero(pairing != NONE)
     return GraphAccuracy(
-        *_node_figures(found, truth, pairing, added, unit),
+        *_node_figures(found, truth, pairing, added, extent),
         *_edge_figures(found, truth, place),
         *_motion_figures(found, truth, place),
         *(_choice_figure(found, truth, pairing, kind) for kind in (HINGE, ATTACHED)),
@@ -133,11 +133,11 @@ def compare_graphs(
 
 
 def _node_figures(
-    found: GraphArrays, truth: GraphArrays, pairing: np.ndarray, added: np.ndarray, unit: float
+    found: GraphArrays, truth: GraphArrays, pairing: np.ndarray, added: np.ndarray, extent: float
 ) -> tuple[Ratio, ...]:
     """Returns existence, added, category, centre, half, added centre."""
     mine, theirs = np.flatnonzero(pairing != NONE), pairing[pairing != NONE]
-    apart = (found.boxes[mine] - truth.boxes[theirs]) / unit
+    apart = (found.boxes[mine] - truth.boxes[theirs]) / extent
     distance = np.linalg.norm(apart[:, :3], axis=1)
     same, labelled, new = found.labels[mine] == truth.labels[theirs], truth.labels[theirs] != UNKNOWN, added[mine]
     missing = len(truth.labels) - int((~added).sum())

@@ -38,14 +38,14 @@ _LEAF = 0.15  # of the next longer side: thinner sliders are doors
 
 def empty_rooms(articulated: ArticulatedObject) -> list[Box]:
     """Returns rooms that nothing furnishes, as boxes in metres (object frame), the largest first; none overlap."""
-    unit = largest_side(articulated)
+    extent = largest_side(articulated)
     still = articulated.link(articulated.root).mesh
     moving = [articulated.link(joint.child).mesh for joint in articulated.joints]
-    if unit <= 0 or not len(still.faces):
+    if extent <= 0 or not len(still.faces):
         return []
-    least = min(LEAST, LEAST_RATIO * unit)
+    least = min(LEAST, LEAST_RATIO * extent)
     whole = merge_meshes([still, *moving])
-    points = _points(whole.box, unit / _STEPS)
+    points = _points(whole.box, extent / _STEPS)
     points = points[~_taken(points, articulated)]
     rooms = _seen_from(points, RayCaster(still), RayCaster(merge_meshes(moving)), whole.box, least)
     manager, everything = _MANAGER(), RayCaster(whole)

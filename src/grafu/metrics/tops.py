@@ -31,7 +31,7 @@ _HOLLOW = 0.5  # of the plan under a top: less is no loss, other boards cover th
 _RIM = 0.98  # of what one sees from above lies lower than the rim: mirrors, posts and finials stand higher
 _SIDES = 3  # walls around a room
 _DEEP = 0.5  # of the rim's height
-_SKIN = 0.001  # of the largest side: a top may be let in so deep
+_SKIN = 0.001  # of the largest side: a top may be inset so deep
 
 
 @final
@@ -80,7 +80,7 @@ def lost_tops(
         if plan.sum() < max(_LEAST * everything.sum(), 1.0):
             continue
         hollow = covers[plan] < under[plan] - _OPEN * grid.height
-        least = np.maximum(rest - _SKIN * grid.unit, own - _NEAR * grid.height)[plan]
+        least = np.maximum(rest - _SKIN * grid.extent, own - _NEAR * grid.height)[plan]
         covered = [(top[plan] > least) & (top[plan] <= own[plan] + _NEAR * grid.height) for top in new]
         ratio = float(np.logical_or.reduce(covered).mean()) if covered else 0.0
         found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), ratio))
@@ -115,12 +115,12 @@ class _Grid:
     def __init__(self, meshes: Sequence[TriangleMesh]) -> None:
         whole = Box.enclosing(mesh.box for mesh in meshes)
         low, high = whole.low, whole.high
-        self.unit, self.height, self.floor = float((high - low).max()), float(high[2] - low[2]), float(low[2])
+        self.extent, self.height, self.floor = float((high - low).max()), float(high[2] - low[2]), float(low[2])
         self.low, self.cell = low[:2], float((high - low)[:2].max()) / _CELLS
         x, y = (np.arange(low[k] + self.cell / 2, high[k], self.cell) for k in (0, 1))
         self.shape = len(x), len(y)
         plan = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-        self.starts = np.column_stack([plan, np.full(len(plan), high[2] + self.unit)])
+        self.starts = np.column_stack([plan, np.full(len(plan), high[2] + self.extent)])
 
     def heights(self, meshes: Sequence[TriangleMesh]) -> Field:
         """Returns the z of what is met first in each cell; minus infinity where nothing is."""
@@ -131,7 +131,7 @@ class _Grid:
 
     def undersides(self, meshes: Sequence[TriangleMesh]) -> Field:
         """Returns the z of what is met first from below in each cell; infinity where nothing is."""
-        starts = self.starts - np.array([0.0, 0.0, self.height + 2 * self.unit])
+        starts = self.starts - np.array([0.0, 0.0, self.height + 2 * self.extent])
         found = starts[:, 2] + RayCaster(merge_meshes(meshes)).along(starts, np.array([0.0, 0.0, 1.0]))
         return np.asarray(found).reshape(self.shape)
 

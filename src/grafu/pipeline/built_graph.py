@@ -31,7 +31,7 @@ def as_built(
     new = [addition.part for addition in additions]
     nodes = (*bare.nodes, *(PartNode(p.id, p.label, p.box) for p in new))
     graph = with_edges(
-        replace(bare, nodes=nodes), _edges([p for p in asset.parts if p.id in bare], new, asset.unit, parsing)
+        replace(bare, nodes=nodes), _edges([p for p in asset.parts if p.id in bare], new, asset.extent, parsing)
     )
     names = _stands_for(completion, new)
     decisions = tuple(
@@ -76,14 +76,14 @@ def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, s
     return found
 
 
-def _edges(old: Sequence[Part], new: Sequence[Part], unit: float, parsing: ParsingConfig) -> list[Edge]:
+def _edges(old: Sequence[Part], new: Sequence[Part], extent: float, parsing: ParsingConfig) -> list[Edge]:
     """Returns what new parts touch, and where handles are attached."""
     parts = [*old, *new]
     if parsing.contact == "none":
         return [Attached(p.rides_on, p.id) for p in new if p.rides_on and p.label is PartLabel.HANDLE]
-    pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * unit) if b >= len(old)]
+    pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * extent) if b >= len(old)]
     if parsing.contact == "mesh":
-        pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * unit)
+        pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * extent)
     contacts = [Contact(parts[a].id, parts[b].id) for a, b in pairs]
     attached = [Attached(p.rides_on, p.id) for p in new if p.rides_on and p.label is PartLabel.HANDLE]
     joined = {frozenset(ends_of(edge)) for edge in attached}

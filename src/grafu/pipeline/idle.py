@@ -1,4 +1,4 @@
-"""What was added for a door or drawer that then got no joint is taken back: a box that stands still helps nobody."""
+"""What was added for a door or drawer that then got no joint is taken back: a box without a joint is of no use."""
 
 from dataclasses import replace
 

@@ -37,7 +37,7 @@ _NAMED = 4  # parts that a sentence names
 
 
 def verdict_of(report: Report) -> VerdictRecord:
-    """Returns the verdict on what a report tells: the colour of its worst fault, and green without any."""
+    """Returns the verdict on a report: the colour of its worst fault, and green without any."""
     faults = tuple(sorted(_faults(report), key=lambda fault: fault.colour is not Colour.RED))
     colours = {fault.colour for fault in faults}
     worst = next((colour for colour in (Colour.RED, Colour.YELLOW) if colour in colours), Colour.GREEN)

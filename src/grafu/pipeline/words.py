@@ -17,7 +17,12 @@ def listed(words: Iterable[str]) -> str:
 
 
 def percent(ratio: float) -> str:
-    """Returns a fraction as a percentage; what is not nothing is never told as 0 %, what is not all never as 100 %."""
+    """Returns a fraction as a percentage; never 0 % above nothing, never 100 % below all."""
     if 0 < ratio < 0.005:
         return "under 1 %"
     return "over 99 %" if 0.995 <= ratio < 1 else f"{100 * ratio:.0f} %"
+
+
+def cut_in_words(kind: str) -> str:
+    """Returns the kind of a clearance in the report for people: `shrunk` where the report has `eased`."""
+    return "shrunk" if kind == "eased" else kind

@@ -3,7 +3,7 @@
 A cached value is what the function would return again: the functions are pure, and the key is the content of everything
 that they are given.
 
-The key is what a value is made of: equal content gives equal keys, whoever made it and when.
+The key is what a value is made of: equal content gives equal keys.
 
 It knows arrays, plain data and dataclasses; of anything else (a function, an open network) only which one it is.
 """

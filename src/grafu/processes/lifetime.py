@@ -40,7 +40,8 @@ def end_with_parent(started_by_main_thread: bool = True) -> None:
     """Ends this process, which multiprocessing started, as soon as its parent is gone, even amid native code.
 
     Linux counts the end of the thread that started it as its parent's: where that was not the main thread, and
-    elsewhere, a thread of this process watches instead, which has to wait for native code that lets nobody else run.
+    elsewhere, a thread of this process watches instead, which has to wait for native code that blocks all other
+    threads.
     """
     parent = multiprocessing.parent_process()
     if parent is None:

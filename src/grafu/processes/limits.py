@@ -73,7 +73,7 @@ def _resident(process: int) -> int:
 
 
 def _children(process: int) -> list[int]:
-    """Returns what the threads of a process started; nothing where the system does not tell."""
+    """Returns what the threads of a process started; nothing where the system does not report it."""
     found: list[int] = []
     with suppress(OSError):
         for thread in Path(f"/proc/{process}/task").iterdir():

@@ -1,4 +1,4 @@
-"""Nothing leaves the machine: what libraries would tell their makers is switched off. It imports no library."""
+"""Nothing leaves the machine: the telemetry of libraries is switched off. It imports no library."""
 
 import os
 
@@ -6,7 +6,7 @@ _SWITCH = "ORT_DISABLE_TELEMETRY"  # ONNX Runtime reads it as it is loaded; late
 
 
 def keep_private() -> None:
-    """Switches off what ONNX Runtime tells its makers, for this process and those that it starts.
+    """Switches off the telemetry of ONNX Runtime, for this process and those that it starts.
 
     To be called before the library is imported: as it loads, it would make a device id and a queue of events under the
     user's cache folder, and ask for its makers' host.

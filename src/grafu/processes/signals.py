@@ -16,7 +16,7 @@ class Terminated(KeyboardInterrupt):
 
 @final
 class Requests:
-    """Whether this process was asked to end, whoever heard it."""
+    """Whether this process was asked to end."""
 
     def __init__(self) -> None:
         self.are_made = False

@@ -74,7 +74,7 @@ class Worker(Generic[Item, Result]):
 
     @property
     def patience(self) -> float | None:
-        """Seconds for which nobody needs to look, while it says nothing; None: for ever."""
+        """Seconds until the next check while it reports nothing; None: no check."""
         if self._limits == Limits():
             return None
         left = inf if self._deadline is None else self._deadline - monotonic()
@@ -139,7 +139,7 @@ def _serve(
     connection: Connection,
     started_by_main_thread: bool,
 ) -> None:
-    """Works until nobody asks any more: an empty tuple says that work begins, one with a result that it is done."""
+    """Works until the pipe is closed: an empty tuple says that work begins, one with a result that it is done."""
     leave_interrupts_to_parent()
     end_with_parent(started_by_main_thread)
     if limits.memory is not None:

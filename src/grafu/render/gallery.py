@@ -148,7 +148,7 @@ def gallery_sheet(gallery: Gallery, size: tuple[int, int] = (300, 260), columns:
 
 
 def _caption(model: Model) -> str:
-    return f"{model.title}  ·  {model.id}  ·  {model.mechanism.value}"
+    return f"{model.title}  ·  {model.id}  ·  {model.mechanism.in_words}"
 
 
 def _closed_and_opened(shown: ArticulatedObject, is_hinge: bool, size: tuple[int, int]) -> Picture:

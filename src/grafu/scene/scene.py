@@ -72,7 +72,7 @@ class Scene:
 
     parts: Mapping[str, Part]
     moving_bodies: Mapping[str, MovingBody]
-    unit: float
+    extent: float
     hardware: tuple[tuple[str, Visual], ...] = ()
     joint_motions: Mapping[str, JointMotion] = field(default_factory=dict)
     _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(

@@ -30,7 +30,7 @@ NEAR = 0.01  # of its object's largest side: how far off something still touches
 class Scale:
     """The size of the object that holds each shell, and what counts as touching in it."""
 
-    unit: ScalarsOfShells
+    extent: ScalarsOfShells
     outline: ScalarsOfShells  # the area of the object as it is seen
 
     @classmethod
@@ -46,7 +46,7 @@ class Scale:
     @property
     def near(self) -> ScalarsOfShells:
         """How far off something still touches a shell."""
-        return NEAR * self.unit
+        return NEAR * self.extent
 
 
 def candidates(view: View, open_to: MaskOfShells) -> Indices:
@@ -60,7 +60,7 @@ def candidates(view: View, open_to: MaskOfShells) -> Indices:
     shorter, longer = size[:, :2].min(axis=1), size[:, :2].max(axis=1)
     area = size[:, 0] * size[:, 1]
     cover = np.minimum(view.faced[:, 2] / np.maximum(area, _NO_AREA), 1.0)
-    large = (shorter >= _LEAST * scale.unit) & (longer <= _MOST_NARROW * shorter)
+    large = (shorter >= _LEAST * scale.extent) & (longer <= _MOST_NARROW * shorter)
     plate = (size[:, 2] <= _PLATE * shorter) & (cover >= _RING)
     body = (size[:, 2] > _PLATE * shorter) & (cover >= 0.8) & (area <= _BODY * scale.outline)
     found = np.flatnonzero(open_to & large & (plate | body))

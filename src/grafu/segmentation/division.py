@@ -125,10 +125,10 @@ def _is_flush(view: View, front: Front) -> bool:
     plate = front.shells[0]
     own = np.flatnonzero(view.owner == view.owner[plate])
     depth = float(view.high[own, 2].max() - view.low[own, 2].min())
-    unit = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
+    extent = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
     inside = float(view.high[own, 2].max() - view.high[plate, 2])
     shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
-    return inside <= _FLUSH * depth + thick and shorter >= _SMALL * unit
+    return inside <= _FLUSH * depth + thick and shorter >= _SMALL * extent
 
 
 def _hides(view: View, owner: int, fronts: tuple[Front, ...], is_whole: bool) -> bool:

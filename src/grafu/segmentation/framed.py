@@ -26,14 +26,14 @@ _FILLED = 0.5  # of a frame's inside: what its panels cover
 def framed(view: View) -> list[tuple[int, ...]]:
     """Returns the shells of each framed front, a shell in one at most; frames that share a bar are none."""
     scale = Scale.of(view)
-    size, unit = view.size, scale.unit
+    size, extent = view.size, scale.extent
     found: list[tuple[int, ...]] = []
     for along in (1, 0):
         across = 1 - along
-        slender = (size[:, along] >= _BAR * size[:, across]) & (size[:, 2] <= _THICK * unit)
+        slender = (size[:, along] >= _BAR * size[:, across]) & (size[:, 2] <= _THICK * extent)
         bars = slender & (size[:, 2] <= _DEEP * size[:, across]) & (size[:, across] > 0)
-        for pair in _pairs(view, bars, along, unit * _SAME):
-            members = _filled(view, pair, along, unit[pair[0]])
+        for pair in _pairs(view, bars, along, extent * _SAME):
+            members = _filled(view, pair, along, extent[pair[0]])
             if members:
                 found.append(members)
     return _without_shared(found)
@@ -73,11 +73,11 @@ def _pairs(view: View, bars: MaskOfShells, along: int, same: np.ndarray) -> Iter
             yield bar, other
 
 
-def _filled(view: View, pair: tuple[int, int], along: int, unit: float) -> tuple[int, ...]:
+def _filled(view: View, pair: tuple[int, int], along: int, extent: float) -> tuple[int, ...]:
     """Returns the pair with the bars across and the panels between, empty where they are no filled frame."""
     first, second = pair
     across: Final = 1 - along
-    low, high, same = view.low, view.high, _SAME * unit
+    low, high, same = view.low, view.high, _SAME * extent
     groove = _GROOVE * view.size[first, across]
     left, right = high[first, across], low[second, across]
     between = (low[:, across] >= left - groove - same) & (high[:, across] <= right + groove + same)
@@ -93,16 +93,16 @@ def _filled(view: View, pair: tuple[int, int], along: int, unit: float) -> tuple
     opening = high[low_ends & rails, along].min(), low[high_ends & rails, along].max()
     panels = within & ~rails
     panels[[first, second]] = False
-    if not panels.any() or not _fits(view, panels, pair, along, opening, unit):
+    if not panels.any() or not _fits(view, panels, pair, along, opening, extent):
         return ()
     return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(panels).tolist())
 
 
 def _fits(
-    view: View, panels: MaskOfShells, pair: tuple[int, int], along: int, opening: tuple[float, float], unit: float
+    view: View, panels: MaskOfShells, pair: tuple[int, int], along: int, opening: tuple[float, float], extent: float
 ) -> bool:
     """Whether panels fill a frame's inside, without gaps to it and not before it."""
-    across, gap = 1 - along, _GAP * unit
+    across, gap = 1 - along, _GAP * extent
     left, right = view.high[pair[0], across], view.low[pair[1], across]
     inner = float((right - left) * (opening[1] - opening[0]))
     area = float(np.prod(view.size[panels][:, :2], axis=1).sum())

@@ -98,7 +98,7 @@ class _Look:
         return many and bool(self._area[plate] >= _WHOLE * self._scale.outline[plate])
 
     def with_members(self, plate: int, taken: Iterable[int]) -> Front:
-        """Returns the front of a plate: shells of its object that nobody has yet, as they belong to it."""
+        """Returns the front of a plate: shells of its object that no front has yet, as they belong to it."""
         view = self._view
         free = view.owner == view.owner[plate]
         free[[*taken]] = False
@@ -110,8 +110,10 @@ class _Look:
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""
-        view, unit, near = self._view, float(self._scale.unit[plate]), float(self._scale.near[plate])
-        small = (view.size[:, :2].min(axis=1) <= _HANDLE_SIDE * unit) & (self._area <= _HANDLE_AREA * self._area[plate])
+        view, extent, near = self._view, float(self._scale.extent[plate]), float(self._scale.near[plate])
+        small = (view.size[:, :2].min(axis=1) <= _HANDLE_SIDE * extent) & (
+            self._area <= _HANDLE_AREA * self._area[plate]
+        )
         shared = np.maximum(
             np.minimum(view.high[:, :2], view.high[plate, :2]) - np.maximum(view.low[:, :2], view.low[plate, :2]),
             0.0,
@@ -119,7 +121,7 @@ class _Look:
         on = shared >= _ON_FRONT * self._area
         front = view.high[plate, 2]
         out = (view.high[:, 2] > front + 0.2 * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
-        starts = (view.low[:, 2] <= front + 8 * near) & (view.high[:, 2] <= front + _HANDLE_OUT * unit)
+        starts = (view.low[:, 2] <= front + 8 * near) & (view.high[:, 2] <= front + _HANDLE_OUT * extent)
         return np.asarray(small & on & out & starts)
 
     def _lies_in(self, plate: int) -> MaskOfShells:

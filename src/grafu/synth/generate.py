@@ -99,7 +99,7 @@ def _parted(plain: Specimen, fine: Asset, reach: float) -> frozenset[frozenset[s
     places = {part.id: k for k, part in enumerate(fine.parts)}
     ends = (ends_of(edge) for edge in plain.truth.edges if frozenset(ends_of(edge)) not in plain.apart)
     pairs = [(places[a], places[b]) for a, b in ends]
-    tolerance = ParsingConfig().mesh_tolerance * fine.unit
+    tolerance = ParsingConfig().mesh_tolerance * fine.extent
     sure = set(touching_pairs([p.mesh for p in plain.whole.parts], pairs, max(tolerance - 2 * reach, 0.0)))
     doubtful = [pair for pair in pairs if pair not in sure]
     left = set(touching_pairs([p.mesh for p in fine.parts], doubtful, tolerance))

@@ -38,7 +38,7 @@ FOLD_MODELS = 200
 @final
 @dataclass(frozen=True)
 class Experiment:
-    """One row of a table: the name is that of its folder, `says` tells in words what it does otherwise."""
+    """One row of a table: the name is that of its folder, `says` describes in words what differs."""
 
     name: str
     says: str

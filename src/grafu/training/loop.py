@@ -66,7 +66,7 @@ def train(
 ) -> Generator[StepReport, None, None]:
     """Trains until all steps are done or a signal comes, and leaves the files of the run in the folder.
 
-    It yields once at the start and then after each step: whoever wants it trained takes all that it yields.
+    It yields once at the start and then after each step: take all that it yields to train to the end.
 
     Raises:
         ExportError: if the folder holds a run that is not to be resumed, or cannot be written.

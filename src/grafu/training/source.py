@@ -38,7 +38,7 @@ class Source(Protocol):
 
     @property
     def maker_seed(self) -> int | None:
-        """The seed that its furniture was made with; None where it was not made, or nobody knows."""
+        """The seed that its furniture was made with; None where it was not made, or the seed is unknown."""
 
     def pair(self, number: int) -> GraphPair:
         """Returns the natural pair of model `number` (0, 1, ...)."""

@@ -13,7 +13,7 @@ from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.pipeline.verdict import reason_of, stopped, verdict_of
-from grafu.pipeline.words import counted, listed, percent
+from grafu.pipeline.words import counted, cut_in_words, listed, percent
 from grafu.refusal import Reason
 from grafu.viewer.shell import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
@@ -115,7 +115,7 @@ def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ..
     return (
         part_button(joint.part),
         lines([*moves, flag("restricted")] if joint.restricted else moves),
-        lines([f"{joint.count} × {joint.template}", f"class {joint.mechanism}", f"on {joint.mount}"]),
+        lines([f"{joint.count} × {joint.template}", joint.mechanism.in_words, f"on {joint.mount}"]),
         lines([
             f"stated {axis_words(joint.initial_axis, joint.type)} ({joint.motion_source})",
             f"built {axis_words(joint.rectified_axis, joint.type)}",
@@ -146,7 +146,7 @@ def _clearance(cut: ClearanceRecord) -> str:
     """Returns what was taken away: as a depth where material was pressed back, else as a fraction."""
     ratio = f", {_ratios(cut)}" if cut.share >= _LEAST else ", a trace"
     amount = {"trimmed": f" by {1000 * cut.amount:.1f} mm", "joined": "", "closed": ""}
-    return f"{cut.part} {cut.kind}{amount.get(cut.kind, ratio)}: {cut.why}"
+    return f"{cut.part} {cut_in_words(cut.kind)}{amount.get(cut.kind, ratio)}: {cut.why}"
 
 
 def _ratios(cut: ClearanceRecord) -> str:

@@ -91,7 +91,7 @@ def test_the_format_is_what_particulate_writes(folder: Path) -> None:
     T = normalisation(CABINET.box, "Z")
     point = transform_points(T, CABINET.joints[0].axis.point[None])[0]
     np.testing.assert_allclose(moment, np.cross(line, point), atol=1e-6)  # l x p, not p x l
-    longest = CABINET.joints[2].upper / CABINET.unit
+    longest = CABINET.joints[2].upper / CABINET.extent
     np.testing.assert_allclose(arrays["prismatic_range"][3], [0.0, longest], rtol=1e-6)
 
 

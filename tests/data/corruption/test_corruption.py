@@ -100,7 +100,7 @@ def test_both_two_and_three_categories_occur():
 @given(seeds)
 def test_a_handful_and_a_fraction_go(seed):
     assert 1 <= len(by("random", seed).missing) <= 4
-    ratio = by("random_ratio", seed)
+    ratio = by("random_share", seed)
     assert 0.25 <= len(ratio.missing) / len(LABELS) <= 0.5
     assert not {PartLabel.DOOR, PartLabel.DRAWER} & set(lost_labels(ratio))
     nodes = by("drop_nodes_keep_edge_types", seed)

@@ -106,16 +106,16 @@ def find_views(scene: Scene, requests: Iterable[JointRequest]) -> tuple[View, ..
             groups.append((way, [moving]))
         else:
             group[1].append(moving)
-    still = merge_meshes([_coarse(p.mesh, scene.unit) for p in scene.static_parts])
+    still = merge_meshes([_coarse(p.mesh, scene.extent) for p in scene.static_parts])
     if not groups or not len(still.faces):
         return ()
     rays = RayCaster(still)
     return tuple(_view(scene, still, rays, way, tuple(moving_bodies)) for way, moving_bodies in groups)
 
 
-def _coarse(mesh: TriangleMesh, unit: float) -> TriangleMesh:
+def _coarse(mesh: TriangleMesh, extent: float) -> TriangleMesh:
     """Returns a mesh of many faces with fewer: things on shelves and carvings cost more rays than they are worth."""
-    return clustered(mesh, _COARSE * unit) if len(mesh.faces) > _MANY else mesh
+    return clustered(mesh, _COARSE * extent) if len(mesh.faces) > _MANY else mesh
 
 
 def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
@@ -145,7 +145,7 @@ def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, moving_
     y = -way
     rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
     own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
-    others = merge_meshes([_coarse(scene.parts[i].mesh, scene.unit) for i in sorted(scene.moving_ids - own)])
+    others = merge_meshes([_coarse(scene.parts[i].mesh, scene.extent) for i in sorted(scene.moving_ids - own)])
     return View(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
 
 
@@ -159,17 +159,17 @@ def find_bays(view: View, scene: Scene, requests: Iterable[JointRequest], config
     while merged:
         merged = False
         for i, one in enumerate(bays):
-            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], scene.unit)), None)
+            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], scene.extent)), None)
             if k is not None:
                 bays[i], merged = one.joined(bays.pop(k)), True
                 break
     return tuple(bays)
 
 
-def _one_space(a: Bay, b: Bay, unit: float) -> bool:
+def _one_space(a: Bay, b: Bay, extent: float) -> bool:
     """Whether two bays have the same walls and lie above, below or within one another."""
-    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < _ALIKE * unit
-    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < _APART * unit)
+    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < _ALIKE * extent
+    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < _APART * extent)
 
 
 def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
@@ -177,7 +177,7 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     front = view.local(scene.parts[moving].mesh.vertices)
     low, high = front.min(axis=0), front.max(axis=0)
     depth = float(view.body.high[1] - low[1])
-    if depth < config.least_depth * scene.unit:
+    if depth < config.least_depth * scene.extent:
         return None
     x, z = float(low[0] + high[0]) / 2, low[2] + _INNER * (high[2] - low[2])
     depths = float(low[1]) + np.linspace(0.0, 1.0, _DEEP) * depth
@@ -187,7 +187,7 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     first, last = int(np.argmax(both)), _DEEP - 1 - int(np.argmax(both[::-1]))
     start = _refined(view, x, z, (float(depths[max(first - 1, 0)]), float(depths[first])))
     end = _refined(view, x, z, (float(depths[min(last + 1, _DEEP - 1)]), float(depths[last])))
-    if end - start < config.least_depth * scene.unit:
+    if end - start < config.least_depth * scene.extent:
         return None
     sides = [_walls(view, x, depths[both], z, sign) for sign in (-1.0, 1.0)]
     x0, x1 = (

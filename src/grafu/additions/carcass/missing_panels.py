@@ -2,7 +2,7 @@
 
 Tables, racks and open shelves have no carcass here: only what stands behind a door, or behind drawers that fill a good
 part of the height under them, between walls on both sides, is looked at. Whether the open back was meant so (a cabinet
-around pipes, say) cannot be told; it is reported all the same.
+around pipes, say) cannot be known; it is reported all the same.
 """
 
 from collections.abc import Sequence
@@ -57,14 +57,14 @@ def panels_missing(around: Surroundings, config: CarcassConfig = DEFAULT) -> tup
         bays = [
             bay
             for bay in find_bays(view, around.scene, around.requests, config)
-            if bay.walled >= config.walled and _is_carcass(bay, around.scene.unit, view, config)
+            if bay.walled >= config.walled and _is_carcass(bay, around.scene.extent, view, config)
         ]
         for bay in bays:
             covered = _back_covered(view, bay)
             if covered < config.covered:
                 found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
             if not any(_under(other, bay) for other in bays):
-                covered = _bottom_covered(view, bay, around.scene.unit)
+                covered = _bottom_covered(view, bay, around.scene.extent)
                 if covered < config.covered:
                     found.append(_missing_panel(PartLabel.BOTTOM_PANEL, bay, covered, view))
     return tuple(found)
@@ -78,13 +78,13 @@ def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: View) -> Mis
     )
 
 
-def _is_carcass(bay: Bay, unit: float, view: View, config: CarcassConfig) -> bool:
+def _is_carcass(bay: Bay, extent: float, view: View, config: CarcassConfig) -> bool:
     """Whether a bay is that of a body: it has a door, or drawers fill enough of the height down to the floor."""
     if bay.has_door:
         return True
     floor = float(view.body.low[2])
     filled = float(bay.outline[3] - bay.outline[2])
-    return filled >= config.filled * max(float(bay.outline[3]) - floor, 0.1 * unit)
+    return filled >= config.filled * max(float(bay.outline[3]) - floor, 0.1 * extent)
 
 
 def _back_covered(view: View, bay: Bay) -> float:
@@ -96,11 +96,11 @@ def _back_covered(view: View, bay: Bay) -> float:
     return float(np.isfinite(hits).mean())
 
 
-def _bottom_covered(view: View, bay: Bay, unit: float) -> float:
+def _bottom_covered(view: View, bay: Bay, extent: float) -> float:
     """Returns the fraction of a bay's bottom at which something stands below it."""
     (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
     x, y = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), y0 + _GRID * (y1 - y0), indexing="ij"))
-    start = z0 + min(_BELOW[0] * bay.lowest, _BELOW[1] * unit)
+    start = z0 + min(_BELOW[0] * bay.lowest, _BELOW[1] * extent)
     hits = view.cast(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     return float(np.isfinite(hits).mean())
 

@@ -54,7 +54,7 @@ def boards_to_complete(
     config: DrawerBoxConfig,
     room: Box | None = None,
 ) -> Mapping[BoardName, Box] | Refusal:
-    """Returns the boards that an incomplete box lacks, or why they cannot be told.
+    """Returns the boards that an incomplete box lacks, or why they are unknown.
 
     `room` is the free space behind the front: walls on a mere bottom keep within it.
     """

@@ -127,7 +127,7 @@ def drawn_with_the_case(
 ) -> bool:
     """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
 
-    Nobody can tell those from the case; boards beside them would stand there twice.
+    They look like parts of the case; boards beside them would be doubles.
     """
     frame, mesh = _framed(request, around.scene)
     if verdict.kind != "incomplete" or frame is None or mesh is None:

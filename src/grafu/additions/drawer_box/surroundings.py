@@ -53,7 +53,7 @@ class Surroundings:
         """Returns the surroundings in which some still parts ride on a moving body."""
         moving = self.scene.moving_bodies[moving_id]
         moving_bodies = {**self.scene.moving_bodies, moving_id: MovingBody(moving_id, (*moving.members, *members))}
-        return replace(self, scene=Scene(self.scene.parts, moving_bodies, self.scene.unit))
+        return replace(self, scene=Scene(self.scene.parts, moving_bodies, self.scene.extent))
 
     def with_parts(self, parts: tuple[Part, ...]) -> "Surroundings":
         """Returns the surroundings with parts that ride on a moving body added."""
@@ -62,7 +62,7 @@ class Surroundings:
             if part.rides_on in moving_bodies:
                 moving = moving_bodies[part.rides_on]
                 moving_bodies[moving.id] = MovingBody(moving.id, (*moving.members, part.id))
-        scene = Scene({**self.scene.parts, **{p.id: p for p in parts}}, moving_bodies, self.scene.unit)
+        scene = Scene({**self.scene.parts, **{p.id: p for p in parts}}, moving_bodies, self.scene.extent)
         return replace(self, scene=scene)
 
 

@@ -47,7 +47,7 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     joint_motion = scene.joint_motions.get(moving_id)
     if joint_motion is None:
         return _no_grip(moving_id, Reason.NO_MOTION)
-    scale = min(1.0, scene.unit / _FURNITURE)
+    scale = min(1.0, scene.extent / _FURNITURE)
     front = front_of(scene.parts[moving.id].mesh, joint_motion, config)
     part = front_part(scene, moving_id, front)
     if part.id != moving_id:

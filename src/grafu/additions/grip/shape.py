@@ -99,10 +99,10 @@ Outline = Float[np.ndarray, "n 2"]
 
 _QUARTER = 6  # straight pieces of a quarter turn
 _STEPS = 5  # levels of a rounded bottom
-_RIM = 3  # slices of an eased rim
+_RIM = 3  # slices of a rounded rim
 _BOTTOM = 0.7  # the radius of a groove's rounded bottom, as a fraction of its depth
 _FLAT = 1e-9  # metres
-_EASED = 0.15  # the radius of a hole's rounded rim, as a fraction of the front's thickness
+_ROUNDED = 0.15  # the radius of a hole's rounded rim, as a fraction of the front's thickness
 
 
 @final
@@ -153,7 +153,7 @@ def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
     elif cut.kind is GripKind.EDGE:
         solids = [_prism(_notch(cut, 0.25 * cut.size.width), cut.bottom, cut.top)]
     else:
-        solids = _stages(cut) if _is_eased(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
+        solids = _stages(cut) if _is_rounded(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
     return tuple(solid for solid in solids if solid is not None)
 
 
@@ -221,7 +221,7 @@ def _notch(cut: Cut, over: float) -> Outline:
 
 def union(cut: Cut) -> TriangleMesh | None:
     """Returns the closed surface around all of a grip's cutters, in the frame that they are in; None: there is one."""
-    if not _is_eased(cut):
+    if not _is_rounded(cut):
         return None
     rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
     count, size = len(rings), len(rings[0])
@@ -237,7 +237,7 @@ def union(cut: Cut) -> TriangleMesh | None:
     return TriangleMesh(points, np.vstack(faces))
 
 
-def _is_eased(cut: Cut) -> bool:
+def _is_rounded(cut: Cut) -> bool:
     return cut.kind is GripKind.HOLE and cut.profile == "rounded" and not cut.is_hollow
 
 
@@ -246,7 +246,7 @@ def _hole_levels(cut: Cut) -> list[tuple[float, float]]:
 
     It ends a trace above the face: an edge in the very face would leave slivers.
     """
-    radius = _EASED * (cut.face - cut.bottom)
+    radius = _ROUNDED * (cut.face - cut.bottom)
     angles = np.linspace(np.pi / 2, 0.0, _RIM + 1)
     rim = [(float(radius * (1 - np.sin(a))), float(cut.face - radius * (0.95 - np.cos(a)))) for a in angles]
     return [(0.0, cut.bottom), *rim, (radius, cut.top)]

@@ -106,10 +106,10 @@ class HandleConfig:
             raise ValueError(f"`HandleConfig.poses` must be at least 2: got {self.poses}")
 
 
-def size_factor(unit: float) -> float:
-    """Returns by how much hands and handles are scaled for an object whose largest side is `unit` metres.
+def size_factor(extent: float) -> float:
+    """Returns by how much hands and handles are scaled for an object whose largest side is `extent` metres.
 
     It is 1 for furniture between half a metre and four metres; what is smaller or larger was modelled in another scale.
     """
     low, high = _COMMON
-    return min(unit / low, 1.0) if unit < high else unit / high
+    return min(extent / low, 1.0) if extent < high else extent / high

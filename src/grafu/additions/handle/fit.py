@@ -47,7 +47,7 @@ class Surroundings:
         At rest it is clear of everything; along its path, what opens before it (a door before a drawer) stands wide
         open.
         """
-        body = SweptBody(handle, _TOUCH * self.scene.unit)
+        body = SweptBody(handle, _TOUCH * self.scene.extent)
         others = [other for other in self.moving if other != moving_id]
         at_rest = [*self.still, *self._own_hardware(moving_id), *(o for other in others for o in self.moving[other])]
         found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)

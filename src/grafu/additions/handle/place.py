@@ -67,7 +67,7 @@ def add_handles(
         return Handles((), (), scene)
     siblings = siblings_of(scene)
     reliefs = reliefs or Reliefs(scene)
-    style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.unit, config, own or {})
+    style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.extent, config, own or {})
     task = _Task(style, siblings, config, hints or {}, reliefs)
     around = surroundings_of(scene)
     additions: list[Addition] = []

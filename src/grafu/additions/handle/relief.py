@@ -95,7 +95,7 @@ class Reliefs:
 
     def _made(self, moving_id: str) -> Relief:
         scene = self.scene
-        front, factor = front_of(scene, moving_id), size_factor(scene.unit)
+        front, factor = front_of(scene, moving_id), size_factor(scene.extent)
         region = _around(front, factor)
         bodies = [scene.parts[m].mesh for m in body_members(scene, moving_id)]
         casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, _others(scene, moving_id, front))]

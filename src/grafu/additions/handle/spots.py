@@ -47,7 +47,7 @@ class Spot:
 @final
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """What a handle takes of a front, metres: along its long side and across it; `turns` tells if it may stand."""
+    """What a handle takes of a front, metres: along its long side and across it; `turns`: whether it may stand."""
 
     along: float
     across: float

@@ -68,7 +68,7 @@ def siblings_of(scene: Scene) -> tuple[Sibling, ...]:
 def choose_style(
     fronts: Sequence[Front],
     siblings: Sequence[Sibling],
-    unit: float,
+    extent: float,
     config: HandleConfig,
     own: Mapping[str, HandleTemplate],
 ) -> Style:
@@ -77,7 +77,7 @@ def choose_style(
     Raises:
         TemplateError: if the config names no template that there is.
     """
-    factor = size_factor(unit)
+    factor = size_factor(extent)
     alike = () if config.finish else tuple(s.part for s in siblings)
     finish = FINISHES.get(config.finish, STEEL)
     if config.style or not siblings:

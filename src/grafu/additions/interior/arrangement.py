@@ -68,7 +68,7 @@ def shared_out(lengths: Sequence[float], present: int, wanted: int, thickness: f
 
 
 def by_size(compartment: Compartment, sizes: Sizes, most: int) -> Arrangement:
-    """Returns what a compartment's own size asks for (`auto`)."""
+    """Returns the panels that suit a compartment's size (`auto`)."""
     size = compartment.box.size
     height, width = float(size[2]), float(size[compartment.side_axis])
     if compartment.is_chest:

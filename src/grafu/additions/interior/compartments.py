@@ -59,9 +59,9 @@ class Compartment:
 
 def find_compartments(scene: Scene, config: InteriorConfig = InteriorConfig()) -> tuple[Compartment, ...]:
     """Returns the compartments of an object at rest, the largest first of each kind of opening; none overlap."""
-    if not scene.parts or scene.unit <= 0:
+    if not scene.parts or scene.extent <= 0:
         return ()
-    sizes = config.sizes(scene.unit)
+    sizes = config.sizes(scene.extent)
     rough = find_rooms(taken_cells(scene, sizes), sizes)
     if not rough:
         return ()

@@ -54,18 +54,18 @@ class InteriorConfig:
             if not 0 <= getattr(self, name) <= 1:
                 raise ValueError(f"`InteriorConfig.{name}` must be in 0..1: got {getattr(self, name)}")
 
-    def sizes(self, unit: float) -> "Sizes":
-        """Returns the lengths for an object whose largest side is `unit` metres."""
+    def sizes(self, extent: float) -> "Sizes":
+        """Returns the lengths for an object whose largest side is `extent` metres."""
         return Sizes(
-            thickness=_held(self.thickness, unit, 0.006, 0.03),
-            inset=_held(self.inset, unit, 0.008, 0.03),
-            least_side=_held(self.least_side, unit, 0.04, 0.12),
-            least_pitch=_held(self.least_pitch, unit, 0.03, 0.12),
-            shelf_pitch=_held(self.shelf_pitch, unit, 0.12, 0.42),
-            divider_pitch=_held(self.divider_pitch, unit, 0.2, 0.5),
-            hanging_height=_held(self.hanging_height, unit, 0.4, 1.2),
-            touch=_held(self.touch, unit, 0.0008, 0.002),
-            cell=unit / self.cells,
+            thickness=_held(self.thickness, extent, 0.006, 0.03),
+            inset=_held(self.inset, extent, 0.008, 0.03),
+            least_side=_held(self.least_side, extent, 0.04, 0.12),
+            least_pitch=_held(self.least_pitch, extent, 0.03, 0.12),
+            shelf_pitch=_held(self.shelf_pitch, extent, 0.12, 0.42),
+            divider_pitch=_held(self.divider_pitch, extent, 0.2, 0.5),
+            hanging_height=_held(self.hanging_height, extent, 0.4, 1.2),
+            touch=_held(self.touch, extent, 0.0008, 0.002),
+            cell=extent / self.cells,
         )
 
 
@@ -85,5 +85,5 @@ class Sizes:
     cell: float
 
 
-def _held(metres: float, unit: float, least: float, most: float) -> float:
-    return min(max(metres, least * unit), most * unit)
+def _held(metres: float, extent: float, least: float, most: float) -> float:
+    return min(max(metres, least * extent), most * extent)

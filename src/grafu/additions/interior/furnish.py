@@ -72,7 +72,7 @@ def furnish(
         return Furnished()
     if not compartments:
         return Furnished((), (refused_panel(None, None, Reason.NO_COMPARTMENT, why_inapplicable(scene)),))
-    sizes = config.sizes(scene.unit)
+    sizes = config.sizes(scene.extent)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
     wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
     beyond = [k for k in chosen if k >= len(compartments)]
@@ -100,7 +100,7 @@ def _fewer_than_chosen(
     chosen: Mapping[int, CompartmentChoice],
     told: Collection[str],
 ) -> list[Refusal]:
-    """Returns the compartments that took fewer panels than were chosen for them, unless that was told."""
+    """Returns the compartments that took fewer panels than were chosen for them, unless that was reported."""
     found = []
     for number, choice in chosen.items():
         made = {label: sum(p.compartment == number and p.label is label for p in panels) for label in PartLabel}

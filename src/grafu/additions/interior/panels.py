@@ -90,7 +90,7 @@ class Clearing:
 
 def clearing_of(scene: Scene) -> Clearing:
     """Returns the scene prepared, with the depth of realization's own sweeps."""
-    return Clearing(scene, RealizationConfig().depth * scene.unit)
+    return Clearing(scene, RealizationConfig().depth * scene.extent)
 
 
 _ALONG = 16  # rays along an edge

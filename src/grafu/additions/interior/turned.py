@@ -58,7 +58,7 @@ def _turned(scene: Scene, T: Mat4) -> Scene:
     return Scene(
         {name: _part(part, T) for name, part in scene.parts.items()},
         scene.moving_bodies,
-        scene.unit,
+        scene.extent,
         tuple((owner, _visual(visual, T)) for owner, visual in scene.hardware),
         {
             moving: replace(joint_motion, axis=joint_motion.kind.mapped_axis(joint_motion.axis, T))

@@ -18,7 +18,7 @@ from grafu.additions.top.coverage import Coverage, coverage_of
 from grafu.additions.top.cutouts import cutouts_of, thick_enough
 from grafu.additions.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
 from grafu.additions.top.outline import (
-    let_in,
+    inset_regions,
     one_piece,
     over_the_base,
     overhanging,
@@ -186,7 +186,7 @@ def _slab(
     rim = rim_of(_without(basins, roles), views, coverage, metre)
     if rim is None:
         return None
-    unit = float(views.grid.cell) * max(views.grid.shape)
+    extent = float(views.grid.cell) * max(views.grid.shape)
     thickness = min(config.thickness * metre, 0.2 * (rim.seat - views.floor))
     if thickness <= 0:
         return None
@@ -197,7 +197,7 @@ def _slab(
     plan = overhanging(plan, *over_the_base(plan, roles, rim.seat, config, metre))
     plan = with_corners(plan, config.shape, metre)
     free = cutouts_of(roles.moving, plan, rim.seat, thickness, gap, metre)
-    standing = what_pierces(roles, rim, thickness, config.seat * unit, metre)
+    standing = what_pierces(roles, rim, thickness, config.seat * extent, metre)
     left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, metre))
     outline = one_piece(left, coverage, metre)
     if outline is None:
@@ -207,7 +207,7 @@ def _slab(
         below = region.intersection(offset(outline, _CLEAN * metre)).difference(rim.walls)
         groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
         mesh = without_block(mesh, groove, rim.seat - thickness, height)
-    for region, height in let_in(roles, rim, config.seat * unit, metre):
+    for region, height in inset_regions(roles, rim, config.seat * extent, metre):
         mesh = without_block(mesh, region, rim.seat - thickness, height)
     return mesh, outline
 

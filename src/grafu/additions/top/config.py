@@ -52,6 +52,6 @@ class TopConfig:
 DEFAULT_TOP = TopConfig()
 
 
-def metre_of(unit: float) -> float:
-    """Returns how long one metre is on an object whose largest side is `unit`: 1 unless its size is impossible."""
-    return 1.0 if _SMALLEST <= unit <= _LARGEST or unit <= 0 else unit
+def metre_of(extent: float) -> float:
+    """Returns how long one metre is on an object whose largest side is `extent`: 1 unless its size is impossible."""
+    return 1.0 if _SMALLEST <= extent <= _LARGEST or extent <= 0 else extent

@@ -41,7 +41,7 @@ _POSTS = 0.006  # metres that posts may stand above the rest and carry the top a
 _APART = 0.7  # of the rim's extent
 _CARRIES = 0.15  # of the rim: what is enough to carry a top
 _RIM = 0.12  # metres around an opening that belong to its rim: a face frame, a post and a panel
-_SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be eased, a back may end lower
+_SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be rounded, a back may end lower
 _SPAN = 0.25  # metres: gaps beside an opening that a top spans
 _BOARD = 0.04  # metres: as thick as a board may be, of which a section shows both faces
 _KNEEHOLE = 1.3  # metres between two pedestals that one top spans
@@ -155,7 +155,7 @@ def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: f
     return _standing(tall, (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness - seat), metre)
 
 
-def let_in(roles: Roles, rim: Rim, seat: float, metre: float) -> list[tuple[BaseGeometry, float]]:
+def inset_regions(roles: Roles, rim: Rim, seat: float, metre: float) -> list[tuple[BaseGeometry, float]]:
     """Returns what stands a little above the rest of the rim and how high: there a slab's underside gives way."""
     found = []
     for part in roles.still:

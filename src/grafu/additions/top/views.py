@@ -2,7 +2,7 @@
 
 What one sees of furniture from in front and from both sides: the faces whose look its top takes on.
 
-Nobody sees a drawer's inside or a runner when they choose a top; a table's legs, apron and fronts are what one sees. A
+A drawer's inside and runners do not show when one chooses a top; a table's legs, apron and fronts are what one sees. A
 face is seen as far as three of its four points are (its middle and half way to its corners), so this is no rendering.
 """
 

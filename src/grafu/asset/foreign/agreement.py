@@ -85,8 +85,8 @@ class Comparison:
         covered = self._covered(part_of)
         for body in self._bodies:
             mine, theirs = covered.get(body), self._foreign_box(body, T_object_foreign)
-            residuals.append(_faces_apart(mine, theirs) / self.asset.unit if mine else _UNMATCHED)
-            overlaps.append(mine.intersection_over_union(theirs, _SLACK * self.asset.unit) if mine else 0.0)
+            residuals.append(_faces_apart(mine, theirs) / self.asset.extent if mine else _UNMATCHED)
+            overlaps.append(mine.intersection_over_union(theirs, _SLACK * self.asset.extent) if mine else 0.0)
         return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
 
     def matched_boxes(self, agreed: Agreement, T_object_foreign: Mat4) -> list[tuple[Box, Box]]:
@@ -107,7 +107,7 @@ class Comparison:
     def whole_overlap(self, T_object_foreign: Mat4) -> float:
         """Returns the intersection over union of the two as a whole."""
         whole = Box.around(transform_points(T_object_foreign, self.points))
-        return whole.intersection_over_union(self.asset.box, _SLACK * self.asset.unit)
+        return whole.intersection_over_union(self.asset.box, _SLACK * self.asset.extent)
 
     def _disagrees(self, mine: Part, theirs: ForeignPart) -> bool:
         moves = self.foreign.body_of[theirs.name] is not None
@@ -127,20 +127,20 @@ class Comparison:
     def _in_order(self, T: Mat4) -> Agreement | None:
         """Returns what comes of taking predicted parts for the asset's in order, or None where that fits nothing."""
         pairs = self._ordered_boxes(T)
-        residual = float(np.mean([_faces_apart(a, b) for a, b in pairs])) / self.asset.unit if pairs else 1.0
+        residual = float(np.mean([_faces_apart(a, b) for a, b in pairs])) / self.asset.extent if pairs else 1.0
         if residual > _REGRESSED:
             return None
-        slack = _SLACK * self.asset.unit
+        slack = _SLACK * self.asset.extent
         overlap = float(np.mean([a.intersection_over_union(b, slack) for a, b in pairs]))
         part_of = tuple(self._order[k].name if k in self._order else None for k in range(len(self._boxes)))
         return Agreement(part_of, residual, max(overlap, LEAST_OVERLAP))
 
     def _covering(self, T: Mat4) -> tuple[str, ...]:
-        T_foreign_object, unit = invert(T), self.asset.unit / scale_of(T)
+        T_foreign_object, extent = invert(T), self.asset.extent / scale_of(T)
         corners = [transform_points(T_foreign_object, box.corners()) for box in self._boxes]
         mine = np.array([[c.min(axis=0), c.max(axis=0)] for c in corners])
-        gaps, unlike = _gaps(mine, self._theirs), 1.0 - _overlaps(mine, self._theirs, _SLACK * unit)
-        small = unit * self._looseness * (unlike + self._contradicted)
+        gaps, unlike = _gaps(mine, self._theirs), 1.0 - _overlaps(mine, self._theirs, _SLACK * extent)
+        small = extent * self._looseness * (unlike + self._contradicted)
         found = []
         for k, points in enumerate(self._asked):
             there = transform_points(T_foreign_object, points)
@@ -148,7 +148,7 @@ class Comparison:
             for f in np.argsort(gaps[k] + small[k], kind="stable")[:_TRIED].tolist():
                 if gaps[k, f] + small[k, f] >= cost:  # no point is nearer than the boxes are
                     continue
-                own = float(self._shapes[f].distances(there, _FAR * unit).mean()) + small[k, f]
+                own = float(self._shapes[f].distances(there, _FAR * extent).mean()) + small[k, f]
                 best, cost = (f, own) if own < cost else (best, cost)
             found.append(self.foreign.parts[best].name)
         return tuple(found)

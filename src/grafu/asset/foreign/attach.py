@@ -17,8 +17,8 @@ def attach_motions(asset: Asset, foreign: ForeignMotions) -> Asset:
     """Returns the asset with predicted joints on its own parts, ranges signed as predicted.
 
     Of several parts that a prediction moves as one, the largest, or the largest door or drawer, gets the joint, and the
-    others ride on it; handles that nobody moves ride on what they touch. Parts without a label take the predicted one.
-    The notes say in which frame the prediction was found, and which joints fit no part.
+    others ride on it; handles that no prediction moves ride on what they touch. Parts without a label take the
+    predicted one. The notes say in which frame the prediction was found, and which joints fit no part.
 
     Raises:
         AssetError: if the prediction is of another object.

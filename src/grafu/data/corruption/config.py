@@ -18,7 +18,7 @@ StrategyName = Literal[
     "drop_nodes_keep_edge_types",
     "fully_functional_drop",
     "isolate_door",
-    "random_ratio",
+    "random_share",
     "drop_completion",
 ]
 """The paper's twelve strategies in the order of its table, and three that only the authors' code has."""
@@ -84,7 +84,7 @@ OFFICIAL = CorruptionConfig(
         ("drop_multi_cat", 0.0),
         ("random", 0.0),
         ("isolate_door", 0.05),
-        ("random_ratio", 0.05),
+        ("random_share", 0.05),
         ("drop_completion", 0.1),
     ),
     edge_preserving_boost=3.0,

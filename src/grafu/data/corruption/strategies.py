@@ -208,7 +208,7 @@ STRATEGIES: MappingProxyType[StrategyName, Strategy] = MappingProxyType(
         "drop_nodes_keep_edge_types": Strategy("edge-preserving", 0.05, dropped_nodes, is_boosted=True),
         "fully_functional_drop": Strategy("edge-preserving", 0.20, dropped_idle, is_boosted=True),
         "isolate_door": Strategy("authors' code", 0.0, isolated_door),
-        "random_ratio": Strategy("authors' code", 0.0, dropped_ratio),
+        "random_share": Strategy("authors' code", 0.0, dropped_ratio),
         "drop_completion": Strategy("authors' code", 0.0, partial(dropped_categories, among=RESTORED)),
     }
 )

@@ -14,7 +14,7 @@ from grafu.processes.lifetime import scratch_folder
 
 INTERPRETER_VARIABLE = "GRAFU_BLENDER_PYTHON"
 """Names a Python with `grafu[blender]`, for those whose own Python is one that `bpy` is not made for."""
-SECONDS = 300.0  # a model of 1 000 000 faces takes some 20: whoever needs more hangs
+SECONDS = 300.0  # a model of 1 000 000 faces takes some 20: a model that takes longer hangs
 
 
 def export_blend(articulated: ArticulatedObject) -> ExportFiles:

@@ -47,7 +47,7 @@ class Path:
 def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
     """Returns how far the static parts block the path of the moving body, and which of them do."""
     mesh = scene.moving_mesh(path.moving)
-    body = scene.swept_body(path.moving, config.depth * scene.unit, path.axes)
+    body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
     near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
     return sweep(body, path.motion, path.reach, near, config.fine_poses)
 
@@ -123,7 +123,7 @@ _MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is co
 
 def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Returns the scene with the path cut out of those blockers that lose less than the limit."""
-    play = 2.5 * config.depth * scene.unit
+    play = 2.5 * config.depth * scene.extent
     solids = list(_swept_solids(scene, path, ids, play, config))
     carved: list[Part] = []
     done: list[Clearance] = []
@@ -180,7 +180,7 @@ def _cutting_pieces(
 ) -> Iterator[Points]:
     """Yields the corners, with play, of what cuts in: a convex piece's hull, or the triangles of other pieces."""
     mesh = scene.moving_mesh(path.moving)
-    body = scene.swept_body(path.moving, config.depth * scene.unit, path.axes)
+    body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
     colliders = [MeshCollider(scene.parts[name].mesh) for name in ids]
     cutting = _cutting_faces(body, path, colliders, config.fine_poses)
     numbers = part_numbers(mesh)

@@ -1,7 +1,7 @@
 """Makes a path free, step by step, only as far as needed (design, section 5).
 
 What lies enclosed in the moving part moves with it; the moving part is trimmed; a static part that fits without play is
-eased; a static part that intrudes into the path is carved. A step stays only if it helps.
+shrunk; a static part that intrudes into the path is carved. A step stays only if it helps.
 """
 
 from collections.abc import Callable, Sequence
@@ -59,7 +59,7 @@ def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
 
 def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Lets static parts that lie enclosed in the moving part move with it: the drawer's own half of its old rails."""
-    box = scene.parts[path.moving].box.grown(2 * config.depth * scene.unit)
+    box = scene.parts[path.moving].box.grown(2 * config.depth * scene.extent)
     inside = [name for name in ids if bool(box.contains(scene.parts[name].box.corners()).all())]
     if not inside:
         return scene, []
@@ -69,22 +69,22 @@ def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
     return replace(scene, moving_bodies=moving_bodies), [Clearance(part, "joined", 0.0, 0.0, why) for part in inside]
 
 
-def ease(
+def shrink(
     plays: float, scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
 ) -> tuple[Scene, list[Clearance]]:
-    """Makes static parts that fit without play smaller all round by `plays` times the tolerated penetration."""
-    play = plays * config.depth * scene.unit
-    eased: list[Part] = []
+    """Shrinks static parts that fit without clearance on all sides by `plays` times the tolerated penetration."""
+    play = plays * config.depth * scene.extent
+    shrunk: list[Part] = []
     done: list[Clearance] = []
     for name in ids:
         part = scene.parts[name]
         size = np.maximum(part.box.size, 1e-12)
         lost = float(1.0 - np.prod(np.maximum(size - 2 * play, 0.0) / size))
         if lost < config.max_carve:
-            eased.append(_shrunk(part, play))
-            why = f"{path.moving} ran in it without play"
+            shrunk.append(_shrunk(part, play))
+            why = f"{path.moving} ran in it without clearance"
             done.append(Clearance(name, "eased", play, lost, why, volume_share=lost))
-    return scene.replaced(eased), done
+    return scene.replaced(shrunk), done
 
 
 def _shrunk(part: Part, play: float) -> Part:
@@ -99,4 +99,4 @@ def _center(box: Box) -> np.ndarray:
     return np.asarray(box.center)
 
 
-_STEPS: tuple[_Step, ...] = (adopt, trim, partial(ease, 1.0), carve, partial(ease, 1.6), trim, carve)
+_STEPS: tuple[_Step, ...] = (adopt, trim, partial(shrink, 1.0), carve, partial(shrink, 1.6), trim, carve)

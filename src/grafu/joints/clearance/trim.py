@@ -40,7 +40,7 @@ def trim(
     """
     part = scene.parts[path.moving]
     most = config.max_trim * box_in(path.axes, part.mesh).size
-    play = 2.5 * config.depth * scene.unit
+    play = 2.5 * config.depth * scene.extent
     boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
     theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])
     depth = 0.0

@@ -26,7 +26,7 @@ from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel
 
 _INSIDE = 0.1  # an axis nearer to a side than this fraction of the part runs along its border
-MAKESHIFT = 5  # the preference of what is no hinge class: after C, F, P, what is let in, and pivots
+MAKESHIFT = 5  # the preference of makeshift mounts: after C, F, P, inset leaves, and pivots
 _CHUNKY = 0.45  # a part thicker than this fraction of its width is no door panel
 
 
@@ -37,7 +37,7 @@ class PinCandidate:
 
     `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that
     of the barrel, for which the pin's place is right; `preference`
-    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `let_in` says that the static leaf
+    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `inset` says that the static leaf
     is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the door.
     """
 
@@ -48,7 +48,7 @@ class PinCandidate:
     leaf_room: float
     radius: float
     preference: int
-    let_in: bool = False
+    inset: bool = False
     is_pivot: bool = False
 
 
@@ -124,7 +124,7 @@ def _let_in_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCa
     if not np.isfinite(s.back_gap):
         return None
     room = tol.radius + 0.95 * frame.board
-    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, 3, let_in=True)
+    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, 3, inset=True)
 
 
 _RULES: tuple[_Rule, ...] = (

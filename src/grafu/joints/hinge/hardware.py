@@ -193,7 +193,7 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
 
 def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
-    if pin.let_in:
+    if pin.inset:
         tongue = _tongue(hinge, pin, site.frame)
         held = site.scene.is_near_static(tongue.mesh, site.anchor, site.mount)
         return (hinge.static, tongue) if held else None

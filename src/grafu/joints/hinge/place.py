@@ -143,7 +143,7 @@ def _is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
     box = search.scene.parts[search.request.moving].box
-    unit, mount = search.scene.unit, search.request.choice.mount
+    extent, mount = search.scene.extent, search.request.choice.mount
     return Site(
         moving=search.request.moving,
         frame=search.frame,
@@ -152,13 +152,13 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         scene=search.scene,
         static_rays=search.static_rays,
         door_rays=search.door_rays,
-        obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * unit))),
+        obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * extent))),
         neighbours=search.bodies_around,
         motion=cache(judged.axis.rotation),
         upper=upper,
         depth=search.depth,
-        anchor=search.config.anchor * unit,
-        reach=(CHOSEN_REACH if mount else search.config.bridge) * unit,
+        anchor=search.config.anchor * extent,
+        reach=(CHOSEN_REACH if mount else search.config.bridge) * extent,
         mount=mount,
     )
 

@@ -81,7 +81,7 @@ class DoorSearch:
     @property
     def depth(self) -> float:
         """The tolerated penetration in metres."""
-        return self.config.depth * self.scene.unit
+        return self.config.depth * self.scene.extent
 
     @property
     def box(self) -> Box:
@@ -126,13 +126,13 @@ class DoorSearch:
     def slim(self) -> list[JudgedPin]:
         """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams.
 
-        One that is let in holds by a tongue of half a millimetre: it comes after the pivots.
+        An inset one holds by a tongue of half a millimetre: it comes after the pivots.
         """
         if turns_about_itself(self.frame, self.request.axis):
             return []
         tol = replace(self._tolerances, radius=max(_SLIM * self._tolerances.radius, SMALLEST))
         pins = self._ruled_pins(tol)
-        return self._judged([replace(pin, preference=MAKESHIFT) if pin.let_in else pin for pin in pins])
+        return self._judged([replace(pin, preference=MAKESHIFT) if pin.inset else pin for pin in pins])
 
     @property
     def expected_axis(self) -> Axis:
@@ -169,9 +169,9 @@ class DoorSearch:
 
     @property
     def _tolerances(self) -> Tolerances:
-        unit = self.scene.unit
+        extent = self.scene.extent
         radius = barrel_radius(self.frame) * self.request.choice.scale
-        return Tolerances(self.config.contact * unit, self.config.flush * unit, radius)
+        return Tolerances(self.config.contact * extent, self.config.flush * extent, radius)
 
     def in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
@@ -192,7 +192,7 @@ class DoorSearch:
         if turns_about_itself(self.frame, self.request.axis):
             first = [judged for judged in self.others if judged.pin.is_pivot]
         yield from first
-        slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.let_in]
+        slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.inset]
         yield from slim
         rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in slim)
         yield from sorted(rest, key=lambda j: j.rank)
@@ -242,7 +242,7 @@ def door_search(
         scene,
         config,
         border_frame(part.mesh, request.axis),
-        scene.swept_body(request.moving, config.depth * scene.unit, part_axes(part.mesh)),
+        scene.swept_body(request.moving, config.depth * scene.extent, part_axes(part.mesh)),
         tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored),
         scene.other_bodies(request.moving),
         max(wanted, radians(30)),

@@ -63,14 +63,14 @@ def held_rail(template: RailTemplate, T: Mat4, side: str, search: DrawerSearch) 
 def _fixed(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, mount: str) -> tuple[Visual, ...] | None:
     """Returns a rail's static end fixed to the case, or to one part of it; None where it is out of reach."""
     rail = _visual(f"rail_{name}", end)
-    if search.scene.is_near_static(end.mesh, search.config.anchor * search.scene.unit, mount):
+    if search.scene.is_near_static(end.mesh, search.config.anchor * search.scene.extent, mount):
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
     if not mount and _meets_divider(end, search):
         return (rail,)
     walls = search.walls_of(mount) if mount else search.static_rays
-    reach = (CHOSEN_REACH if mount else search.config.bridge) * search.scene.unit
+    reach = (CHOSEN_REACH if mount else search.config.bridge) * search.scene.extent
     if search.request.choice.supports is Supports.DIVIDER:
         found = _divider(end, T, walls, reach)
     else:
@@ -83,7 +83,7 @@ def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
     """Whether dividers were chosen and one that was built for another drawer stands right behind a rail."""
     if search.request.choice.supports is not Supports.DIVIDER:
         return False
-    near = search.config.anchor * search.scene.unit
+    near = search.config.anchor * search.scene.extent
     boards = (o for o in search.scene.static_hardware if o.id.startswith("support_"))
     rail = MeshCollider(end.mesh)
     return any(
@@ -96,7 +96,7 @@ def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tupl
     """Returns a rail's dynamic end fixed to the drawer; None where it is out of reach."""
     rail = _visual(f"rail_{name}", end)
     gap = MeshCollider(end.mesh).distance(MeshCollider(search.mesh))
-    if gap <= search.config.anchor * search.scene.unit:
+    if gap <= search.config.anchor * search.scene.extent:
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
@@ -173,7 +173,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     region = search.region
     if region is None:
         return None
-    walls = find_walls(search.frame, region, search.static_rays, 0.25 * search.scene.unit)
+    walls = find_walls(search.frame, region, search.static_rays, 0.25 * search.scene.extent)
     choice = search.request.choice
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
@@ -226,7 +226,7 @@ def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4
 
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
     """Whether rails or blocks cut into the other side's parts on the way, or into other moving bodies at rest."""
-    depth = search.config.depth * search.scene.unit
+    depth = search.config.depth * search.scene.extent
     motion = search.motion
     fixed = merge_meshes([v.mesh for v in static])
     if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], 12):

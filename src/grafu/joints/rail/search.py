@@ -76,7 +76,7 @@ class DrawerSearch:
     def walls_of(self, part: str) -> RayCaster:
         """Returns the static body around the drawer and behind it (or one part of it), prepared for rays."""
         near = 0.5 * float(self.mesh.box.size.max())
-        margin = self.scene.unit if is_shallow(self.frame) else near
+        margin = self.scene.extent if is_shallow(self.frame) else near
         return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin, part))
 
     @cached_property
@@ -85,7 +85,7 @@ class DrawerSearch:
         container = body_region(self.mesh, self.frame, self.config.body_tolerance)
         if container is not None and not is_shallow(self.frame):
             return container
-        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.unit)
+        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent)
         if container is None or (behind is not None and behind.length > _DEEPER * container.length):
             return behind
         return container
@@ -151,6 +151,6 @@ def drawer_search(
     frame = drawer_frame(mesh if lying else carried_mesh(request, scene), direction, lying)
     if frame is None:
         return None
-    body = scene.swept_body(request.moving, config.depth * scene.unit, part_axes(mesh))
+    body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))
     obstacles = tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored)
     return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_bodies(request.moving))

@@ -18,7 +18,7 @@ _THINNEST = 0.0025  # thinner rails are let into the flank and the wall by what 
 _LOWEST = 0.004
 _COMMON_RAIL = 0.0127  # the thickness of most ball-bearing slides
 _DYNAMIC_REACH = 0.86  # fraction of a rail's thickness that its moving member takes, from the drawer's side
-_MOST_LET_IN = 0.5  # a rail let in deeper than this fraction would have its static member cut into the drawer
+_MOST_INSET = 0.5  # a rail inset deeper than this fraction would have its static member cut into the drawer
 _GRID = (12, 5)
 _STEPS = 61  # places behind it at which a board above it is felt for
 _LEVELS = 7  # heights at which the room behind a mere front is felt for
@@ -81,7 +81,7 @@ def _gaps(
 
 
 def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, ratio: float) -> Iterator[RailSpot]:
-    """Yields spots for one model, best first: at full thickness and let in, at the middle of the flank, then elsewhere.
+    """Yields spots for one model, best first: at full thickness and inset, at the middle of the flank, then elsewhere.
 
     `ratio` is the rail's length over the body's (supplement, Scaling).
     """
@@ -90,11 +90,11 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, ratio: float) -
     y = body.front + length / 2 if body.is_bare else body.back - length / 2
     for thickness in _thicknesses(model, walls):
         tight = (thickness - min(max(walls.nearer, 0.0), thickness)) / 2
-        let_in = min(max(tight, _DYNAMIC_REACH * thickness - walls.passage, 0.0), _MOST_LET_IN * thickness)
+        inset = min(max(tight, _DYNAMIC_REACH * thickness - walls.passage, 0.0), _MOST_INSET * thickness)
         height = max(min(model.natural.height, 0.6 * flank, 4.0 * thickness + 0.01), min(_LOWEST, flank))
         for z in _heights_on(model, body, height):
             size = RailSize(length, height, thickness)
-            yield RailSpot(size, body.left - thickness + let_in, y, z)
+            yield RailSpot(size, body.left - thickness + inset, y, z)
 
 
 def _heights_on(model: RailModel, body: BodyRegion, height: float) -> list[float]:
@@ -110,9 +110,9 @@ def _heights_on(model: RailModel, body: BodyRegion, height: float) -> list[float
 
 
 def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
-    """Returns the thicknesses to try: what gap and passage hold, then thinner ones that are let in."""
+    """Returns the thicknesses to try: what gap and passage hold, then thinner ones that are inset."""
     full = min(model.natural.thickness, walls.nearer)
-    through = min(full, walls.passage / (_DYNAMIC_REACH - _MOST_LET_IN))
+    through = min(full, walls.passage / (_DYNAMIC_REACH - _MOST_INSET))
     fitting = [t for t in (full, min(full, walls.passage), through, through / 2) if t > _THINNEST]
     return [*dict.fromkeys(fitting), _THINNEST, *((0.0018, 0.001) if through <= _THINNEST else ())]
 

@@ -27,7 +27,7 @@ GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...]]]] = {
 }
 # What is joined of several kinds is called after its largest wall; now and then it is an odd part, or has no label.
 ODD, NAMELESS = 0.15, 0.12
-LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  # nobody calls a case after these
+LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  # no case is named after these
 
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
 FRAME_IN_BARS = 0.6

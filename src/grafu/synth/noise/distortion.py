@@ -67,7 +67,7 @@ def bent(asset: Asset, amplitude: float, rng: np.random.Generator) -> Asset:
 
     Neighbours shift almost alike, so that gaps stay; joints stay where they were.
     """
-    waves = rng.normal(size=(3, 3)) * 2 * np.pi / max(asset.unit, 1e-6)
+    waves = rng.normal(size=(3, 3)) * 2 * np.pi / max(asset.extent, 1e-6)
     phases = rng.uniform(0, 2 * np.pi, 3)
 
     def field(points: Points) -> Points:

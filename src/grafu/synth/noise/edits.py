@@ -44,7 +44,7 @@ def as_sheet(part: Part, middle: Vec3, inner: bool = False) -> Part | None:
 
 
 def with_open_backs(asset: Asset, where: Collection[str] = ()) -> Asset:
-    """Returns parts as open shells: faces that look to the back (+Y) are gone, as where nobody looks."""
+    """Returns parts as open shells: faces that look to the back (+Y) are gone, as on sides that are not seen."""
     return _edited(asset, where, lambda _, s: _kept(s, s.mesh.face_normals[:, 1] < 0.5))
 
 
@@ -194,7 +194,7 @@ REACH: Final = 0.0045  # fraction of the object's largest side within which boxe
 
 def with_anchored_sheets(asset: Asset, where: Collection[str]) -> Asset:
     """Returns the named boards as sheets of their outer or inner face; where neither holds, they stay boards."""
-    parts, middle, reach = list(asset.parts), asset.box.center, REACH * asset.unit
+    parts, middle, reach = list(asset.parts), asset.box.center, REACH * asset.extent
     low, high = np.array([p.box.low for p in parts]), np.array([p.box.high for p in parts])
     touching = np.array([_touched(Box(a, b), low, high, reach) for a, b in zip(low, high, strict=True)])
     groups = _groups(touching)

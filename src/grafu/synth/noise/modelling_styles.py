@@ -87,7 +87,7 @@ NO_CASE_TOP, NO_TABLE_TOP, NO_BACK, NO_BOTTOM, NO_SHELVES = 0.2, 0.01, 0.10, 0.0
 JOINED_TOP = 0.4  # of cases that are one part: a top is mostly of another material, and a table's always apart
 NO_HANDLES, ONE_HANDLE_LOST, A_SHELF_LOST = 0.05, 0.03, 0.05
 
-# How likely panels are sheets, relative to the habit: those nobody looks at before those everybody sees.
+# How likely panels are sheets, relative to the habit: hidden ones before visible ones.
 SHEETS: Final[dict[PartLabel, float]] = {
     PartLabel.BACK_PANEL: 1.0,
     PartLabel.BOTTOM_PANEL: 1.0,
@@ -116,7 +116,7 @@ DENSITY: Final[dict[Density, float]] = {
     "split twice": 0.02,
 }
 FINE_BOTH_SIDES = 0.9
-EDGE = (0.0005, 0.0025)  # metres: below, nobody sees it; above, it is a profile
+EDGE = (0.0005, 0.0025)  # metres: below, it is invisible; above, it is a profile
 WIDEST_EDGE = 0.0015  # of the largest side: more, and boards set edge to edge would hardly touch
 # Nailers behind or under backs stand in 8 of 17 models, corner plates in 6, edges as sheets in 2, runners in 2.
 LOOSE_WEIGHT: Final[dict[str, float]] = {
@@ -169,7 +169,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         joined=joined,
         cuts=draw_cuts(rng, tidy, free, style.cuts),
         faces=_faces(rng, style, kept),
-        misfits=_misfits(rng, free, tidy.unit) if chance(rng, style.misfits) else (),
+        misfits=_misfits(rng, free, tidy.extent) if chance(rng, style.misfits) else (),
         ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
         factors=_factors(rng),
         bend=between(rng, BEND) if chance(rng, style.bend) else 0.0,
@@ -180,7 +180,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
         density=density,
-        edge=min(between(rng, EDGE), WIDEST_EDGE * tidy.unit),
+        edge=min(between(rng, EDGE), WIDEST_EDGE * tidy.extent),
         both_sides=chance(rng, FINE_BOTH_SIDES if density == "finely rounded" else BOTH_SIDES),
     )
 
@@ -251,10 +251,10 @@ def _faces(
     return tuple(found)
 
 
-def _misfits(rng: np.random.Generator, parts: Sequence[Part], unit: float) -> tuple[Misfit, ...]:
+def _misfits(rng: np.random.Generator, parts: Sequence[Part], extent: float) -> tuple[Misfit, ...]:
     """Returns one to three parts out of place, fronts before panels: a gap in a case is seldom left open.
 
-    `unit` is the object's largest side: what is shifted by much more than a fraction of it looks broken.
+    `extent` is the object's largest side: what is shifted by much more than a fraction of it looks broken.
     """
     weights = np.array([3.0 if p.label.is_movable else 1.0 for p in parts])
     if not len(weights):
@@ -266,7 +266,7 @@ def _misfits(rng: np.random.Generator, parts: Sequence[Part], unit: float) -> tu
         offset = np.zeros(3)
         amount = between(rng, GROWN if grown else MISFIT)
         if not grown and chance(rng, NEARLY):
-            amount = min(amount, SEEN * unit)
+            amount = min(amount, SEEN * extent)
         offset[int(rng.integers(3))] = amount if grown or chance(rng, 0.5) else -amount
         found.append(Misfit(parts[k].id, (float(offset[0]), float(offset[1]), float(offset[2])), grown))
     return tuple(found)

@@ -28,7 +28,7 @@ SPLITS: Final[dict[Density, int]] = {"split": 1, "split twice": 2}
 WIDEST = 0.3  # fraction of a board's thickness that one broken edge takes at most
 THINNEST = 0.002  # metres: thinner boards keep their edges
 CUT: Final = 1.16  # widths of a broken edge by which a board's corner lies deeper: 2 / sqrt(3), and a little
-MANY = 600  # faces of a surface beyond which nobody splits it: turned knobs, curved fronts
+MANY = 600  # faces of a surface beyond which it is not split: turned knobs, curved fronts
 _SAME = 1e-6  # metres within which a vertex is a corner of its box
 
 

@@ -97,7 +97,7 @@ def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) 
     """Returns all that is wrong with a specimen beyond the defects that it declares.
 
     Loose parts are no fault of a specimen: boards that became sheets stand apart by their thickness. Nor are limits:
-    what lies beside a drawer cannot be told any more where all of a case is one part.
+    what lies beside a drawer is unknown where all of a case is one part.
     """
     concerned: dict[DefectKind, set[str]] = defaultdict(set)
     for defect in specimen.defects:

@@ -1,4 +1,4 @@
-// Mouse, touch and keys on the 3D view. One finger up and down scrolls the page, so that nobody is caught in the view.
+// Mouse, touch and keys on the 3D view. One finger up and down scrolls the page, so that the view never traps the page's scroll.
 
 const STEP = 0.12; // radians a key press
 const SLACK = 5; // pixels that a click may move
