@@ -93,6 +93,17 @@ class GRAFU_OT_show_sources(_Shown, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _of_leader(empties, part: str, ratio: float) -> dict:
+    """Returns by its part how far the joint must open that a part's joint follows; the part's own where it is free."""
+    from grafu.export.blend.layout import ID, LEADER, MULTIPLIER
+
+    part_of = {empty[ID]: name for name, empty in empties.items()}
+    while LEADER in empties[part]:
+        ratio = ratio if empties[part][MULTIPLIER] > 0 else 1.0 - ratio
+        part = part_of[empties[part][LEADER]]
+    return {part: ratio}
+
+
 class GRAFU_OT_preview(_Shown, bpy.types.Operator):
     """Opens everything, or one joint alone with those that it waits for; or lets the animation run"""
 
@@ -115,6 +126,7 @@ class GRAFU_OT_preview(_Shown, bpy.types.Operator):
     def execute(self, context):
         """Sets the joints."""
         from grafu.export.blend.joints import mute_joint, set_open
+        from grafu.export.blend.layout import LEADER
 
         session = session_of(context)
         empties = objects.joint_empties(session)
@@ -126,8 +138,10 @@ class GRAFU_OT_preview(_Shown, bpy.types.Operator):
         ratios = dict.fromkeys(empties, 1.0 if self.what == "all" else 0.0)
         if self.what == "solo":
             ratios |= dict.fromkeys(objects.waits_for(session, part), 1.0)
-            ratios[part] = self.ratio
+            ratios |= _of_leader(empties, part, self.ratio)
         for name, empty in empties.items():
+            if LEADER in empty:
+                continue  # it follows another
             mute_joint(empty, self.what != "animation")
             set_open(empty, ratios[name])
         if self.what == "animation":

@@ -14,6 +14,7 @@ from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import final
 
+from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.folders import MARKER
 from grafu.errors import ExportError
 from grafu.export.marker import Marker, read_marker
@@ -21,12 +22,19 @@ from grafu.export.output_names import same_place
 from grafu.export.whole_file import hidden_name, whole_file
 
 
+def not_coupled(articulated: ArticulatedObject, file: str) -> tuple[str, ...]:
+    """Returns the note of a format that cannot say that joints follow others; none where none does."""
+    said = [f"{j.id} follows {j.coupling.leader}" for j in articulated.moving_joints if j.coupling is not None]
+    return (f"{file} cannot say that {', '.join(said)}: its joints move by themselves there",) if said else ()
+
+
 @final
 @dataclass(frozen=True)
 class ExportFiles:
     """Relative names (with `/`) and the bytes of each file; `formats` says which files a format consists of.
 
-    `notes` say what was written in a simpler way, or left out, because there was no time for more.
+    `notes` say what was written in a simpler way or left out: because there was no time for more, or because the
+    format cannot say it.
 
     Raises:
         ExportError: if a name is not a plain relative path or the marker's, or two names differ only in case or nest

@@ -9,7 +9,7 @@ exports no animation, and the Khronos validator reports hints on its files.
 import json
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, final
 
 import numpy as np
@@ -179,7 +179,7 @@ def _described_joint(joint: Joint) -> dict[str, Any]:
         "lower": joint.limits.lower,
         "upper": joint.limits.upper,
         "after": list(joint.after),
-    }
+    } | ({} if joint.coupling is None else {"coupling": asdict(joint.coupling)})
 
 
 def _quaternions(axis: Vec3, angles: np.ndarray) -> np.ndarray:

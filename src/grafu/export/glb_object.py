@@ -8,7 +8,15 @@ from typing import Any, final
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
+from grafu.articulation.articulated_object import (
+    ArticulatedObject,
+    Coupling,
+    Joint,
+    JointLimits,
+    Link,
+    Visual,
+    VisualRole,
+)
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.options import Limits
@@ -89,6 +97,6 @@ class _Reader:
 def _joint(said: dict[str, Any], parent: str, child: str, origin: Vec3) -> Joint:
     direction = _Z_UP @ np.array(said["axis"], dtype=np.float64)
     limits = JointLimits(float(said["lower"]), float(said["upper"]))
-    return Joint(
-        said["id"], JointType(said["type"]), parent, child, Axis(origin, direction), limits, tuple(said["after"])
-    )
+    axis, after = Axis(origin, direction), tuple(said["after"])
+    coupling = Coupling(**said["coupling"]) if "coupling" in said else None
+    return Joint(said["id"], JointType(said["type"]), parent, child, axis, limits, after, coupling)

@@ -13,6 +13,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.collision_shapes import CollisionShape
+from grafu.articulation.kinematics import with_coupled
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
@@ -31,6 +32,9 @@ VISUAL_GROUP, COLLISION_GROUP, GRASP_GROUP = "2", "3", "4"  # the first is shown
 _FOR_POSE = 0.3  # of the time that is left
 _STIFF = "0.999 0.9995 0.001"
 """MuJoCo's dry friction yields a little all the time: flaps that it holds would creep open, 0.3 degrees in 2 s."""
+
+_IN_STEP = "0.005 1"
+"""How fast a coupled joint is brought in step: a quarter of MuJoCo's usual 20 ms, two and a half of its time steps."""
 
 
 @final
@@ -98,6 +102,7 @@ class _MjcfWriter:
         root.set("childclass", "furniture")
         ET.SubElement(model, "worldbody").append(root)
         self._add_contacts(model)
+        self._add_couplings(model)
         if self._config.actuators and self._moving:
             self._add_actuators(ET.SubElement(model, "actuator"))
         if self._config.keyframes and self._moving:
@@ -181,8 +186,19 @@ class _MjcfWriter:
         for a, b in pairs:
             ET.SubElement(contact, "exclude", body1=self._bodies[a], body2=self._bodies[b])
 
+    def _add_couplings(self, model: ET.Element) -> None:
+        """A constraint between two joints: MuJoCo's polynomial counts from their values at rest, which are zero."""
+        coupled = [joint for joint in self._moving if joint.coupling is not None]
+        equality = ET.SubElement(model, "equality") if coupled else model
+        for joint in coupled:
+            assert joint.coupling is not None
+            names = {"joint1": self._joints[joint.id], "joint2": self._joints[joint.coupling.leader]}
+            polynomial = numbers([joint.coupling.offset, joint.coupling.multiplier, 0.0, 0.0, 0.0])
+            ET.SubElement(equality, "joint", names | {"polycoef": polynomial, "solref": _IN_STEP})
+
     def _add_actuators(self, element: ET.Element) -> None:
-        for joint in self._moving:
+        """A servo on each joint that moves by itself; coupled ones follow."""
+        for joint in (joint for joint in self._moving if joint.coupling is None):
             effort = self._physics.dynamics[joint.id].effort
             name = self._joints[joint.id]
             attributes = {"name": name, "joint": name, "dampratio": "1"}
@@ -191,12 +207,13 @@ class _MjcfWriter:
             ET.SubElement(element, "position", attributes | {"forcerange": numbers([-effort, effort])})
 
     def _add_keyframes(self, element: ET.Element) -> None:
-        closed = {joint.id: joint.limits.lower for joint in self._moving}
+        free = {joint.id: joint.limits.lower for joint in self._object.free_joints}
+        closed = with_coupled(self._object, free)
         for name, pose in (("closed", closed), *self._open_pose()):
             values = [pose[joint.id] for joint in self._moving]
             key = ET.SubElement(element, "key", name=name, qpos=numbers(values))
             if self._config.actuators:
-                key.set("ctrl", numbers(values))
+                key.set("ctrl", numbers(pose[joint.id] for joint in self._moving if joint.coupling is None))
 
     def _open_pose(self) -> list[tuple[str, JointValues]]:
         """Returns the pose `open`; none where there is no time to find out how far all can be open together."""

@@ -13,7 +13,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.foreign.particulate import UP_ROTATIONS, normalisation
 from grafu.errors import ExportError
-from grafu.export.files import ExportFiles
+from grafu.export.files import ExportFiles, not_coupled
 from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import is_mirror, scale_of
@@ -60,7 +60,8 @@ def export_particulate(
     arrays["face_part_ids"] = np.repeat(np.arange(len(links)), [len(mesh.faces) for mesh in meshes])
     stored = io.BytesIO()
     np.savez(stored, **arrays)  # type: ignore[arg-type]
-    return ExportFiles({"eval/pred.npz": stored.getvalue(), "eval/pred.obj": _obj(whole)})
+    files = {"eval/pred.npz": stored.getvalue(), "eval/pred.obj": _obj(whole)}
+    return ExportFiles(files, notes=not_coupled(articulated, "eval/pred.npz"))
 
 
 def _arrays(articulated: ArticulatedObject, links: list[str], T: Mat4) -> dict[str, np.ndarray]:

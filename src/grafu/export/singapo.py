@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.errors import ExportError
-from grafu.export.files import ExportFiles
+from grafu.export.files import ExportFiles, not_coupled
 from grafu.export.obj import ObjFolder
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
@@ -58,7 +58,8 @@ def export_singapo(articulated: ArticulatedObject, config: SingapoConfig = DEFAU
     for node in nodes:
         node["children"] = [other["id"] for other in nodes if other["parent"] == node["id"]]
     text = json.dumps({"meta": {}, config.tree: nodes}, indent=1)
-    return ExportFiles({"object.json": text.encode()} | {f"objs/{name}": data for name, data in folder.files.items()})
+    files = {"object.json": text.encode()} | {f"objs/{name}": data for name, data in folder.files.items()}
+    return ExportFiles(files, notes=not_coupled(articulated, "object.json"))
 
 
 def _normalised(box: Box) -> Mat4:

@@ -91,6 +91,7 @@ class _UrdfWriter:
         if joint.kind.moves:
             ET.SubElement(element, "axis", xyz=numbers(joint.axis.direction))
             _add_dynamics(element, joint, self._physics.dynamics[joint.id])
+            _add_mimic(element, joint)
 
 
 def _add_dynamics(element: ET.Element, joint: Joint, dynamics: JointDynamics) -> None:
@@ -99,6 +100,12 @@ def _add_dynamics(element: ET.Element, joint: Joint, dynamics: JointDynamics) ->
     ET.SubElement(element, "limit", {key: number(value) for key, value in limits.items()})
     resistance = {"damping": number(dynamics.damping), "friction": number(dynamics.friction)}
     ET.SubElement(element, "dynamics", resistance)
+
+
+def _add_mimic(element: ET.Element, joint: Joint) -> None:
+    if joint.coupling is not None:
+        multiplier, offset = number(joint.coupling.multiplier), number(joint.coupling.offset)
+        ET.SubElement(element, "mimic", joint=joint.coupling.leader, multiplier=multiplier, offset=offset)
 
 
 def _add_inertial(link: ET.Element, mass: MassProperties, origin: Vec3) -> None:

@@ -14,7 +14,7 @@ from jaxtyping import UInt8
 from PIL import Image, ImageDraw, ImageFont
 
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import link_poses, with_coupled
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
 from grafu.render.camera import Camera, three_quarter_view
@@ -80,8 +80,9 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
 
 
 def opened_values(articulated: ArticulatedObject, ratio: float = 1.0) -> dict[str, float]:
-    """Returns for each moving joint the value at a fraction of its range, 0 closed and 1 wide open."""
-    return {j.id: j.limits.lower + ratio * j.limits.range for j in articulated.free_joints}
+    """Returns each moving joint's value at a fraction of its range, 0 closed and 1 wide open; coupled ones follow."""
+    free = {j.id: j.limits.lower + ratio * j.limits.range for j in articulated.free_joints}
+    return with_coupled(articulated, free)
 
 
 def box_of(visuals: Sequence[Visual]) -> Box:

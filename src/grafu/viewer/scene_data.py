@@ -175,6 +175,7 @@ class _Packer:
         index = {link.id: k for k, link in enumerate(links)}
         joints = self._object.moving_joints
         number = {joint.id: k for k, joint in enumerate(joints)}
+        free = {joint.id for joint in self._object.free_joints}
         items = [self._item(visual, index[link.id]) for link in links for visual in link.visuals]
         closed, opened = posed_visuals(self._object), posed_visuals(self._object, opened_values(self._object))
         tables = {
@@ -183,7 +184,7 @@ class _Packer:
             "reach": _corners(box_of([*closed, *opened])),
             "links": [self._link(link.id, index, number) for link in links],
             "joints": [self._joint(joint, number) for joint in joints],
-            "stages": [[number[joint] for joint in stage] for stage in opening_stages(self._object)],
+            "stages": [[number[name] for name in stage if name in free] for stage in opening_stages(self._object)],
             "items": items,
             "meshes": self._mesh_tables,
             "materials": [self._material(*key) for key in self._materials],
@@ -211,8 +212,15 @@ class _Packer:
             "initial": None if record is None else [record.initial_axis.origin, record.initial_axis.direction],
             "lower": joint.limits.lower,
             "upper": joint.limits.upper,
-            "after": [number[other] for other in joint.after],
+            "after": [number[self._leader(other)] for other in joint.after],
+            "coupling": None
+            if joint.coupling is None
+            else [number[joint.coupling.leader], joint.coupling.multiplier, joint.coupling.offset],
         }
+
+    def _leader(self, joint_id: str) -> str:
+        """Returns the joint that moves by itself, where one is named that follows it."""
+        return self._object.leader_of(next(j for j in self._object.joints if j.id == joint_id)).id
 
     def _item(self, visual: Visual, link: int) -> Table:
         require_time()

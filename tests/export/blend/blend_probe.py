@@ -106,7 +106,7 @@ def _curves(data) -> list:
 
 def _each_alone(bpy, scene) -> dict:
     """The poses with the animation muted and one joint at 0.4 of its range, at a frame where all would be open."""
-    joints = [o for o in bpy.data.objects if o.get("grafu") == "joint" and "open" in o]
+    joints = [o for o in bpy.data.objects if o.get("grafu") == "joint" and "open" in o and "leader" not in o]
     for joint in joints:
         for curve in _curves(joint.animation_data):
             curve.mute = True

@@ -8,8 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from grafu.articulation.articulated_object import Joint, JointLimits
-from grafu.export.blend.layout import AFTER, CHILD, ID, KIND, LOWER, OPEN, PARENT, TYPE, UPPER, Key, Kind
+from grafu.articulation.articulated_object import Coupling, Joint, JointLimits
+from grafu.export.blend.layout import (
+    AFTER,
+    CHILD,
+    ID,
+    KIND,
+    LEADER,
+    LOWER,
+    MULTIPLIER,
+    OFFSET,
+    OPEN,
+    PARENT,
+    TYPE,
+    UPPER,
+    Key,
+    Kind,
+)
 from grafu.geometry.arrays import Vec3
 
 Empty = Any
@@ -30,6 +45,22 @@ def describe_joint(empty: Empty, joint: Joint) -> None:
         about = "How far the joint is open: 0 closed, 1 at its limit"
         empty.id_properties_ui(OPEN).update(min=0.0, max=1.0, default=0.0, subtype="FACTOR", description=about)
         empty.property_overridable_library_set(_PATH, True)  # it opens where the file is linked, too
+
+
+def couple_joint(empty: Empty, leader: Empty, coupling: Coupling) -> None:
+    """Lets the empty of a coupled joint follow its leader's, its limits too: both go through their ranges in step.
+
+    One that closes as its leader opens (a negative multiplier) goes the other way.
+    """
+    empty[LEADER], empty[MULTIPLIER], empty[OFFSET] = coupling.leader, coupling.multiplier, coupling.offset
+    at_limits = ", ".join(f"{name}_value * {coupling.multiplier!r} + {coupling.offset!r}" for name in (LOWER, UPPER))
+    ratio = "clamp(open_value)" if coupling.multiplier > 0 else "1.0 - clamp(open_value)"
+    for name, expression in ((LOWER, f"min({at_limits})"), (UPPER, f"max({at_limits})"), (OPEN, ratio)):
+        driver = empty.driver_add(f'["{name}"]').driver
+        driver.type = "SCRIPTED"
+        for read in (LOWER, UPPER, OPEN):
+            _read(driver, leader, read)
+        driver.expression = expression
 
 
 def turn_to_axis(empty: Empty, direction: Vec3) -> None:
@@ -69,7 +100,8 @@ def set_open(empty: Empty, ratio: float) -> None:
     """Opens a joint to a fraction of its range (0 closed, 1 at its limit); an animation undoes it at the next frame.
 
     Raises:
-        ValueError: if the empty is no moving joint's, or the fraction is not in 0..1.
+        ValueError: if the empty is no moving joint's, or that of one that follows another, or the fraction is not in
+            0..1.
     """
     _require_moving(empty)
     if not 0.0 <= ratio <= 1.0:
@@ -82,7 +114,7 @@ def set_limits(empty: Empty, limits: JointLimits) -> None:
     """Gives a joint other limits (radians or metres).
 
     Raises:
-        ValueError: if the empty is no moving joint's.
+        ValueError: if the empty is no moving joint's, or that of one that follows another.
     """
     _require_moving(empty)
     empty[LOWER], empty[UPPER] = float(limits.lower), float(limits.upper)
@@ -106,6 +138,10 @@ def open_curves(empty: Empty) -> list[Any]:
 def _require_moving(empty: Empty) -> None:
     if empty.get(KIND) != Kind.JOINT or OPEN not in empty:
         raise ValueError(f"`empty` must be a moving joint's: got `{empty.name}`")
+    if LEADER in empty:
+        raise ValueError(
+            f"`empty` must be that of a joint that moves by itself: `{empty.name}` follows {empty[LEADER]}"
+        )
 
 
 def _curves(data: Any) -> list[Any]:
@@ -121,13 +157,18 @@ def _drive(link: Empty, channel: tuple[str, int], empty: Empty, factor: float) -
     driver = link.driver_add(*channel).driver
     driver.type = "SCRIPTED"
     for name in (LOWER, UPPER, OPEN):
-        variable = driver.variables.new()
-        variable.name = f"{name}_value"
-        variable.type = "SINGLE_PROP"
-        variable.targets[0].id = empty
-        variable.targets[0].data_path = f'["{name}"]'
+        _read(driver, empty, name)
     opening = "lower_value + (upper_value - lower_value) * clamp(open_value)"
     driver.expression = opening if factor == 1.0 else f"({opening}) * {factor!r}"
+
+
+def _read(driver: Any, empty: Empty, name: str) -> None:
+    """Lets a driver read a property of an empty, as `<name>_value`."""
+    variable = driver.variables.new()
+    variable.name = f"{name}_value"
+    variable.type = "SINGLE_PROP"
+    variable.targets[0].id = empty
+    variable.targets[0].data_path = f'["{name}"]'
 
 
 def _from_up(direction: np.ndarray) -> tuple[float, float, float, float]:

@@ -18,6 +18,8 @@ OPEN = "open"
 """The property of a joint's empty that moves the joint: 0 is closed, 1 open by its limit."""
 LOWER, UPPER = "lower", "upper"
 TYPE, PARENT, CHILD, AFTER = "type", "parent", "child", "after"
+LEADER, MULTIPLIER, OFFSET = "leader", "multiplier", "offset"
+"""Of a coupled joint: the id of the joint that it follows, and how."""
 
 FIRST_FRAME, WIDEST_FRAME, LAST_FRAME = 0, 50, 100  # closed, open, closed: the authors' cycle (paper, Blender Add-on)
 FRAME_RATE = 24  # Blender's own default; the cycle takes about four seconds
@@ -48,20 +50,20 @@ Key = tuple[float, float]
 
 
 def cycle_keys(articulated: ArticulatedObject) -> dict[str, tuple[Key, ...]]:
-    """Returns for each moving joint its keys: frames and fractions of its opening, closed 0, open 1.
+    """Returns for each joint that moves by itself its keys: frames and fractions of its opening, closed 0, open 1.
 
     Joints of one stage open together, each stage while all before it are wide open; the way back is the mirror image.
 
     Raises:
         ArticulationError: if joints wait for one another.
     """
-    stages = opening_stages(articulated)
+    stages, free = opening_stages(articulated), {joint.id for joint in articulated.free_joints}
     bounds = np.linspace(FIRST_FRAME, WIDEST_FRAME, len(stages) + 1)
     if len(stages) <= WIDEST_FRAME - FIRST_FRAME:  # else whole frames are too few
         bounds = np.round(bounds)
     keys: dict[str, tuple[Key, ...]] = {}
     for stage, start, end in zip(stages, bounds[:-1], bounds[1:], strict=True):
-        keys |= dict.fromkeys(stage, _there_and_back(float(start), float(end)))
+        keys |= dict.fromkeys([name for name in stage if name in free], _there_and_back(float(start), float(end)))
     return keys
 
 

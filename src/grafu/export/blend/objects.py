@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.kinematics import link_origins
-from grafu.export.blend.joints import describe_joint, drive_link, key_joint, turn_to_axis
+from grafu.export.blend.joints import couple_joint, describe_joint, drive_link, key_joint, turn_to_axis
 from grafu.export.blend.layout import (
     COLLECTION_OF_ROLE,
     COLOR_LAYER,
@@ -164,6 +164,9 @@ class _Builder:
             self._add_link(link)
             for visual in link.visuals:
                 self._add_visual(visual, link.id)
+        for joint in self._object.moving_joints:
+            if joint.coupling is not None:
+                couple_joint(self._built.joints[joint.id], self._built.joints[joint.coupling.leader], joint.coupling)
         return self._built
 
     def _add_link(self, link: Link) -> None:

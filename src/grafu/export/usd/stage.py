@@ -10,7 +10,7 @@ from typing import Any, final
 import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
 from grafu.articulation.physics import JointDynamics, physics_of
@@ -123,9 +123,35 @@ class _StageBuilder:
         made.CreateLowerLimitAttr(joint.kind.in_degrees(joint.limits.lower))
         made.CreateUpperLimitAttr(joint.kind.in_degrees(joint.limits.upper))
         self._add_resistance(prim, self._physics.dynamics[joint.id], joint.kind)
+        if joint.coupling is not None:
+            self._add_coupling(prim, joint, joint.coupling)
         if joint.after:
             before = prim.CreateRelationship("grafu:after")
             before.SetTargets([self._joints[other] for other in joint.after])
+
+    def _add_coupling(self, prim: Usd.Prim, joint: Joint, coupling: Coupling) -> None:
+        """Says which joint this one follows: in radians and metres for everyone, in PhysX's terms for PhysX.
+
+        PhysX keeps `position + gearing * position of the reference joint + offset = 0`, angles in degrees.
+        """
+        leader = next(other for other in self._object.joints if other.id == coupling.leader)
+        target = self._joints[leader.id]
+        prim.CreateRelationship("grafu:leader").SetTargets([target])
+        for name, value in (("multiplier", coupling.multiplier), ("offset", coupling.offset)):
+            prim.CreateAttribute(f"grafu:{name}", Sdf.ValueTypeNames.Double).Set(value)
+        if not self._config.physx:
+            return
+        name, reference = (f"rot{_AXES[_frame(j.axis.direction)[0]]}" for j in (joint, leader))
+        prim.AddAppliedSchema(f"PhysxMimicJointAPI:{name}")
+        prim.CreateRelationship(f"physxMimicJoint:{name}:referenceJoint", False).SetTargets([target])
+        axis = prim.CreateAttribute(
+            f"physxMimicJoint:{name}:referenceJointAxis", Sdf.ValueTypeNames.Token, False, Sdf.VariabilityUniform
+        )
+        axis.Set(reference)
+        gearing = -joint.kind.in_degrees(coupling.multiplier) / leader.kind.in_degrees(1.0)
+        values = {"gearing": gearing, "offset": -joint.kind.in_degrees(coupling.offset)}
+        for key, value in values.items():
+            prim.CreateAttribute(f"physxMimicJoint:{name}:{key}", Sdf.ValueTypeNames.Float, False).Set(value)
 
     def _add_resistance(self, prim: Usd.Prim, dynamics: JointDynamics, kind: MotionKind) -> None:
         """Adds a drive that only damps, and what PhysX knows beside it; with stiffness it becomes a servo."""

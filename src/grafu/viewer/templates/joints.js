@@ -1,4 +1,5 @@
-// Joint values and the motion that they give every link; a joint behind a door waits until that is open.
+// Joint values and the motion that they give every link; a joint behind a door waits until that is open, and a coupled
+// joint follows its leader.
 
 class Joints {
   constructor(scene) {
@@ -6,17 +7,33 @@ class Joints {
     this.links = scene.links;
     this.stages = scene.stages;
     this.values = this.joints.map((joint) => joint.lower);
+    this.joints.forEach((joint, k) => joint.coupling || this.follow(k));
     this.watchers = [];
     this.run = null;
+  }
+
+  // Brings the joints that are coupled to one in step with it.
+  follow(index) {
+    this.joints.forEach(({ coupling }, k) => {
+      if (!coupling || coupling[0] !== index) return;
+      this.values[k] = coupling[1] * this.values[index] + coupling[2];
+      this.follow(k);
+    });
   }
 
   onChange(watcher) {
     this.watchers.push(watcher);
   }
 
-  // Sets a joint to a value, radians or metres. What it waits for opens first; what waits for it closes first.
+  // Sets a joint to a value, radians or metres. What it waits for opens first; what waits for it closes first. Of a
+  // coupled joint the leader is moved so that it comes to that value.
   set(index, value) {
     const joint = this.joints[index];
+    if (joint.coupling) {
+      const [leader, multiplier, offset] = joint.coupling;
+      this.set(leader, (value - offset) / multiplier);
+      return;
+    }
     const kept = clamp(value, joint.lower, joint.upper);
     if (kept > joint.lower) joint.after.forEach((other) => this.set(other, this.joints[other].upper));
     if (kept < joint.upper) {
@@ -26,6 +43,7 @@ class Joints {
     }
     if (this.values[index] === kept) return;
     this.values[index] = kept;
+    this.follow(index);
     this.watchers.forEach((watcher) => watcher());
   }
 
