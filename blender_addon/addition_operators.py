@@ -92,7 +92,7 @@ class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns the settings with the front's choice."""
-        from grafu.pipeline.addition_config import HandleChoice
+        from grafu.additions.handle.config import HandleChoice
 
         style = "" if self.style == SAME else self.style
         across, up = (round(v, 6) for v in self.offset)

@@ -23,9 +23,9 @@ from judge_additions_body import DEFAULT, Inside, interior_faults, joint_faults,
 from judge_additions_handles import grasp_faults, handle_faults, new_handles
 from judge_additions_table import INTERIORS, KINDS, Verdict, crashed, table
 
+from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.synth.generate import make_specimen
@@ -102,7 +102,7 @@ def judge(asset: Asset, source: MotionSource, kinds: Sequence[str] = KINDS) -> V
     result = _run(asset, source)
     tops = sum(a.part.label is PartLabel.TOP_PANEL for a in result.additions)
     plain = _run(asset, source, NO_ADDITIONS) if {"top", "joint"} & {*kinds} else None
-    covered, faults = top_faults(asset, source, plain, result, tops) if plain and "top" in kinds else (None, [])
+    covered, faults = top_faults(asset, source, plain, tops) if plain and "top" in kinds else (None, [])
     inside = interior_faults(result) if "interior" in kinds else Inside([0] * len(INTERIORS), [], [], [])
     timings = dict(result.timings)
     return Verdict(
@@ -113,14 +113,14 @@ def judge(asset: Asset, source: MotionSource, kinds: Sequence[str] = KINDS) -> V
         top_faults=faults,
         moving_bodies=len(result.object.joints),
         handles=sum(a.part.label is PartLabel.HANDLE for a in result.additions),
-        grips=len(result.fittings.carved),
+        grips=len(result.fittings.changes.carved),
         grasp_faults=list(grasp_faults(result)) if "grasp" in kinds else [],
         handle_faults=list(handle_faults(result)) if "handle" in kinds else [],
         panels=inside.panels,
         refusals=inside.refusals,
         rooms=inside.rooms,
         interior_faults=inside.faults,
-        boards=len(result.body.drawers.additions),
+        boards=sum(a.style == "drawer box" for a in result.body.additions),
         waiting=sum(bool(joint.after and new_handles(result.object, joint)) for joint in result.object.joints),
         joint_faults=list(joint_faults(plain, result)) if plain and "joint" in kinds else [],
         seconds=timings["body"] + timings["fittings"],

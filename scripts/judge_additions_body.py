@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from judge_additions_table import COVERED, INTERIORS
 
+from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import parse_interior
 from grafu.additions.interior.turned import furnish_scene
+from grafu.additions.step import StepResult
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
 from grafu.metrics.bodies import largest_side
 from grafu.metrics.panels import empty_rooms, panel_faults
 from grafu.metrics.tops import lost_tops, open_ratio
-from grafu.pipeline.addition_config import AdditionConfig
-from grafu.pipeline.body_additions import Body, complete_body
-from grafu.pipeline.fittings import Fittings, fitted_object
+from grafu.pipeline.additions import add_before_joints, fitted_object
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source
 from grafu.pipeline.motion_source import MotionSource
 from grafu.vocabulary import PartLabel
@@ -27,16 +27,14 @@ LEAST_OPENING = 0.999  # of the opening that a joint has without additions; the 
 DEFAULT = AdditionConfig()
 
 
-def top_faults(
-    asset: Asset, source: MotionSource, plain: Functionalized, result: Functionalized, tops: int
-) -> tuple[float | None, list[str]]:
+def top_faults(asset: Asset, source: MotionSource, plain: Functionalized, tops: int) -> tuple[float | None, list[str]]:
     """Returns what a top covers that replaces the piece's own, and what is wrong with it and with tops added."""
     covered, faults = _without_its_top(asset, source, plain.object)
     seen = open_ratio([v.mesh for v in _own(plain.object)])
     if tops and seen < OPEN:
         faults.append(f"a top added, {seen:.0%} open")
     if not tops and seen > OPEN:
-        faults.append(f"no top added, {seen:.0%} open: {result.body.top.why}")
+        faults.append(f"no top added, {seen:.0%} open")
     return covered, faults
 
 
@@ -47,12 +45,12 @@ def _own(articulated: ArticulatedObject) -> list[Visual]:
     return [v for v in own if len(v.mesh.faces)]
 
 
-def _body_of(asset: Asset, source: MotionSource) -> Body:
+def _body_of(asset: Asset, source: MotionSource) -> StepResult:
     """Returns a piece with what it gets before joints are built: its top does not depend on them."""
     motion = MOTIONS[choose_source(asset, source)]
     asset = asset if motion.reads_annotation else asset.without_annotation()
     completion = motion.complete(asset, parse_graph(asset))
-    return complete_body(asset, completion, motion.plan(asset, completion), DEFAULT)
+    return add_before_joints(asset, completion, motion.plan(asset, completion), DEFAULT)
 
 
 def _stated_to_move(asset: Asset) -> set[str]:
@@ -103,7 +101,7 @@ def interior_faults(result: Functionalized) -> Inside:
         scene = result.fittings.scene
         inside = furnish_scene(scene, parse_interior(request))
         names = {a.part.id for a in inside.additions}
-        whole = fitted_object(result.object, Fittings(scene, inside.additions))
+        whole = fitted_object(result.object, StepResult(scene, inside.additions))
         counts.append(len(names))
         refusals += [one.why for one in inside.refused]
         skin = SKIN * largest_side(whole)

@@ -27,7 +27,7 @@ def grasp_faults(result: Functionalized) -> Iterator[str]:
     factor = size_factor(largest_side(result.object))
     for joint in result.object.joints:
         visuals, added = result.object.link(joint.child).visuals, new_handles(result.object, joint)
-        carved = [c for c in result.fittings.carved if c.part.id in {v.name for v in visuals}]
+        carved = [c for c in result.fittings.changes.carved if c.part.id in {v.name for v in visuals}]
         before = result.fittings.grasps[joint.child]
         if grasps[joint.child] == "none":
             yield f"`{joint.child}` cannot be grasped"

@@ -9,9 +9,11 @@ from math import radians
 
 import numpy as np
 
+from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.additions.grip.config import GripConfig, GripKind
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.interior.request import parse_interior
+from grafu.additions.top.complete import missing_top
 from grafu.additions.top.config import TopConfig, TopShape
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.edit import as_static_object
@@ -20,7 +22,6 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.render.camera import Camera, three_quarter_view
@@ -76,9 +77,9 @@ def judged_sheet() -> Picture:
         asset = draw_made(np.random.default_rng(seed), family)[1]
         bare = without_parts(asset, ("top panel",))
         whole, after = _made(asset), _made(bare)
-        seen = f"{whole.body.top.ratio:.0%} covered, {_tops_of(whole)} added"
+        seen = f"{_covered(whole):.0%} covered, {_tops_of(whole)} added"
         shots.append((_picture(_static(asset), (230, 190), _from_above), seen))
-        texts = f"{after.body.top.ratio:.0%} covered", f"added: {_style_of(after)}"
+        texts = f"{_covered(after):.0%} covered", f"added: {_style_of(after)}"
         shots += _pair(bare, after, texts, _from_above, (230, 190))
     return _sheet(shots, 6)
 
@@ -192,8 +193,12 @@ def _made(asset: Asset, additions: AdditionConfig | None = None) -> Functionaliz
 
 
 def _style_of(result: Functionalized) -> str:
-    top = result.body.top.addition
-    return top.style if top else "nothing"
+    return next((a.style for a in result.body.additions if a.part.label is PartLabel.TOP_PANEL), "nothing")
+
+
+def _covered(result: Functionalized) -> float:
+    """Returns the share of the input's top that was covered before anything was added."""
+    return missing_top(result.asset.parts, result.plan.joints).ratio
 
 
 def _tops_of(result: Functionalized) -> int:

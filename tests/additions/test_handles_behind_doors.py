@@ -105,7 +105,8 @@ def test_whole_furniture_opens_in_order_with_its_new_handles(kind):
     scene = made.fittings.scene
     waiting = {moving: joint_motion.after for moving, joint_motion in scene.joint_motions.items() if joint_motion.after}
     assert waiting
-    assert waiting.keys() <= {a.part.rides_on for a in made.additions} | {c.part.id for c in made.fittings.carved}
+    carved = {c.part.id for c in made.fittings.changes.carved}
+    assert waiting.keys() <= {a.part.rides_on for a in made.additions} | carved
     assert "none" not in {g.kind for g in find_grasps(scene).values()}
     for moving, before in waiting.items():
         for door in before:

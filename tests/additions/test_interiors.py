@@ -9,7 +9,8 @@ from interior_judge import faults_of_panels
 from grafu.additions.interior.compartments import Compartment, find_compartments
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.furnish import Furnished, furnish
-from grafu.additions.interior.request import AUTO, NOTHING, PREDICTED, PanelHint, parse_interior
+from grafu.additions.interior.request import AUTO, NOTHING, PREDICTED, parse_interior
+from grafu.additions.step import PanelHint
 from grafu.asset.part import Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis

@@ -8,8 +8,9 @@ from interior_judge import faults_of_panels
 
 from front_scenes import cabinet, scene_of
 from grafu.additions.interior.furnish import Furnished
-from grafu.additions.interior.request import PREDICTED, PanelHint, parse_interior
+from grafu.additions.interior.request import PREDICTED, parse_interior
 from grafu.additions.interior.turned import furnish_scene
+from grafu.additions.step import PanelHint
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3

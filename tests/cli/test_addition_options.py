@@ -4,11 +4,11 @@ import argparse
 
 import pytest
 
+from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.additions.grip.config import GripKind
 from grafu.additions.interior.request import AUTO, InteriorKind, InteriorRequest
 from grafu.cli.addition_options import GRIPS, TOP_SHAPES, add_addition_options, addition_config
 from grafu.errors import OptionError
-from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.templates.handles import HANDLES
 
 BUILT_IN = tuple(template.id for template in HANDLES)

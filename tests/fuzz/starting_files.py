@@ -60,7 +60,7 @@ def _robot(folder: Path) -> None:
 
 
 def settings(folder: Path) -> str:
-    from grafu.pipeline.addition_config import HandleChoice
+    from grafu.additions.handle.config import HandleChoice
     from grafu.pipeline.settings import Settings
     from grafu.vocabulary import PartLabel
 

@@ -4,6 +4,7 @@ from math import radians
 
 import pytest
 
+from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.additions.interior.request import parse_interior
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.asset.edit import scaled, yawed
@@ -13,7 +14,6 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.metrics.panels import empty_rooms
-from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.synth.samples import KINDS

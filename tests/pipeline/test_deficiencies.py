@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
+from grafu.additions.step import DeficiencyKind
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.deficiencies import DeficiencyKind, Findings, find_deficiencies
+from grafu.pipeline.deficiencies import find_deficiencies
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -59,8 +60,7 @@ def test_a_top_is_missing_once_it_is_taken_away() -> None:
 
 def found_by_a_run(asset: Asset) -> dict[KIND, list[str]]:
     made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
-    findings = Findings(made.body.top, made.body.carcass.missing, made.body.drawers.verdicts, made.fittings.grasps)
-    missing = find_deficiencies(asset, made.completion.completed, findings)
+    missing = find_deficiencies(asset, made.completion.completed, (made.body, made.fittings))
     return {kind: [one.part for one in missing if one.kind is kind] for kind in KIND}
 
 

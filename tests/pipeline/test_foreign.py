@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from grafu.additions.config import NO_ADDITIONS
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.load import load_asset
 from grafu.asset.options import Limits
@@ -14,7 +15,6 @@ from grafu.export.files import ExportFiles, write_files
 from grafu.export.particulate import export_particulate
 from grafu.export.singapo import export_singapo
 from grafu.export.urdf import export_urdf
-from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.foreign import prediction_for, read_foreign
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption

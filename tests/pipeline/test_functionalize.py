@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.additions.interior.request import parse_interior
 from grafu.asset.part import Asset
 from grafu.completion.features import FeatureConfig
@@ -15,7 +16,6 @@ from grafu.completion.session import open_network
 from grafu.errors import WeightsError
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.pipeline.addition_config import NO_ADDITIONS, AdditionConfig
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig, choose_source, functionalize
 from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.pipeline.report import report_of

@@ -11,8 +11,8 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.realize import Realized
+from grafu.pipeline.additions import without_idle
 from grafu.pipeline.functionalize import functionalize
-from grafu.pipeline.idle import without_idle
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
@@ -55,7 +55,7 @@ def test_the_box_of_a_front_that_got_no_joint_is_taken_back(free):
     body, realized = without_idle(free.body, Realized(still, free.report, free.fittings.scene))
     assert boards
     assert not boards & {a.part.id for a in body.additions}
-    assert not boards & {p.id for p in body.asset.parts}
+    assert not boards & {p.id for p in body.scene.parts.values()}
     assert not boards & set(realized.scene.parts)
     assert {v.name for v in realized.object.links[0].visuals} == {v.name for v in root.visuals} - boards
 

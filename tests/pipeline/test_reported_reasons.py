@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from grafu.pipeline.addition_config import AdditionConfig
+from grafu.additions.config import AdditionConfig
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of, skipped_record

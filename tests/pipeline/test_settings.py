@@ -10,6 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grafu.additions.config import NO_ADDITIONS
+from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.additions.interior.turned import compartments_of
 from grafu.asset.load import load_asset
@@ -18,7 +20,6 @@ from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
 from grafu.joints.plan import AUTOMATIC, JointChoice
-from grafu.pipeline.addition_config import NO_ADDITIONS, HandleChoice
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -173,7 +174,7 @@ def test_a_front_can_be_left_without_or_be_carved(asset):
     assert not [a for a in bare.additions if a.part.rides_on == door]
     assert {j.part: j.grasp for j in report_of(bare).joints}[door] == "none"
     carved = run(asset, BASE.with_front(door, HandleChoice("hole")))
-    assert [c.part.id for c in carved.fittings.carved] == [door]
+    assert [c.part.id for c in carved.fittings.changes.carved] == [door]
 
 
 def test_a_handle_that_finds_no_room_is_told_with_what_took_its_place():
@@ -182,7 +183,7 @@ def test_a_handle_that_finds_no_room_is_told_with_what_took_its_place():
     said = {}
     for count in (1, 2):
         result = run(sideboard, base.with_front("door_1", HandleChoice("bail", count)))
-        said[count] = [s.why for s in result.fittings.skipped if s.part == "door_1"]
+        said[count] = [s.why for s in result.fittings.refusals if s.part == "door_1"]
         styles = {style for name, style in added(result).items() if name.startswith("handle")}
         assert styles == {"bail"} if not said[count] else any(f"it got `{style}`" in said[count][0] for style in styles)
     assert not said[1]
@@ -201,13 +202,13 @@ def test_rejected_additions_are_left_out_and_the_rest_stays(asset):
 
 def test_compartments_get_what_is_chosen_for_each(asset):
     plain = run(asset, BASE)
-    found, _ = compartments_of(plain.fittings.before_interiors)
+    found, _ = compartments_of(plain.before_panels)
     behind = next(k for k, c in enumerate(found) if c.behind)
     result = run(asset, BASE.with_compartment(behind, CompartmentChoice(shelves=2, thickness=0.01)))
     shelves = [a.part for a in result.additions if a.part.label is PartLabel.SHELF]
     assert [round(float(p.box.size[2]), 4) for p in shelves] == [0.01, 0.01]
     beyond = run(asset, BASE.with_compartment(len(found), CompartmentChoice(shelves=1)))
-    assert any(f"compartment {len(found) + 1}" in s.part for s in beyond.fittings.skipped)
+    assert any(f"compartment {len(found) + 1}" in s.part for s in beyond.fittings.refusals)
 
 
 def test_corrected_labels_change_what_is_built_and_say_who_said_so(asset):

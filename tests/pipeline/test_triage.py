@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from grafu.additions.config import NO_ADDITIONS
 from grafu.joints.plan import PIVOT, JointChoice
-from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from grafu.additions.config import NO_ADDITIONS
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
-from grafu.pipeline.addition_config import NO_ADDITIONS
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
+from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
 from grafu.export.blend.process import unpacked
 from grafu.export.glb import export_glb
 from grafu.joints.plan import JointChoice
-from grafu.pipeline.addition_config import HandleChoice
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.interactive import compartments_to_json, run
 from grafu.pipeline.motion_source import MotionSource

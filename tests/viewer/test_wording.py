@@ -2,8 +2,8 @@
 
 import pytest
 
+from grafu.additions.step import DeficiencyKind
 from grafu.pipeline.certainty import certainty_words
-from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.report_schema import NOT_ADDED, AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
 from grafu.pipeline.words import counted, listed
 from grafu.refusal import Reason

@@ -7,6 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import final
 
+from grafu.additions.handle.config import NO_HANDLE, HandleChoice
 from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require
 from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
@@ -20,8 +21,6 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.motion_choice import TURNING_SIDES
 from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.pipeline.addition_choice import GRIPS
-from grafu.pipeline.addition_config import HandleChoice
-from grafu.pipeline.front_choices import NO_HANDLE
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from grafu.pipeline.addition_config import AdditionConfig
+    from grafu.additions.config import AdditionConfig
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")
 GRIPS = ("grip", "groove", "edge", "hole")  # `grip`: whichever of the others fits
@@ -47,9 +47,9 @@ def addition_config(
     Raises:
         OptionError: if options contradict each other, or name a style or an interior that there is not.
     """
+    from grafu.additions.config import NO_ADDITIONS
     from grafu.errors import OptionError
     from grafu.pipeline.addition_choice import choose_additions
-    from grafu.pipeline.addition_config import NO_ADDITIONS
 
     _require_consistent(options)
     if options.only == "dynamic":

@@ -7,9 +7,11 @@ from grafu.additions.handle.grasp import find_grasp
 from grafu.additions.interior.compartments import Compartment, find_compartments
 from grafu.additions.interior.furnish import furnish
 from grafu.additions.interior.request import InteriorKind, InteriorRequest
+from grafu.additions.step import DeficiencyKind
 from grafu.additions.top.complete import missing_top
 from grafu.pipeline.functionalize import Functionalized
 from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
 
 _ONE_PANEL = (InteriorRequest(InteriorKind.COUNTED, shelves=1), InteriorRequest(InteriorKind.COUNTED, dividers=1))
 
@@ -42,11 +44,11 @@ class Completeness:
 
 def completeness_of(result: Functionalized) -> Completeness:
     """Returns what was missing and what was made in one result; compartments are furnished for the count alone."""
-    top = result.body.top
-    topped = top.missing and top.addition is not None
+    topless = any(one.kind is DeficiencyKind.TOP for one in result.body.deficiencies)
+    topped = topless and any(a.part.label is PartLabel.TOP_PANEL for a in result.body.additions)
     if topped:
-        topped = missing_top(result.body.asset.parts, result.plan.joints).covered
-    return Completeness(top.missing, topped, _grasps(result), *_interiors(result))
+        topped = missing_top(tuple(result.body.scene.parts.values()), result.plan.joints).covered
+    return Completeness(topless, topped, _grasps(result), *_interiors(result))
 
 
 def _grasps(result: Functionalized) -> tuple[GraspChange, ...]:

@@ -11,10 +11,10 @@ from typing import Final, final
 
 import numpy as np
 
+from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
-from grafu.pipeline.addition_config import AdditionConfig
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption

@@ -1,6 +1,7 @@
 """What is asked for: joints to build, with initial axes, and choices about them. The requester makes no difference."""
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import isfinite
 from typing import final
@@ -111,3 +112,11 @@ class RealizationPlan:
 
     joints: tuple[JointRequest, ...] = ()
     refused: tuple[Refusal, ...] = ()
+
+    def with_attached(self, pairs: Iterable[tuple[str, str]]) -> "RealizationPlan":
+        """Returns the plan in which more parts move with moving parts: of each pair the moving part, then the other."""
+        riding: dict[str, list[str]] = {}
+        for moving, part_id in pairs:
+            riding.setdefault(moving, []).append(part_id)
+        joints = tuple(replace(r, attached=(*r.attached, *riding.get(r.moving, ()))) for r in self.joints)
+        return replace(self, joints=joints)

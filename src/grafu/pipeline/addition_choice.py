@@ -4,13 +4,13 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.config import AdditionConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripKind
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.interior.request import InteriorRequest, parse_interior
 from grafu.additions.top.config import TopConfig
 from grafu.errors import OptionError
-from grafu.pipeline.addition_config import AdditionConfig
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")
 GRIPS = ("grip", "groove", "edge", "hole")

@@ -1,68 +1,29 @@
 """What an asset lacks before it is worked on: joints, hinges, rails, handles, a top, boards. It mends nothing."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from enum import StrEnum
-from typing import final
 
-from grafu.additions.carcass.missing_panels import MissingPanel
-from grafu.additions.drawer_box.verdict import BoxVerdict
-from grafu.additions.handle.grasp import Grasp
-from grafu.additions.top.complete import TopVerdict, missing_top
+from grafu.additions.step import Deficiency, DeficiencyKind, Grasp, StepResult
+from grafu.additions.top.complete import missing_top
 from grafu.asset.part import Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
 
 
-class DeficiencyKind(StrEnum):
-    """The things that furniture can lack."""
-
-    JOINT = "joint"  # the input does not say how the part moves
-    HINGE = "hinge"  # a door without hardware
-    RAIL = "rail"  # a drawer without hardware
-    HANDLE = "handle"  # nothing to grasp the part by
-    TOP = "top panel"  # nothing closes it from above
-    BACK = "back panel"  # the back of a carcass is open
-    BOTTOM = "bottom panel"  # its bottom is open
-    DRAWER_BOX = "drawer box"  # a drawer is only a front, or its box lacks boards
-    LABEL = "label"  # the part's category is not known
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Deficiency:
-    """One thing that is missing: at which part (empty: the whole object), and in words what was looked for."""
-
-    kind: DeficiencyKind
-    part: str
-    detail: str
-
-
-@final
-@dataclass(frozen=True)
-class Findings:
-    """What a run found missing by geometry, once it knew what moves: see `body_additions` and `fittings`."""
-
-    top: TopVerdict
-    carcass: Sequence[MissingPanel]
-    drawers: Sequence[BoxVerdict]
-    grasps: Mapping[str, Grasp]
-
-
-def find_deficiencies(asset: Asset, graph: FunctionalGraph, findings: Findings | None = None) -> tuple[Deficiency, ...]:
+def find_deficiencies(asset: Asset, graph: FunctionalGraph, made: Sequence[StepResult] = ()) -> tuple[Deficiency, ...]:
     """Returns what the asset lacks, judged by the labels of `graph` (completed, or as parsed), part by part.
 
-    Without `findings`, of what moves only labels are known: a part without a handle may still offer an edge to grasp.
+    `made` holds what a run's steps found missing, once it was known what moves. Without it, of what moves only labels
+    are known: a part without a handle may still offer an edge to grasp.
     """
     label_of = {node.id: node.label for node in graph.nodes}
     jointed = {joint.part for joint in asset.joints}
     found = [one for part in asset.parts for one in _of_part(part, label_of[part.id], part.id in jointed)]
-    found += _without_handle(asset, graph, findings.grasps if findings else {})
-    top = findings.top if findings else missing_top(asset.parts)
-    if top.missing:
-        found.append(Deficiency(DeficiencyKind.TOP, "", top.why))
-    found += [Deficiency(DeficiencyKind.TOP, "", further.why) for further in top.others]
-    return (*found, *(_of_boards(findings) if findings else ()))
+    found += _without_handle(asset, graph, {name: grasp for one in made for name, grasp in one.grasps.items()})
+    if made:
+        seen = [one for result in made for one in result.deficiencies]
+        return (*found, *sorted(seen, key=lambda one: one.kind is DeficiencyKind.DRAWER_BOX))  # these come last
+    top = missing_top(asset.parts)
+    return (*found, Deficiency(DeficiencyKind.TOP, "", top.why)) if top.missing else tuple(found)
 
 
 def _without_handle(asset: Asset, graph: FunctionalGraph, grasps: Mapping[str, Grasp]) -> list[Deficiency]:
@@ -74,13 +35,6 @@ def _without_handle(asset: Asset, graph: FunctionalGraph, grasps: Mapping[str, G
             found.append(Deficiency(DeficiencyKind.HANDLE, part.id, grasp.why))
         elif grasp is None and graph.node(part.id).label.is_movable and part.id not in held:
             found.append(Deficiency(DeficiencyKind.HANDLE, part.id, "no handle is attached to it"))
-    return found
-
-
-def _of_boards(findings: Findings) -> list[Deficiency]:
-    found = [Deficiency(DeficiencyKind(one.what.value), "", one.why) for one in findings.carcass]
-    open_boxes = (verdict for verdict in findings.drawers if verdict.missing)
-    found += [Deficiency(DeficiencyKind.DRAWER_BOX, v.drawer, f"{v.kind}: {v.why}") for v in open_boxes]
     return found
 
 

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TypeVar, final
 
 from grafu.additions.addition import Addition
+from grafu.additions.config import AdditionConfig
+from grafu.additions.step import StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.motions import ForeignMotions
@@ -25,17 +27,22 @@ from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import JointChoice, RealizationPlan
 from grafu.joints.realize import realize
 from grafu.joints.report import RealizationReport
-from grafu.pipeline.addition_config import AdditionConfig
+from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.annotation import complete_by_annotation
-from grafu.pipeline.body_additions import Body, complete_body
 from grafu.pipeline.built_graph import as_built, without_removed
-from grafu.pipeline.fittings import Fittings, add_fittings, fitted_object
-from grafu.pipeline.idle import without_idle
 from grafu.pipeline.learned import complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
-from grafu.pipeline.stages import Stages, bare_body, bare_fittings, by_contacts, without_joints, without_network
+from grafu.pipeline.stages import (
+    Stages,
+    by_contacts,
+    nothing_after_joints,
+    nothing_before_joints,
+    without_joints,
+    without_network,
+)
 from grafu.processes.cache import NO_CACHE, Cache
+from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery, HandleTemplate
 from grafu.vocabulary import PartLabel
 
@@ -68,7 +75,8 @@ class Functionalized:
     """Everything that was made of one asset.
 
     `asset` is the input as the motion source saw it, `source` that source (never `auto`). `completion` is the graph as
-    it was built, additions included. `body` and `fittings` say what was missing and what was added. `timings` are
+    it was built, additions included. `body` and `fittings` say what was missing and what was
+    added, before joints were built and after; `before_panels` is the scene before shelves and dividers. `timings` are
     seconds per stage, in order. `notes` say what was done in a simpler way, or left out, because the budget did not
     hold it. `stated_joints` counts the joints that the input states, whether they were read or not.
     `decided` are the parts whose motion the user stated or rejected.
@@ -80,8 +88,9 @@ class Functionalized:
     plan: RealizationPlan
     object: ArticulatedObject
     report: RealizationReport
-    body: Body
-    fittings: Fittings
+    body: StepResult
+    fittings: StepResult
+    before_panels: Scene
     timings: tuple[tuple[str, float], ...] = ()
     notes: tuple[str, ...] = ()
     stated_joints: int = 0
@@ -103,7 +112,7 @@ class Functionalized:
     @property
     def removed(self) -> frozenset[str]:
         """The ids of the input's parts that were replaced."""
-        return self.body.removed | self.fittings.removed
+        return self.body.changes.removed | self.fittings.changes.removed
 
 
 @final
@@ -194,34 +203,39 @@ def functionalize(
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion)  # initial axes
     plan = stages.timed("plan", first)
     plan = with_choices(plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery)
-    add = partial(cache.value, "body", complete_body, asset, completion, plan, config.additions.of_body)
-    body = stages.timed("body", add, partial(bare_body, asset, plan))  # top, drawer boxes
-    build = partial(realize, body.plan, body.asset, gallery, config.realization, cache)
-    realized = stages.timed("realize", build, partial(without_joints, body.plan, body.asset))  # joints
+    add = partial(cache.value, "body", add_before_joints, asset, completion, plan, config.additions.of_body)
+    body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
+    plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
+    build = partial(realize, plan, grown, gallery, config.realization, cache)
+    realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
-    fit = partial(add_fittings, realized.scene, completion, config.additions, config.own_handles)
-    fittings = stages.timed("fittings", fit, partial(bare_fittings, realized.scene))
+    fit = partial(add_after_joints, realized.scene, completion, config.additions, config.own_handles)
+    fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     with budget.in_force():
-        build_graph = partial(as_built, completion, asset, (*body.additions, *fittings.additions))
-        graph_built = by_contacts(config.parsing, build_graph)
+        graph_built = by_contacts(config.parsing, partial(_graph_as_built, completion, asset, body.then(fittings)))
     return Functionalized(
         asset,
         MotionSource(completion.source) if stages.gave_up("complete") else chosen,
-        without_removed(
-            graph_built,
-            body.removed | fittings.removed,
-            [addition.part.id for addition in body.additions if addition.part.label is PartLabel.TOP_PANEL],
-        ),
-        body.plan,
+        graph_built,
+        plan,
         fitted_object(realized.object, fittings),
         realized.report,
         body,
         fittings,
+        before_panels,
         tuple(stages.laps),
         tuple(stages.notes),
         stated,
         frozenset(config.motions),
     )
+
+
+def _graph_as_built(
+    completion: GraphCompletion, asset: Asset, made: StepResult, parsing: ParsingConfig
+) -> GraphCompletion:
+    """Returns the completed graph with what was added, without what was replaced."""
+    tops = [addition.part.id for addition in made.additions if addition.part.label is PartLabel.TOP_PANEL]
+    return without_removed(as_built(completion, asset, made.additions, parsing), made.changes.removed, tops)
 
 
 def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:

@@ -53,8 +53,7 @@ def run(source: Path, settings_file: Path, folder: Path, cache: Cache = NO_CACHE
 
 def compartments_to_json(result: Functionalized) -> dict[str, Any]:
     """Returns the compartments by number, each with its corners (metres, object frame) and moving bodies before it."""
-    scene = result.fittings.before_interiors
-    found, T = compartments_of(scene) if scene is not None else ((), np.eye(4))
+    found, T = compartments_of(result.before_panels)
     corners = [np.round(transform_points(T, compartment.box.corners()), 6).tolist() for compartment in found]
     boxes = zip(corners, found, strict=True)
     return {"compartments": [{"corners": eight, "behind": list(one.behind)} for eight, one in boxes]}

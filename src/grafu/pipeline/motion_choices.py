@@ -149,17 +149,17 @@ def plan_with_motions(
     attachments = ((edge.parent, edge.child) for edge in completion.completed.attachments)
     attached = attached_to(asset, attachments)
     stated = [part for part, choice in motions.items() if choice.moves is not Moves.FIXED]
-    kept = tuple(_without_attached(r, stated) for r in plan.joints if r.moving not in motions)
+    kept = tuple(_without_parts(r, stated) for r in plan.joints if r.moving not in motions)
     requests = [_request(asset.part(p), motions[p], attached.get(p, ()), completion, asset) for p in stated]
     moving_bodies = {request.moving for request in (*kept, *requests)}
-    requests = [_without_attached(request, sorted(moving_bodies - {request.moving})) for request in requests]
+    requests = [_without_parts(request, sorted(moving_bodies - {request.moving})) for request in requests]
     refused = tuple(r for r in plan.refused if r.part not in motions)
     still = (p for p, c in motions.items() if c.moves is Moves.FIXED and (p in moved or asset.part(p).label.is_movable))
     rejected = tuple(Refusal(part, Reason.REJECTED, REJECTED) for part in still)
     return RealizationPlan((*kept, *requests), (*refused, *rejected))
 
 
-def _without_attached(request: JointRequest, moving_bodies: Sequence[str]) -> JointRequest:
+def _without_parts(request: JointRequest, moving_bodies: Sequence[str]) -> JointRequest:
     return replace(request, attached=tuple(part for part in request.attached if part not in moving_bodies))
 
 

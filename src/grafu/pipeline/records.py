@@ -1,9 +1,9 @@
 """Values of the stages as records of the JSON forms, for report and inspection alike. It decides nothing."""
 
+from grafu.additions.step import Deficiency
 from grafu.asset.part import Asset, Frame, PartSource
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
-from grafu.pipeline.deficiencies import Deficiency
 from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, FrameRecord, InputRecord, SourceRecord, Vector
 
 

@@ -8,7 +8,7 @@ from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.joints.report import Installed
 from grafu.pipeline.certainty import guesses_of
-from grafu.pipeline.deficiencies import Findings, find_deficiencies
+from grafu.pipeline.deficiencies import find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.move_options import move_options
 from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
@@ -35,10 +35,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
     `name` is the name of the results (empty: the asset's); `other_timings` are seconds of stages outside the pipeline
     (reading, exporting).
     """
-    findings = Findings(
-        result.body.top, result.body.carcass.missing, result.body.drawers.verdicts, result.fittings.grasps
-    )
-    missing = find_deficiencies(result.asset, _with_removed(result), findings)
+    missing = find_deficiencies(result.asset, _with_removed(result), (result.body, result.fittings))
     timings = {**dict(result.timings), **(other_timings or {})}
     report = Report(
         version=__version__,
@@ -54,7 +51,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         added=_added_records(result),
         skipped=tuple(
             skipped_record(refusal)
-            for refusal in (*result.report.skipped, *result.body.skipped, *result.fittings.skipped)
+            for refusal in (*result.report.skipped, *result.body.refusals, *result.fittings.refusals)
         ),
         notes=result.notes,
         guesses=guesses_of(result.completion, result.decided),
@@ -118,7 +115,7 @@ def _grasps(result: Functionalized) -> dict[str, Grasp]:
     """Returns how each moving body can be grasped in the end."""
     found: dict[str, Grasp] = {moving: grasp.kind for moving, grasp in result.fittings.grasps.items()}
     found |= {a.part.rides_on: "handle" for a in result.fittings.additions if a.part.rides_on}
-    return found | {c.part.id: "recess" for c in result.fittings.carved}
+    return found | {c.part.id: "recess" for c in result.fittings.changes.carved}
 
 
 def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
@@ -164,6 +161,6 @@ def _added_records(result: Functionalized) -> tuple[AddedRecord, ...]:
             style=f"{c.kind}, {c.profile}",
             link=link_of[c.part.id],
         )
-        for c in result.fittings.carved
+        for c in result.fittings.changes.carved
     ]
     return (*parts, *grips)

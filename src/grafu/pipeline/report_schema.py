@@ -7,8 +7,8 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
+from grafu.additions.step import DeficiencyKind
 from grafu.graph.completion import Question
-from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.motion_source import MotionSource
 from grafu.refusal import Asked, Reason

@@ -12,6 +12,8 @@ from typing import Any, final
 
 from pydantic import TypeAdapter, ValidationError
 
+from grafu.additions.config import AdditionConfig
+from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
@@ -19,7 +21,6 @@ from grafu.errors import AssetError, OptionError
 from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import AUTOMATIC, JointChoice
-from grafu.pipeline.addition_config import AdditionConfig, HandleChoice
 from grafu.pipeline.functionalize import PipelineConfig
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.template import HandleTemplate

@@ -13,10 +13,8 @@ from time import perf_counter
 from types import MappingProxyType
 from typing import TypeVar, final
 
-from grafu.additions.carcass.complete import CarcassCompletion
-from grafu.additions.drawer_box.complete import DrawerBoxes
 from grafu.additions.handle.grasp import held_by_label
-from grafu.additions.top.complete import TopVerdict
+from grafu.additions.step import StepResult
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.geometry.budget import Budget, within
@@ -25,8 +23,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.realize import Realized, realize
-from grafu.pipeline.body_additions import Body
-from grafu.pipeline.fittings import Fittings
+from grafu.pipeline.additions import planned_scene
 from grafu.processes.limits import give_back_unused
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
@@ -57,10 +54,10 @@ def without_network(graph: FunctionalGraph, why: str) -> GraphCompletion:
     return within(_HALF, partial(complete_by_rule, graph), lambda _: still())
 
 
-def bare_body(asset: Asset, plan: RealizationPlan, why: str) -> Body:
+def nothing_before_joints(asset: Asset, plan: RealizationPlan, why: str) -> StepResult:
     """Returns the asset as it is, nothing added."""
-    skipped = (Refusal("top and drawer boxes", Reason.TOO_COMPLEX, why, Asked.ADDITIONS),)
-    return Body(asset, plan, TopVerdict(True, 1.0, why), CarcassCompletion(), DrawerBoxes(), (), skipped)
+    refusal = Refusal("top and drawer boxes", Reason.TOO_COMPLEX, why, Asked.ADDITIONS)
+    return StepResult(planned_scene(asset, plan), refusals=(refusal,))
 
 
 def without_joints(plan: RealizationPlan, asset: Asset, why: str) -> Realized:
@@ -70,12 +67,12 @@ def without_joints(plan: RealizationPlan, asset: Asset, why: str) -> Realized:
     return replace(still, report=replace(still.report, outcomes=(*skipped, *still.report.outcomes)))
 
 
-def bare_fittings(scene: Scene, why: str) -> Fittings:
+def nothing_after_joints(scene: Scene, why: str) -> tuple[StepResult, Scene]:
     """Returns the scene as it is, nothing added; what can be grasped is known of what has a handle by name alone."""
     found = {moving: held_by_label(scene, moving) for moving in scene.moving_bodies}
     grasps = {moving: grasp for moving, grasp in found.items() if grasp is not None}
-    skipped = (Refusal("handles, grips and interiors", Reason.TOO_COMPLEX, why, Asked.ADDITIONS),)
-    return Fittings(scene, grasps=grasps, skipped=skipped)
+    refusal = Refusal("handles, grips and interiors", Reason.TOO_COMPLEX, why, Asked.ADDITIONS)
+    return StepResult(scene, refusals=(refusal,), grasps=grasps), scene
 
 
 RATIOS: Mapping[str, float] = MappingProxyType(

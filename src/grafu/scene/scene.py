@@ -163,8 +163,22 @@ class Scene:
         """Returns the scene with some parts in a new shape."""
         return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
 
-    def without_attached(self, gone: Collection[str]) -> "Scene":
-        """Returns the scene without some parts that ride on moving bodies."""
+    def with_parts(self, parts: Iterable[Part]) -> "Scene":
+        """Returns the scene with some more parts; those that ride on a moving body move with it."""
+        new = {part.id: part for part in parts}
+        riding = [(part.rides_on, part.id) for part in new.values() if part.rides_on in self.moving_bodies]
+        return replace(self, parts={**self.parts, **new}).with_attached((m, p) for m, p in riding if m is not None)
+
+    def with_attached(self, pairs: Iterable[tuple[str, str]]) -> "Scene":
+        """Returns the scene in which more parts move with moving bodies: of each pair the body, then the part."""
+        moving_bodies = dict(self.moving_bodies)
+        for moving_id, part_id in pairs:
+            moving = moving_bodies[moving_id]
+            moving_bodies[moving_id] = MovingBody(moving.id, (*moving.members, part_id))
+        return replace(self, moving_bodies=moving_bodies)
+
+    def without_parts(self, gone: Collection[str]) -> "Scene":
+        """Returns the scene without some parts that stand still or ride on moving bodies."""
         if not gone:
             return self
         moving_bodies = {

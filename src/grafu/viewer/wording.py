@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Iterable
 from math import acos, degrees
 
+from grafu.additions.step import DeficiencyKind
 from grafu.articulation.motion_kind import motion_kind
-from grafu.pipeline.deficiencies import DeficiencyKind
 from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
 from grafu.pipeline.verdict import stopped
 from grafu.pipeline.words import counted, listed

@@ -1,6 +1,6 @@
 import pytest
 
-from grafu.additions.top.unwanted import why_no_top
+from grafu.additions.top.step import why_no_top
 
 
 @pytest.mark.parametrize("name", ["captains-bed", "sinkCabinet", "mattress_Cube.001", "lit_2", "lavello", "oven", "床"])

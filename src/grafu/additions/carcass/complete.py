@@ -16,9 +16,10 @@ import numpy as np
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.carcass.bays import Bay, View
 from grafu.additions.carcass.config import CarcassConfig
-from grafu.additions.carcass.missing_panels import DEFAULT, MissingPanel, panels_missing
+from grafu.additions.carcass.missing_panels import DEFAULT, MissingPanel, missing_panels, panels_missing
 from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
 from grafu.additions.likeness import surface_like
+from grafu.additions.step import Deficiency, DeficiencyKind, Request, StepResult
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
@@ -28,6 +29,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
 from grafu.joints.plan import RealizationPlan
 from grafu.refusal import Asked, Reason, Refusal
+from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 _SPREAD = np.linspace(-0.4, 0.4, 9)  # fractions of a bay's side around a spot from which walls are felt for
@@ -144,6 +146,22 @@ class CarcassCompletion:
     missing: tuple[MissingPanel, ...] = ()
     additions: tuple[Addition, ...] = ()
     refused: tuple[Refusal, ...] = ()
+
+
+def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | None) -> StepResult:
+    """Returns the scene with the backs and bottoms that it lacks; without a config it is only said which."""
+    parts = tuple(scene.parts.values())
+    made = (
+        CarcassCompletion(missing_panels(parts, request.plan))
+        if config is None
+        else complete_carcass(parts, request.plan, config)
+    )
+    return StepResult(
+        scene.with_parts(addition.part for addition in made.additions),
+        made.additions,
+        refusals=made.refused,
+        deficiencies=tuple(Deficiency(DeficiencyKind(one.what.value), "", one.why) for one in made.missing),
+    )
 
 
 def complete_carcass(

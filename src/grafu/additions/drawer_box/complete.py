@@ -19,6 +19,7 @@ from grafu.additions.drawer_box.room import Room, find_room
 from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
 from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
 from grafu.additions.likeness import surface_like
+from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
@@ -44,13 +45,27 @@ class DrawerBoxes:
     """The outcome for all drawers of a plan: what each has, the boards added, and those that could not be, with why.
 
     `loose` names parts of the input that turned out to be boards of a drawer's box: drawer, then part. They must move
-    with it (`with_attached`).
+    with it.
     """
 
     verdicts: tuple[BoxVerdict, ...] = ()
     additions: tuple[Addition, ...] = ()
     refused: tuple[Refusal, ...] = ()
     loose: tuple[tuple[str, str], ...] = ()
+
+
+def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | None) -> StepResult:
+    """Returns the scene in which drawers have their boxes; without a config it is only said what they lack."""
+    parts = tuple(scene.parts.values())
+    made = complete_drawers(parts, request.plan, config or DEFAULT, build=config is not None)
+    lacking = [verdict for verdict in made.verdicts if verdict.missing]
+    return StepResult(
+        scene.with_attached(made.loose).with_parts(addition.part for addition in made.additions),
+        made.additions,
+        Changes(attached=made.loose),
+        made.refused,
+        tuple(Deficiency(DeficiencyKind.DRAWER_BOX, v.drawer, f"{v.kind}: {v.why}") for v in lacking),
+    )
 
 
 def complete_drawers(
@@ -92,15 +107,6 @@ def complete_drawers(
         known |= {addition.part.id for addition in made}
         around = around.with_parts(tuple(_closed(a.part, request) for a in made))
     return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
-
-
-def with_attached(plan: RealizationPlan, made: DrawerBoxes) -> RealizationPlan:
-    """Returns the plan in which the boards that were added, and loose ones of the input, move with their drawers."""
-    riding: dict[str, list[str]] = {}
-    for drawer, part_id in (*made.loose, *((a.part.rides_on or "", a.part.id) for a in made.additions)):
-        riding.setdefault(drawer, []).append(part_id)
-    joints = tuple(replace(r, attached=(*r.attached, *riding.get(r.moving, ()))) for r in plan.joints)
-    return replace(plan, joints=joints)
 
 
 def find_loose(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> tuple[str, ...]:

@@ -5,6 +5,11 @@ from typing import final
 
 from grafu.joints.config import require_not_negative, require_positive, require_ratios
 
+NO_HANDLE = "none"
+"""`HandleChoice.style` of a front that gets nothing."""
+ANY_GRIP = "grip"
+"""... and of one that gets whichever grip fits."""
+
 _COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
 
 
@@ -113,3 +118,29 @@ def size_factor(extent: float) -> float:
     """
     low, high = _COMMON
     return min(extent / low, 1.0) if extent < high else extent / high
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HandleChoice:
+    """What one door or drawer is grasped by, whatever the others get.
+
+    `style` is a handle template, a recessed grip (`grip`, `groove`, `edge`, `hole`), `none`, or empty for the style of
+    the others; `count` and `offset` are those of `HandleConfig`, `length` metres (0: as it suits). Handles of the input
+    stay beside it unless it `replaces` them.
+
+    Raises:
+        ValueError: if the count is not in 0..4, or the length is negative.
+    """
+
+    style: str = ""
+    count: int = 0
+    offset: tuple[float, float] = (0.0, 0.0)
+    length: float = 0.0
+    replaces: bool = True
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.count <= 4:
+            raise ValueError(f"`HandleChoice.count` must be in 0..4: got {self.count}")
+        if not self.length >= 0:
+            raise ValueError(f"`HandleChoice.length` must not be negative: got {self.length}")

@@ -1,46 +1,17 @@
 """How a door or drawer can be grasped as it is: by a handle, a recess, an edge, or not at all. It adds nothing."""
 
-from dataclasses import dataclass
-from typing import Literal, final
-
-import numpy as np
-
 from grafu.additions.handle.config import GraspConfig
 from grafu.additions.handle.grips import STANDS_OUT, grips_on
 from grafu.additions.handle.relief import Relief, Reliefs
+from grafu.additions.step import Grasp
 from grafu.asset.part import Part
-from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
-
-GraspKind = Literal["handle", "recess", "edge", "none"]
 
 _SMALL = 0.3  # of the front's two sides multiplied: an unlabelled part that is larger is no handle
 _SITS = 0.006  # metres: how far a handle that is not attached may be from the front that it sits on
 _NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
 _LABELLED, _UNLABELLED, _UNATTACHED = 1.0, 0.8, 0.6
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Grasp(ArrayValue):
-    """How a moving body can be grasped. `confidence` is in [0, 1]; of "none" it is 1.
-
-    `part` is the id of the handle (empty: it is geometry of the moving body itself), `center` the middle of the grip in
-    the object frame (None: there is none), `length` metres of it that fingers can use, and `why` says what was found.
-    """
-
-    moving: str
-    kind: GraspKind
-    confidence: float
-    why: str
-    center: Vec3 | None = None
-    length: float = 0.0
-    part: str = ""
-
-    def __post_init__(self) -> None:
-        if self.center is not None:
-            freeze_arrays(self, "center", dtype=np.float64)
 
 
 def find_grasp(

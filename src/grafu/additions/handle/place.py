@@ -4,22 +4,22 @@ A handle that finds no place is refused with a reason; nothing that can be grasp
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.fit import Shape, Surroundings, fitted, ground_of, surroundings_of
-from grafu.additions.handle.grasp import Grasp
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.handle.spots import Extent, Spot, spots_on
 from grafu.additions.handle.style import Sibling, Style, choose_style, named_template, siblings_of
 from grafu.additions.likeness import surface_like
+from grafu.additions.step import Grasp
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.refusal import Asked, Reason, Refusal
-from grafu.scene.scene import MovingBody, Scene
+from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
@@ -80,7 +80,7 @@ def add_handles(
         additions += found
         for addition in found:
             around = around.with_handle(moving, addition.part.mesh)
-        scene = _with_parts(scene, moving, found)
+        scene = scene.with_parts(addition.part for addition in found)
     return Handles(tuple(additions), tuple(refused), scene)
 
 
@@ -189,11 +189,3 @@ def _additions(
 
 def _surface(mesh: TriangleMesh, style: Style) -> Surface:
     return surface_like(mesh, style.alike, style.finish)
-
-
-def _with_parts(scene: Scene, moving_id: str, added: Iterable[Addition]) -> Scene:
-    """Returns the scene in which a moving body carries some more parts."""
-    parts = [addition.part for addition in added]
-    moving = scene.moving_bodies[moving_id]
-    moving_bodies = {**scene.moving_bodies, moving_id: MovingBody(moving.id, (*moving.members, *(p.id for p in parts)))}
-    return replace(scene, parts={**scene.parts, **{p.id: p for p in parts}}, moving_bodies=moving_bodies)

@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import Sizes
-from grafu.additions.interior.request import PanelHint
+from grafu.additions.step import PanelHint
 from grafu.geometry.box import Box
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel

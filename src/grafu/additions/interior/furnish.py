@@ -24,8 +24,9 @@ from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.occupied import is_drawer
 from grafu.additions.interior.panels import BEYOND, Clearing, Place, Walls, clearing_of, cut_panel, moved_to
-from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest, PanelHint
+from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
+from grafu.additions.step import PanelHint
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster

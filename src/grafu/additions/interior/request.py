@@ -7,9 +7,6 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import final
 
-from grafu.geometry.box import Box
-from grafu.vocabulary import PartLabel
-
 MOST = 20  # of one kind in one compartment; more is a slip of the finger
 _SPELLING = f"`none`, `auto`, `predicted`, `shelves=N`, `dividers=N` or `shelves=N,dividers=N` with N from 0 to {MOST}"
 _ITEM = re.compile(r"(shelves|dividers)=(\d{1,4})")
@@ -75,24 +72,6 @@ class CompartmentChoice:
             raise ValueError(f"`CompartmentChoice` must count 0 to {MOST}: got {self.shelves}, {self.dividers}")
         if (self.thickness is not None and not self.thickness > 0) or not (self.inset or 0.0) >= 0:
             raise ValueError(f"`CompartmentChoice` needs sizes above 0: got {self.thickness}, {self.inset}")
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class PanelHint:
-    """A shelf or divider that the completed graph expects at about this box (object frame, metres).
-
-    Raises:
-        ValueError: if the label is another.
-    """
-
-    id: str
-    label: PartLabel
-    box: Box
-
-    def __post_init__(self) -> None:
-        if self.label not in (PartLabel.SHELF, PartLabel.DIVIDER):
-            raise ValueError(f"`PanelHint.label` must be shelf or divider: got {self.label.value} for `{self.id}`")
 
 
 def parse_interior(text: str) -> InteriorRequest:

@@ -5,12 +5,14 @@ axes, or not at all.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from typing import final
 
 from grafu.additions.interior.compartments import Compartment, find_compartments
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.furnish import Furnished, furnish
-from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorRequest, PanelHint
+from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
+from grafu.additions.step import PanelHint, Request, StepResult
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat4, vec3
@@ -18,6 +20,28 @@ from grafu.geometry.box import Box
 from grafu.geometry.heading import heading_of
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points
 from grafu.scene.scene import Scene
+
+
+@final
+@dataclass(frozen=True)
+class InteriorChoice:
+    """What all compartments get, in which sizes, and by number what single ones get instead."""
+
+    request: InteriorRequest
+    sizes: InteriorConfig = InteriorConfig()
+    compartments: Mapping[int, CompartmentChoice] = field(default_factory=dict)
+
+
+def add_panels(scene: Scene, request: Request, choice: InteriorChoice) -> StepResult:
+    """Returns the scene with shelves and dividers as chosen; predicted ones are those of the request."""
+    hints = request.panels if choice.request.kind is InteriorKind.PREDICTED else ()
+    wants_nothing = choice.request.kind is InteriorKind.NONE
+    if (wants_nothing or (choice.request.kind is InteriorKind.PREDICTED and not hints)) and not choice.compartments:
+        return StepResult(scene)
+    made = furnish_scene(scene, choice.request, choice.sizes, hints, choice.compartments)
+    return StepResult(
+        scene.with_parts(addition.part for addition in made.additions), made.additions, refusals=made.refused
+    )
 
 
 def furnish_scene(

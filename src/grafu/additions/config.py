@@ -7,36 +7,10 @@ from typing import final
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
-from grafu.additions.handle.config import GraspConfig, HandleConfig
+from grafu.additions.handle.config import GraspConfig, HandleChoice, HandleConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
 from grafu.additions.top.config import TopConfig
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class HandleChoice:
-    """What one door or drawer is grasped by, whatever the others get.
-
-    `style` is a handle template, a recessed grip (`grip`, `groove`, `edge`, `hole`), `none`, or empty for the style of
-    the others; `count` and `offset` are those of `HandleConfig`, `length` metres (0: as it suits). Handles of the input
-    stay beside it unless it `replaces` them.
-
-    Raises:
-        ValueError: if the count is not in 0..4, or the length is negative.
-    """
-
-    style: str = ""
-    count: int = 0
-    offset: tuple[float, float] = (0.0, 0.0)
-    length: float = 0.0
-    replaces: bool = True
-
-    def __post_init__(self) -> None:
-        if not 0 <= self.count <= 4:
-            raise ValueError(f"`HandleChoice.count` must be in 0..4: got {self.count}")
-        if not self.length >= 0:
-            raise ValueError(f"`HandleChoice.length` must not be negative: got {self.length}")
 
 
 @final

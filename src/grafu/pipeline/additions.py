@@ -1,0 +1,101 @@
+"""What a run adds, before its joints are built and after: the request to the steps, and their results on the object."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from grafu.additions.config import AdditionConfig
+from grafu.additions.step import PanelHint, Request, StepResult
+from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, run_steps
+from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
+from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import Vec3
+from grafu.geometry.intersection import forget_large_shapes
+from grafu.graph.completion import GraphCompletion
+from grafu.joints.plan import RealizationPlan
+from grafu.joints.realize import Realized
+from grafu.scene.scene import MovingBody, Scene
+from grafu.templates.template import HandleTemplate
+from grafu.vocabulary import PartLabel
+
+
+def planned_scene(asset: Asset, plan: RealizationPlan) -> Scene:
+    """Returns the parts as they are drawn, with the moving bodies of a plan whose joints are not built yet."""
+    moving_bodies = {r.moving: MovingBody(r.moving, (r.moving, *r.attached)) for r in plan.joints}
+    return Scene({part.id: part for part in asset.parts}, moving_bodies, asset.extent)
+
+
+def add_before_joints(
+    asset: Asset, completion: GraphCompletion, plan: RealizationPlan, config: AdditionConfig
+) -> StepResult:
+    """Returns the asset with the tops, boards and drawer boxes that it lacks and may have: joints must respect them."""
+    nodes = completion.completed.nodes
+    expected = (completion.completed.node(name) for name in completion.added)
+    request = Request(
+        plan,
+        (asset.name, *(part.source.name for part in asset.parts)),
+        frozenset(node.id for node in nodes if node.label is PartLabel.TOP_PANEL),
+        next((node.box for node in expected if node.label is PartLabel.TOP_PANEL), None),
+    )
+    made = run_steps(BEFORE_JOINTS, planned_scene(asset, plan), request, config)
+    return replace(made, scene=made.scene.afresh())
+
+
+def add_after_joints(
+    scene: Scene, completion: GraphCompletion, config: AdditionConfig, own: Mapping[str, HandleTemplate]
+) -> tuple[StepResult, Scene]:
+    """Returns a final scene with the handles, grips and panels that it lacks and may have, and that without panels.
+
+    Raises:
+        TemplateError: if the config names a handle that there is not.
+    """
+    request = Request(handles=_handle_hints(completion), panels=_panel_hints(completion), own_handles=own)
+    fronts = run_steps(ON_FRONTS, scene, request, config)
+    made = fronts.then(run_steps(INSIDE, fronts.scene, request, config))
+    forget_large_shapes()
+    return replace(made, scene=made.scene.afresh()), fronts.scene.afresh()
+
+
+def _handle_hints(completion: GraphCompletion) -> dict[str, Vec3]:
+    """Returns where handles were predicted, by the part that they are for."""
+    graph, new = completion.completed, set(completion.added)
+    return {edge.parent: graph.node(edge.child).box.center for edge in graph.attachments if edge.child in new}
+
+
+def _panel_hints(completion: GraphCompletion) -> tuple[PanelHint, ...]:
+    nodes = (completion.completed.node(name) for name in completion.added)
+    inner = (PartLabel.SHELF, PartLabel.DIVIDER)
+    return tuple(PanelHint(node.id, node.label, node.box) for node in nodes if node.label in inner)
+
+
+def without_idle(made: StepResult, realized: Realized) -> tuple[StepResult, Realized]:
+    """Returns both without what was added to a door or drawer that then got no joint: it would stand still."""
+    moving = {joint.child for joint in realized.object.joints}
+    idle = {a.part.id for a in made.additions if a.part.rides_on is not None and a.part.rides_on not in moving}
+    if not idle:
+        return made, realized
+    links = tuple(
+        replace(link, visuals=tuple(v for v in link.visuals if v.name not in idle)) for link in realized.object.links
+    )
+    scene = realized.scene.without_parts(idle).afresh()
+    return made.without(idle, made.scene), replace(realized, object=replace(realized.object, links=links), scene=scene)
+
+
+def fitted_object(articulated: ArticulatedObject, made: StepResult) -> ArticulatedObject:
+    """Returns the object with all that was added after its joints on their links."""
+    carved = {one.part.id: one.part for one in made.changes.carved}
+    riding: dict[str, list[Visual]] = {}
+    for addition in made.additions:
+        part = addition.part
+        visual = Visual(part.id, part.surfaces, VisualRole.ADDED, part.label)
+        riding.setdefault(part.rides_on or articulated.root, []).append(visual)
+    gone = made.changes.removed
+    links = tuple(_fitted_link(link, carved, riding.get(link.id, []), gone) for link in articulated.links)
+    return replace(articulated, links=links)
+
+
+def _fitted_link(link: Link, carved: Mapping[str, Part], more: list[Visual], gone: frozenset[str]) -> Link:
+    if not more and not any(v.name in carved or v.name in gone for v in link.visuals):
+        return link
+    left = (v for v in link.visuals if v.name not in gone)
+    kept = (replace(v, surfaces=carved[v.name].surfaces) if v.name in carved else v for v in left)
+    return Link(link.id, (*kept, *more))
