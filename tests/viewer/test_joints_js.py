@@ -39,7 +39,7 @@ def test_a_coupled_joint_follows_its_leader(run):
 
 def test_dragging_the_follower_moves_the_leader(run):
     assert run("(joints.set(1, 1.0), joints.values)") == pytest.approx([0.5, 1.0])
-    assert run("(joints.setShare(1, 1.0), [joints.share(0), joints.share(1)])") == pytest.approx([1.0, 1.0])
+    assert run("(joints.setFraction(1, 1.0), [joints.fraction(0), joints.fraction(1)])") == pytest.approx([1.0, 1.0])
     assert run("(joints.set(1, 99.0), joints.values)") == pytest.approx([1.4, 2.8])
 
 
