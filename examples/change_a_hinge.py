@@ -1,4 +1,4 @@
-"""What a person decides is kept, the rest is found again: a hinge side, a style of handle, a part left out."""
+"""One result, changed: a hinge on the other side, a handle of another style, an added part removed."""
 
 import grafu
 

@@ -1,4 +1,4 @@
-"""The trained network against the rule-based baseline: how far apart their axes are, before and after realization."""
+"""Network and rule-based baseline compared: the angles between their axes, initial and rectified."""
 
 from math import acos, degrees
 

@@ -1,4 +1,4 @@
-"""The functional graph of a model: its nodes, its edges, and how probable each decision was."""
+"""The functional graph of a model: its nodes, its edges, and the confidence of each decision."""
 
 from collections import Counter
 

@@ -1,4 +1,4 @@
-"""One model in, one folder out: doors and drawers that open, and what they open on."""
+"""One model in, one folder out, and its joints and hardware printed."""
 
 from math import degrees
 

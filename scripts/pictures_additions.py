@@ -197,7 +197,7 @@ def _style_of(result: Functionalized) -> str:
 
 
 def _covered(result: Functionalized) -> float:
-    """Returns the share of the input's top that was covered before anything was added."""
+    """Returns the ratio of the input's top that was covered before anything was added."""
     return missing_top(result.asset.parts, result.plan.joints).ratio
 
 

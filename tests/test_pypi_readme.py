@@ -1,0 +1,43 @@
+"""The description on PyPI has no relative links: they would lead nowhere there."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture
+def hook(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    interface = ModuleType("hatchling.metadata.plugin.interface")
+    interface.MetadataHookInterface = type("MetadataHookInterface", (), {"root": str(ROOT)})  # type: ignore[attr-defined]
+    for name in ("hatchling", "hatchling.metadata", "hatchling.metadata.plugin"):
+        monkeypatch.setitem(sys.modules, name, ModuleType(name))
+    monkeypatch.setitem(sys.modules, interface.__name__, interface)
+    spec = importlib.util.spec_from_file_location("pypi_readme", ROOT / "scripts" / "pypi_readme.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_links_are_absolute_where_the_repository_is_stated(hook: ModuleType) -> None:
+    found = hook.for_pypi("![A](docs/a.png) [b](docs/b.md#c) [d](https://x.org) [e](#f)", "https://x.org/o/n/")
+    assert found == (
+        "![A](https://x.org/o/n/raw/HEAD/docs/a.png) [b](https://x.org/o/n/blob/HEAD/docs/b.md#c) "
+        "[d](https://x.org) [e](#f)"
+    )
+
+
+def test_without_a_repository_no_link_is_broken(hook: ModuleType) -> None:
+    metadata: dict[str, dict[str, str]] = {"urls": {"Paper": "https://x.org"}}
+    hook.ReadmeHook().update(metadata)
+    text = metadata["readme"]["text"]
+    assert re.findall(r"\]\((?!https?://)", text) == []
+    assert "![" not in text
+    assert text.startswith("# GraFu")
