@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import trimesh
 
-from grafu.additions.handle.config import size_factor
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual, VisualRole
 from grafu.articulation.sweep import values_before
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.metrics.bodies import largest_side
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 POSES = 40  # of each joint in which handles are looked at
@@ -24,7 +24,7 @@ MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 def grasp_faults(result: Functionalized) -> Iterator[str]:
     """Yields moving bodies that nothing can be grasped of, and those with more handles than they need."""
     grasps = {joint.part: joint.grasp for joint in report_of(result).joints}
-    factor = size_factor(largest_side(result.object))
+    factor = metre_on(largest_side(result.object))
     for joint in result.object.joints:
         visuals, added = result.object.link(joint.child).visuals, new_handles(result.object, joint)
         carved = [c for c in result.fittings.changes.carved if c.part.id in {v.name for v in visuals}]

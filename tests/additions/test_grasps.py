@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from front_scenes import cabinet, scaled, scene_of, with_handles_in_their_fronts, without_handles
-from grafu.additions.handle.config import size_factor
 from grafu.additions.handle.grasp import find_grasp, find_grasps
 from grafu.asset.edit import yawed
 from grafu.geometry.arrays import vec3
+from grafu.scene.scale import metre_on
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.synth.samples import KINDS
 from grafu.templates.handles import HANDLES
@@ -166,9 +166,9 @@ def test_small_models_are_grasped_by_small_hands(factor, grip, kind):
     assert {g.kind for g in find_grasps(scene_of(asset)).values()} == {kind}
 
 
-@pytest.mark.parametrize(("unit", "factor"), [(0.05, 0.1), (0.5, 1.0), (3.9, 1.0), (8.0, 2.0)])
+@pytest.mark.parametrize(("extent", "factor"), [(0.05, 0.1), (0.5, 1.0), (3.9, 1.0), (8.0, 2.0)])
 def test_hands_are_scaled_for_furniture_of_no_common_size(extent, factor):
-    assert size_factor(extent) == pytest.approx(factor)
+    assert metre_on(extent) == pytest.approx(factor)
 
 
 def test_a_front_without_faces_cannot_be_grasped_or_is_refused():

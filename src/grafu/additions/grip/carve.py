@@ -23,10 +23,10 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.refusal import Asked, Reason, Refusal
+from grafu.scene.scale import metre_on
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-_FURNITURE = 0.4  # metres: an object smaller than this is a model at a reduced scale, and so are its grips
 _SAME = 1e-6  # metres
 _FULL = 0.5  # of the box around a groove: less was cut where what looked solid is not
 
@@ -47,7 +47,7 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     joint_motion = scene.joint_motions.get(moving_id)
     if joint_motion is None:
         return _no_grip(moving_id, Reason.NO_MOTION)
-    scale = min(1.0, scene.extent / _FURNITURE)
+    scale = metre_on(scene.extent)
     front = front_of(scene.parts[moving.id].mesh, joint_motion, config)
     part = front_part(scene, moving_id, front)
     if part.id != moving_id:

@@ -10,8 +10,6 @@ NO_HANDLE = "none"
 ANY_GRIP = "grip"
 """... and of one that gets whichever grip fits."""
 
-_COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
-
 
 @final
 @dataclass(frozen=True)
@@ -63,7 +61,7 @@ class GraspConfig:
 @final
 @dataclass(frozen=True)
 class HandleConfig:
-    """Which handles are added, how large, and where; see `size_factor` for models of another scale.
+    """Which handles are added, how large, and where; see `grafu.scene.scale` for models of another scale.
 
     Raises:
         ValueError: if a length or fraction is out of its range, or there are fewer than two poses.
@@ -109,15 +107,6 @@ class HandleConfig:
             raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")
         if self.poses < 2:
             raise ValueError(f"`HandleConfig.poses` must be at least 2: got {self.poses}")
-
-
-def size_factor(extent: float) -> float:
-    """Returns by how much hands and handles are scaled for an object whose largest side is `extent` metres.
-
-    It is 1 for furniture between half a metre and four metres; what is smaller or larger was modelled in another scale.
-    """
-    low, high = _COMMON
-    return min(extent / low, 1.0) if extent < high else extent / high
 
 
 @final

@@ -6,11 +6,12 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.handle.config import HandleConfig, size_factor
+from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.front import Front, front_of
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material
 from grafu.geometry.box import Box
+from grafu.scene.scale import metre_on
 from grafu.scene.scene import Scene
 from grafu.templates.handles import HANDLES, handle_template
 from grafu.templates.solids import BLACK, BRASS, BRONZE, NICKEL, STEEL
@@ -77,7 +78,7 @@ def choose_style(
     Raises:
         TemplateError: if the config names no template that there is.
     """
-    factor = size_factor(extent)
+    factor = metre_on(extent)
     alike = () if config.finish else tuple(s.part for s in siblings)
     finish = FINISHES.get(config.finish, STEEL)
     if config.style or not siblings:

@@ -13,7 +13,7 @@ from shapely.geometry.base import BaseGeometry
 
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.likeness import surface_like
-from grafu.additions.top.config import DEFAULT_TOP, TopConfig, metre_of
+from grafu.additions.top.config import DEFAULT_TOP, TopConfig
 from grafu.additions.top.coverage import Coverage, coverage_of
 from grafu.additions.top.cutouts import cutouts_of, thick_enough
 from grafu.additions.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
@@ -43,6 +43,7 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.plan import JointRequest
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 _BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
@@ -123,7 +124,7 @@ def missing_top(
     roles = roles_of(parts, moving_bodies)
     if roles is None:
         return TopVerdict(True, 1.0, "nothing has a surface")
-    metre = metre_of(float(Box.enclosing(p.box for p in parts).size.max()))
+    metre = metre_on(float(Box.enclosing(p.box for p in parts).size.max()))
     views, coverage, basins = _seen(roles, config, metre)
     verdict = _judged(roles, views, coverage, config, metre, hint)
     if verdict.covered:

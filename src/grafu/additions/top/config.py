@@ -7,9 +7,6 @@ from grafu.joints.config import require_not_negative, require_positive, require_
 
 TopShape = Literal["rectangle", "rounded", "chamfered"]
 
-# A largest side outside of these is no furniture in metres (normalised data, centimetres): lengths scale with it.
-_SMALLEST, _LARGEST = 0.3, 4.0
-
 
 @final
 @dataclass(frozen=True)
@@ -50,8 +47,3 @@ class TopConfig:
 
 
 DEFAULT_TOP = TopConfig()
-
-
-def metre_of(extent: float) -> float:
-    """Returns how long one metre is on an object whose largest side is `extent`: 1 unless its size is impossible."""
-    return 1.0 if _SMALLEST <= extent <= _LARGEST or extent <= 0 else extent

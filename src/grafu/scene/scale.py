@@ -1,0 +1,15 @@
+"""The scale of furniture, one answer for all: how long one metre is on it."""
+
+_COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
+
+
+def metre_on(extent: float) -> float:
+    """Returns how long one metre of real furniture is on an object whose largest side is `extent` metres.
+
+    It is 1 for furniture between half a metre and four metres; what is smaller or larger was modelled in another scale,
+    and all that is added to it is smaller or larger, too. It is 1 for an object without extent.
+    """
+    low, high = _COMMON
+    if extent <= 0:
+        return 1.0
+    return min(extent / low, 1.0) if extent < high else extent / high
