@@ -3,9 +3,14 @@ from math import pi
 import numpy as np
 import pytest
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.asset.options import LoadOptions
+from grafu.asset.part import AnnotatedJoint, moved_joints
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
-from grafu.vocabulary import PartLabel
+from grafu.geometry.axis import Axis
+from grafu.graph.parse import parse_graph
+from grafu.pipeline.inspection import inspect
+from grafu.vocabulary import JointType, PartLabel
 from small_assets import load_annotated, urdf_text, write_urdf
 
 
@@ -29,6 +34,42 @@ def test_the_folder_of_a_urdf_reads_the_same(tmp_path):
 def test_continuous_joints_are_unlimited(tmp_path):
     asset = load_annotated(write_urdf(tmp_path, urdf_text(door_type="continuous")))
     assert not asset.joints[0].limited
+
+
+def coupled(mimic: str) -> str:
+    """A second leaf on the door whose hinge follows the door's."""
+    return urdf_text(
+        '<link name="leaf_door"><visual><origin xyz="0.2 0 0.5"/><geometry><box size="0.3 0.02 0.8"/></geometry>'
+        '</visual></link><joint name="leaf_joint" type="revolute"><parent link="door_link"/><child link="leaf_door"/>'
+        f'<axis xyz="0 0 -1"/><limit lower="-3" upper="0"/>{mimic}</joint>'
+    )
+
+
+def test_which_joint_a_joint_follows_is_read(tmp_path):
+    mimic = '<mimic joint="door_joint" multiplier="-2" offset="0.1"/>'
+    asset = load_annotated(write_urdf(tmp_path, coupled(mimic)))
+    joint = next(joint for joint in asset.joints if joint.part == "leaf_door")
+    assert joint.coupling == Coupling("door_link", -2.0, 0.1)
+    assert asset.part("leaf_door").rides_on == "door_link"
+    assert "leaf_door follows door_link, which is noted and not built" in asset.notes
+    (stated,) = (joint for joint in inspect(asset, parse_graph(asset)).joints if joint.follows)
+    assert (stated.part, stated.follows.leader, stated.follows.multiplier) == ("leaf_door", "door_link", -2.0)
+
+
+@pytest.mark.parametrize("mimic", ['<mimic joint="absent"/>', '<mimic joint="door_joint" multiplier="0"/>', ""])
+def test_what_follows_nothing_that_moves_has_no_coupling(tmp_path, mimic):
+    asset = load_annotated(write_urdf(tmp_path, coupled(mimic)))
+    assert [joint.coupling for joint in asset.joints] == [None] * 3
+
+
+def test_lengths_of_a_coupling_grow_with_the_model():
+    axis = Axis(np.zeros(3), np.eye(3)[2])
+    turn = AnnotatedJoint("a", JointType.REVOLUTE, axis, 0.0, 1.0)
+    slide = AnnotatedJoint("b", JointType.PRISMATIC, axis, 0.0, 0.4, coupling=Coupling("a", 0.3, 0.1))
+    back = AnnotatedJoint("c", JointType.REVOLUTE, axis, 0.0, 1.0, coupling=Coupling("b", 2.0, 0.5))
+    _, scaled, turned = moved_joints((turn, slide, back), 10.0 * np.eye(4), 10.0)
+    assert (scaled.coupling, scaled.upper) == (Coupling("a", 3.0, 1.0), 4.0)
+    assert (turned.coupling, turned.upper) == (Coupling("b", 0.2, 0.5), 1.0)
 
 
 @pytest.mark.parametrize("kind", ["floating", "planar"])

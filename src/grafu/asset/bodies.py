@@ -12,6 +12,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.drafts import PartDraft
 from grafu.asset.labels import is_control, is_piece, label_of
@@ -46,13 +47,17 @@ class Visual:
 @final
 @dataclass(frozen=True)
 class StatedMotion:
-    """How a body moves against its parent: limits as stated, radians or input units."""
+    """How a body moves against its parent: limits as stated, radians or input units.
+
+    With a `coupling` it follows the joint of another body, which it names by its link.
+    """
 
     type: JointType
     axis: Axis
     lower: float
     upper: float
     limited: bool = True
+    coupling: Coupling | None = None
 
 
 @final
@@ -117,7 +122,10 @@ def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
     body_of = {v.link: body.link for body in bodies for v in body.visuals}
     by_body = {body_of[link]: i for link, i in moving_ids.items()}
     parts = tuple(_part(d, i, by_body) for d, i in zip(drafts, ids, strict=True))
-    joints = tuple(_joint(d.motion, i) for d, i in zip(drafts, ids, strict=True) if d.motion)
+    moved = {i: d.motion for d, i in zip(drafts, ids, strict=True) if d.motion}
+    moving = {link: i for link, i in by_body.items() if i in moved}
+    joints = tuple(_joint(motion, i, moving) for i, motion in moved.items())
+    notes += [f"{j.part} follows {j.coupling.leader}, which is noted and not built" for j in joints if j.coupling]
     return Annotation(parts, joints, tuple(notes))
 
 
@@ -212,6 +220,9 @@ def _part(draft: _Draft, part_id: str, by_body: dict[str, str]) -> Part:
     return Part(part_id, draft.label, surfaces, source, draft.labelled_by, carrier)  # type: ignore[arg-type]
 
 
-def _joint(motion: StatedMotion, part_id: str) -> AnnotatedJoint:
+def _joint(motion: StatedMotion, part_id: str, moving: dict[str, str]) -> AnnotatedJoint:
+    """Returns the joint of a part; `moving` are the parts with a joint, by the link of their body."""
     low, high = sorted((motion.lower, motion.upper))
-    return AnnotatedJoint(part_id, motion.type, motion.axis, low, high, motion.limited)
+    stated = motion.coupling
+    coupling = replace(stated, leader=moving[stated.leader]) if stated and stated.leader in moving else None
+    return AnnotatedJoint(part_id, motion.type, motion.axis, low, high, motion.limited, coupling=coupling)

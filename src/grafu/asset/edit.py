@@ -9,8 +9,7 @@ from typing import Literal
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
-from grafu.articulation.motion_kind import motion_kind
-from grafu.asset.part import AnnotatedJoint, Annotation, Asset, Frame, Part
+from grafu.asset.part import Annotation, Asset, Frame, Part, moved_joints
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.transform import from_rotation, reflection, rotation_matrix, scale_of, translation
 
@@ -30,7 +29,7 @@ def moved(asset: Asset, T: Mat4) -> Asset:
     return replace(
         asset,
         parts=tuple(_moved_part(part, T) for part in asset.parts),
-        joints=tuple(_moved_joint(joint, T, scale) for joint in asset.joints),
+        joints=moved_joints(asset.joints, T, scale),
         annotation=asset.annotation and _moved_annotation(asset.annotation, T, scale),
         frame=Frame(T @ frame.input_to_output, frame.up, frame.front, frame.scale * scale, frame.assumed),
     )
@@ -71,15 +70,8 @@ def as_static_object(asset: Asset) -> ArticulatedObject:
 
 def _moved_annotation(annotation: Annotation, T: Mat4, scale: float) -> Annotation:
     parts = tuple(_moved_part(part, T) for part in annotation.parts)
-    return replace(annotation, parts=parts, joints=tuple(_moved_joint(j, T, scale) for j in annotation.joints))
+    return replace(annotation, parts=parts, joints=moved_joints(annotation.joints, T, scale))
 
 
 def _moved_part(part: Part, T: Mat4) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
-
-
-def _moved_joint(joint: AnnotatedJoint, T: Mat4, scale: float) -> AnnotatedJoint:
-    kind = motion_kind(joint.type)
-    growth = kind.length_scale(scale)
-    axis = kind.mapped_axis(joint.axis, T)
-    return replace(joint, axis=axis, lower=joint.lower * growth, upper=joint.upper * growth)

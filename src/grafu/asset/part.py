@@ -1,11 +1,14 @@
 """What every reader returns: an asset of parts in the object frame. It reads no files."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.articulation.articulated_object import Coupling
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.labels import label_of
 from grafu.errors import AssetError
 from grafu.geometry.appearance import Surface
@@ -74,7 +77,7 @@ class AnnotatedJoint:
 
     Limits are radians or metres along `axis`; unlike a `Joint`'s they may be negative, reversed or not start at 0,
     and `limited=False` says that the input states none. `stated_by` names who predicted it, where the input did not
-    state it.
+    state it. With a `coupling` the input says that it follows the joint of another part, which it names.
     """
 
     part: str
@@ -84,6 +87,7 @@ class AnnotatedJoint:
     upper: float
     limited: bool = True
     stated_by: str = "annotation"
+    coupling: Coupling | None = None
 
 
 @final
@@ -208,11 +212,28 @@ class Asset:
         return replace(self, parts=parts)
 
 
+def moved_joints(joints: Sequence[AnnotatedJoint], T: Mat4, scale: float) -> tuple[AnnotatedJoint, ...]:
+    """Returns joints mapped by T, which makes lengths `scale` times as long: limits and couplings too."""
+    growth = {joint.part: motion_kind(joint.type).length_scale(scale) for joint in joints}
+
+    def moved(joint: AnnotatedJoint) -> AnnotatedJoint:
+        kind, coupling = motion_kind(joint.type), joint.coupling
+        own = kind.length_scale(scale)
+        if coupling is not None:
+            multiplier = coupling.multiplier * own / growth[coupling.leader]
+            coupling = replace(coupling, multiplier=multiplier, offset=coupling.offset * own)
+        axis = kind.mapped_axis(joint.axis, T)
+        return replace(joint, axis=axis, lower=joint.lower * own, upper=joint.upper * own, coupling=coupling)
+
+    return tuple(map(moved, joints))
+
+
 def _check_names(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], whose: str) -> None:
     known = {part.id for part in parts}
     if len(known) < len(parts):
         raise AssetError(f"part ids must be unique: {whose} repeats one")
     named = {joint.part for joint in joints} | {p.rides_on for p in parts if p.rides_on}
+    named |= {joint.coupling.leader for joint in joints if joint.coupling}
     if not named <= known:
         raise AssetError(f"joints and attached parts must name parts: {whose} lacks {sorted(named - known)}")
 

@@ -9,9 +9,8 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.attached_parts import with_attached
-from grafu.asset.part import AnnotatedJoint, Annotation, AssetKind, Frame, Part
+from grafu.asset.part import Annotation, AssetKind, Frame, Part, moved_joints
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mask
 from grafu.geometry.mesh import TriangleMesh
@@ -55,7 +54,7 @@ class Placing:
 
     def annotation(self, annotation: Annotation) -> Annotation:
         """Returns an annotation in the object frame, slides in metres."""
-        joints = tuple(map(self._joint, annotation.joints))
+        joints = moved_joints(annotation.joints, self._T, self._frame.scale)
         return replace(annotation, parts=self.parts(annotation.parts), joints=joints)
 
     def _surface(self, surface: Surface) -> Surface:
@@ -63,11 +62,6 @@ class Placing:
         if key not in self._made:
             self._made[key] = surface, surface.transformed(self._T)
         return replace(self._made[key][1], name=surface.name)
-
-    def _joint(self, joint: AnnotatedJoint) -> AnnotatedJoint:
-        kind = motion_kind(joint.type)
-        axis, metres = kind.mapped_axis(joint.axis, self._T), kind.length_scale(self._frame.scale)
-        return replace(joint, axis=axis, lower=joint.lower * metres, upper=joint.upper * metres)
 
 
 Furniture = Literal["storage", "table"]

@@ -3,29 +3,27 @@
 Everything comes out in the coordinates of the root link, every joint at zero. It settles no frame.
 """
 
-import math
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, kind_named
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
-from grafu.asset.json_files import spelled
 from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
-from grafu.asset.urdf_shapes import ShapeReader, read_xml
+from grafu.asset.urdf_shapes import ShapeReader, numbers, origin_of, read_xml
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
-from grafu.geometry.transform import from_rotation, invert
+from grafu.geometry.transform import invert
 from grafu.vocabulary import PartLabel
 
 CONVENTION = Convention("the format (URDF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
@@ -59,6 +57,7 @@ class _JointElement:
     lower: float
     upper: float
     limited: bool
+    mimic: Coupling | None = None
 
 
 @final
@@ -172,37 +171,21 @@ def _joint_element(element: Any, path: Path) -> _JointElement:
     direction = numbers(axis.get("xyz") if axis is not None else None, (1.0, 0.0, 0.0), path)
     limited = kind != "continuous" and limit is not None and lower != upper
     parent, child = (end.get("link", "") for end in ends)
-    return _JointElement(name, kind, parent, child, origin_of(element, path), direction, lower, upper, limited)
+    mimic = _mimic(element, path)
+    return _JointElement(name, kind, parent, child, origin_of(element, path), direction, lower, upper, limited, mimic)
+
+
+def _mimic(element: Any, path: Path) -> Coupling | None:
+    """Returns which joint a joint follows; None where it follows none, or would stand still (a multiplier of 0)."""
+    mimic = element.find("mimic")
+    if mimic is None:
+        return None
+    ((multiplier,), (offset,)) = (numbers(mimic.get(k), (v,), path) for k, v in (("multiplier", 1.0), ("offset", 0.0)))
+    return Coupling(mimic.get("joint", ""), multiplier, offset) if multiplier else None
 
 
 def _number(element: Any, key: str, path: Path) -> float:
     return numbers(element.get(key) if element is not None else None, (0.0,), path)[0]
-
-
-def numbers(text: str | None, default: tuple[float, ...], path: Path) -> tuple[float, ...]:
-    """Returns as many finite numbers as the default has, or the default where there is no text.
-
-    Raises:
-        UnreadableAsset: if the text holds something else.
-    """
-    if text is None:
-        return default
-    try:
-        values = tuple(float(v) for v in text.split())
-    except ValueError:
-        values = ()
-    if len(values) != len(default) or not all(math.isfinite(v) for v in values):
-        raise UnreadableAsset(f"{path}: expected {len(default)} finite numbers, got {spelled(text)}; mend the URDF")
-    return values
-
-
-def origin_of(element: Any, path: Path) -> Mat4:
-    """Returns the transform of an element's `<origin>` (identity where there is none): fixed-axis roll, pitch, yaw."""
-    origin = element.find("origin")
-    if origin is None:
-        return np.eye(4)
-    R = Rotation.from_euler("xyz", numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path))
-    return from_rotation(R.as_matrix(), np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
 
 
 def _kind(joint: _JointElement) -> MotionKind | None:
@@ -280,8 +263,15 @@ def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[Visual, 
         return Body(head, head, visuals, parent=parent, is_loose=True)
     T = T_base_root @ tree.T_root_link[head]
     axis = Axis(T[:3, 3], T[:3, :3] @ np.array(joint.axis))
-    motion = StatedMotion(kind.type, axis, joint.lower, joint.upper, joint.limited)
+    coupling = joint.mimic and _by_link(tree, joint.mimic)
+    motion = StatedMotion(kind.type, axis, joint.lower, joint.upper, joint.limited, coupling)
     return Body(head, head, visuals, motion, parent)
+
+
+def _by_link(tree: _Tree, mimic: Coupling) -> Coupling | None:
+    """Returns a coupling that names the link which its leader moves; None where that joint is not there."""
+    link = next((link for link, joint in tree.above.items() if joint.name == mimic.leader and _moves(joint)), None)
+    return None if link is None else replace(mimic, leader=link)
 
 
 def _materials(robot: Any) -> dict[str, Any]:

@@ -6,12 +6,14 @@ the URDF, or the folder that the user gave. Where neither is known and the URDF 
 `robots`, its package is the folder above, and of that only the folders that packages keep meshes and images in.
 """
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
 from lxml import etree
+from scipy.spatial.transform import Rotation
 
 from grafu.asset.gltf import read_surfaces
 from grafu.asset.json_files import spelled
@@ -19,7 +21,35 @@ from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
 from grafu.asset.resources import MISSING, OUTSIDE, ModelFiles, Sought
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import from_rotation
+
+
+def numbers(text: str | None, default: tuple[float, ...], path: Path) -> tuple[float, ...]:
+    """Returns as many finite numbers as the default has, or the default where there is no text.
+
+    Raises:
+        UnreadableAsset: if the text holds something else.
+    """
+    if text is None:
+        return default
+    try:
+        values = tuple(float(v) for v in text.split())
+    except ValueError:
+        values = ()
+    if len(values) != len(default) or not all(math.isfinite(v) for v in values):
+        raise UnreadableAsset(f"{path}: expected {len(default)} finite numbers, got {spelled(text)}; mend the URDF")
+    return values
+
+
+def origin_of(element: Any, path: Path) -> Mat4:
+    """Returns the transform of an element's `<origin>` (identity where there is none): fixed-axis roll, pitch, yaw."""
+    origin = element.find("origin")
+    if origin is None:
+        return np.eye(4)
+    R = Rotation.from_euler("xyz", numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path))
+    return from_rotation(R.as_matrix(), np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
 
 
 def read_xml(path: Path, files: ModelFiles) -> Any:

@@ -7,9 +7,18 @@ from pydantic import Field, FiniteFloat
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.pipeline.deficiencies import find_deficiencies
-from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
+from grafu.pipeline.records import (
+    axis_record,
+    coupling_record,
+    deficiency_record,
+    frame_record,
+    input_record,
+    source_record,
+    vector,
+)
 from grafu.pipeline.report_schema import (
     AxisRecord,
+    CouplingRecord,
     DeficiencyRecord,
     FrameRecord,
     InputRecord,
@@ -43,6 +52,7 @@ class StatedJoint(ReportRecord):
     axis: AxisRecord = Field(description="the axis as stated, in the output's frame")
     lower: FiniteFloat | None = Field(description="the lower limit as stated, radians or metres; null: none stated")
     upper: FiniteFloat | None = Field(description="the upper limit as stated; null: none stated")
+    follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
 
 
 class Inspection(ReportRecord):
@@ -92,4 +102,5 @@ def _joint(joint: AnnotatedJoint) -> StatedJoint:
         axis=axis_record(joint.axis),
         lower=joint.lower if joint.limited else None,
         upper=joint.upper if joint.limited else None,
+        follows=coupling_record(joint.coupling),
     )

@@ -1,10 +1,21 @@
 """Values of the stages as records of the JSON forms, for report and inspection alike. It decides nothing."""
 
+from dataclasses import asdict
+
 from grafu.additions.step import Deficiency
+from grafu.articulation.articulated_object import Coupling
 from grafu.asset.part import Asset, Frame, PartSource
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
-from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, FrameRecord, InputRecord, SourceRecord, Vector
+from grafu.pipeline.report_schema import (
+    AxisRecord,
+    CouplingRecord,
+    DeficiencyRecord,
+    FrameRecord,
+    InputRecord,
+    SourceRecord,
+    Vector,
+)
 
 
 def frame_record(frame: Frame) -> FrameRecord:
@@ -28,6 +39,11 @@ def source_record(source: PartSource) -> SourceRecord:
 def axis_record(axis: Axis) -> AxisRecord:
     """Returns a line in space."""
     return AxisRecord(origin=vector(axis.point), direction=vector(axis.direction))
+
+
+def coupling_record(coupling: Coupling | None) -> CouplingRecord | None:
+    """Returns how a joint follows another; None where it follows none."""
+    return None if coupling is None else CouplingRecord(**asdict(coupling))
 
 
 def vector(values: Vec3) -> Vector:

@@ -11,7 +11,15 @@ from grafu.pipeline.certainty import guesses_of
 from grafu.pipeline.deficiencies import find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.move_options import move_options
-from grafu.pipeline.records import axis_record, deficiency_record, frame_record, input_record, source_record, vector
+from grafu.pipeline.records import (
+    axis_record,
+    coupling_record,
+    deficiency_record,
+    frame_record,
+    input_record,
+    source_record,
+    vector,
+)
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
     AddedRecord,
@@ -141,6 +149,8 @@ def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
         collision_share=made.collision_share,
         largest_gap=made.largest_gap,
         after=joint.after,
+        parent=joint.parent,
+        follows=coupling_record(joint.coupling),
         grasp=grasp,
         clearances=tuple(ClearanceRecord(**asdict(clearance)) for clearance in made.clearances),
         notes=made.notes,

@@ -90,6 +90,14 @@ class AxisRecord(ReportRecord):
     direction: Vector = Field(description="its unit direction; positive motion opens, by the right-hand rule")
 
 
+class CouplingRecord(ReportRecord):
+    """A joint follows another, its leader: value = multiplier x the leader's value + offset."""
+
+    leader: str = Field(description="the joint that it follows; of stated joints the part that this one moves")
+    multiplier: float = Field(description="how far it moves for each unit of the leader's value")
+    offset: float = Field(description="its value where the leader's is 0, radians or metres")
+
+
 class ClearanceRecord(ReportRecord):
     """Material that was taken away so that a part can move."""
 
@@ -131,6 +139,8 @@ class JointRecord(ReportRecord):
     collision_share: Ratio = Field(description="fraction of poses in which it still cuts into something")
     largest_gap: float = Field(description="the widest gap between the link and what carries it, over the motion")
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
+    parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not said")
+    follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
     grasp: Grasp = Field(description="how it can be grasped")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="anything else worth knowing")
