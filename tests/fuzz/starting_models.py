@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from collada_documents import collada_text, write_collada
 from fuzz.bombs import png_of
 from grafu.geometry.mesh import TriangleMesh
 from small_assets import (
@@ -141,6 +142,12 @@ def sweet_home(folder: Path) -> str:
     return "cabinet.obj"
 
 
+def collada(folder: Path) -> str:
+    text = collada_text(materials={"shelf-6": "steel", "handle-8": "glass"}, below={"drawer_front-9": "drawer_1"})
+    write_collada(folder, text, PNG)
+    return "cabinet.dae"
+
+
 def urdf(folder: Path) -> str:
     write_urdf(folder)
     path = folder / "cabinet.urdf"
@@ -207,6 +214,7 @@ MODELS: dict[str, Maker] = {
     "folder of stl": stl_folder,
     "folder of ply": ply_folder,
     "sweet home": sweet_home,
+    "collada": collada,
     "urdf": urdf,
     "partnet-mobility": partnet_mobility,
     "partnet-mobility urdf": partnet_mobility_urdf,

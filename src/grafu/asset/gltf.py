@@ -1,29 +1,23 @@
-"""glTF scenes: nodes with meshes are parts, in world coordinates, hierarchy used. It settles no frame.
-
-Nodes below a node that is named as one whole door or drawer (`drawer_1` over `front`, `side`, ...) become one part;
-handles among them ride on it. Every other node with a mesh is a part of its own.
-"""
+"""glTF scenes: nodes with meshes are parts, in the scene's coordinates. It settles no frame."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import final
 
 import numpy as np
 
-from grafu.asset.drafts import PartDraft, parts_of_drafts
+from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.json_files import JsonObject
-from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
+from grafu.asset.scene_nodes import Chain, SceneNode, drafts_of_nodes
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation, quaternion_matrix
-from grafu.vocabulary import PartLabel
 
 _LARGEST = 1e12  # of a number in a node's transform: products of some of them stay finite
 CONVENTION = Convention("the format (glTF: metres, Y up, front +Z)", up="+Y", front="+Z", unit=1.0)
@@ -35,7 +29,7 @@ class _Node:
     """A node with a mesh: its name, the nodes from the scene down to itself, and its pose in the scene."""
 
     name: str
-    chain: tuple[tuple[int, str], ...]
+    chain: Chain
     mesh: int
     T_scene_node: Mat4
 
@@ -50,8 +44,8 @@ def read_gltf(path: Path, options: LoadOptions, files: ModelFiles | None = None)
     file = read_gltf_file(path, files or ModelFiles(path, options.limits))
     meshes, nodes = _counted(file)
     check_parts(len(nodes), path, options.limits)
-    wholes = _whole_nodes(file, nodes)
-    drafts = [_draft(node, meshes, wholes) for node in nodes]
+    by_name = not str(file.document.member("asset").get("generator")).startswith("grafu")  # it writes a node per part
+    drafts = drafts_of_nodes([_scene_node(node, meshes) for node in nodes], path.name, by_name)
     notes = (["animations are not read as joints"] if file.document.array("animations") else []) + meshes.notes
     parts = parts_of_drafts(drafts)
     return Reading("glb", parts, CONVENTION, notes=tuple(dict.fromkeys(notes)))
@@ -87,37 +81,16 @@ def _counted(file: GltfFile) -> tuple[GltfMeshes, list[_Node]]:
     return meshes, nodes
 
 
-def _draft(node: _Node, meshes: GltfMeshes, wholes: set[int]) -> PartDraft:
-    identity = np.array_equal(node.T_scene_node, np.eye(4))
+def _scene_node(node: _Node, meshes: GltfMeshes) -> SceneNode:
     surfaces = meshes.get(node.mesh)
-    surfaces = surfaces if identity else tuple(s.transformed(node.T_scene_node) for s in surfaces)
-    file = meshes.file.path.name
-    group = next(((i, name) for i, name in node.chain if i in wholes), None)
-    if group is not None:
-        return PartDraft(node.name, surfaces, group=f"node {group[0]}", group_name=group[1], file=file)
-    # Exporters often name a mesh's parent and not the mesh; the scene's own root says nothing of its parts.
-    parent = node.chain[-2][1] if len(node.chain) > 2 else ""
-    borrowed = parent if label_of(node.name) is PartLabel.UNKNOWN else ""
-    return PartDraft(node.name, surfaces, label_name=borrowed, file=file)
-
-
-def _whole_nodes(file: GltfFile, nodes: list[_Node]) -> set[int]:
-    """Returns the nodes that stand over the pieces of one door or drawer: well named, and not over several such."""
-    if str(file.document.member("asset").get("generator")).startswith("grafu"):
-        return set()  # grafu writes one node per part below its links
-    above = {i for node in nodes for i, _ in node.chain[:-1]}
-    below: dict[int, set[int]] = {}
-    for node in nodes:
-        chain = [i for i, name in node.chain if is_whole_part(name)]
-        for upper, lower in pairwise(chain):
-            below.setdefault(upper, set()).add(lower)
-    named = {i for node in nodes for i, name in node.chain if is_whole_part(name)}
-    return {i for i in named & above if len(below.get(i, ())) < 2}
+    if not np.array_equal(node.T_scene_node, np.eye(4)):
+        surfaces = tuple(s.transformed(node.T_scene_node) for s in surfaces)
+    return SceneNode(node.name, node.chain, surfaces)
 
 
 def _scene_nodes(file: GltfFile) -> Iterator[_Node]:
     limits = file.files.limits
-    stack: list[tuple[int, Mat4, tuple[tuple[int, str], ...]]] = [(r, np.eye(4), ()) for r in reversed(_roots(file))]
+    stack: list[tuple[int, Mat4, Chain]] = [(r, np.eye(4), ()) for r in reversed(_roots(file))]
     seen: set[int] = set()
     while stack:
         index, T, above = stack.pop()

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+from grafu.asset.collada import read_collada
 from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.folder import divide, looked_for_fronts, mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.folders import files_below
@@ -37,17 +38,19 @@ READERS: Final[dict[str, Reader]] = {
     "hssd": read_hssd,
     "urdf": read_urdf,
     "gltf": read_gltf,
+    "collada": read_collada,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
 _EXPECTED = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB or glTF scene, an OBJ with groups, or a folder of meshes"
+    "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB, glTF or COLLADA scene, an OBJ with groups, or a "
+    "folder of meshes"
 )
 
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
 # What people try, by the way it ends, and what they can do with it.
 _WAYS_IN: Final[dict[str, str]] = {
-    **dict.fromkeys((".fbx", ".blend", ".dae", ".3ds", ".max", ".skp", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
+    **dict.fromkeys((".fbx", ".blend", ".3ds", ".max", ".skp", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
     **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".step", ".stp", ".iges", ".igs"), _AS_GLB),
     **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
     **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
@@ -134,6 +137,8 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "urdf", path
     if suffix in (".glb", ".gltf") or head[:4] == b"glTF":
         return "gltf", path
+    if suffix == ".dae" or b"<COLLADA" in head:
+        return "collada", path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
     way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""
@@ -143,7 +148,7 @@ def _detect_file(path: Path) -> tuple[str, Path]:
 def _detect_folder(folder: Path) -> tuple[str, Path]:
     if is_partnet_mobility(folder):
         return "partnet-mobility", folder
-    for kind, suffixes in (("urdf", (".urdf",)), ("gltf", (".glb", ".gltf"))):
+    for kind, suffixes in (("urdf", (".urdf",)), ("gltf", (".glb", ".gltf")), ("collada", (".dae",))):
         found = files_below(folder, suffixes)
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]

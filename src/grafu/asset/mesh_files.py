@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Int
 
 from grafu.asset.obj_parser import ObjData, parse_obj, triangulate
 from grafu.asset.reading import MeshFile, MeshPiece
@@ -15,6 +16,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import read_with_trimesh
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.arrays import Points
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -59,8 +61,8 @@ def _material(name: str, entries: dict[str, str], folder: Path, files: ModelFile
     if "d" not in entries and "tr" in entries:
         alpha = 1.0 - _floats(entries["tr"], (0.0,))[0]
     shininess = _floats(entries.get("ns", ""), (10.0,))[0]
-    texture = _texture(entries["map_kd"], folder, files, notes) if "map_kd" in entries else None
-    red, green, blue = (_linear(c) for c in diffuse)
+    texture = named_texture(entries["map_kd"], folder, files, notes) if "map_kd" in entries else None
+    red, green, blue = (linear_channel(c) for c in diffuse)
     # Exporters write Kd 0 under a texture that is meant to show as it is.
     color = (1.0, 1.0, 1.0) if texture and max(diffuse) <= 0 else (red, green, blue)
     return Material(
@@ -73,7 +75,8 @@ def _material(name: str, entries: dict[str, str], folder: Path, files: ModelFile
     )
 
 
-def _texture(value: str, folder: Path, files: ModelFiles, notes: list[str]) -> Texture | None:
+def named_texture(value: str, folder: Path, files: ModelFiles, notes: list[str]) -> Texture | None:
+    """Returns the image that a mesh in `folder` names, checked; None, and a note, where it cannot be had."""
     # Options such as `-s 1 1 1` stand before the file name; names may hold spaces, so the whole value is tried first.
     names = dict.fromkeys((value, value.split()[-1] if value.split() else value))
     tried = [files.seek(name.replace("\\", "/"), folder) for name in names]
@@ -96,7 +99,8 @@ def _floats(value: str, default: tuple[float, ...]) -> tuple[float, ...]:
     return numbers if len(numbers) == len(default) and all(map(math.isfinite, numbers)) else default
 
 
-def _linear(srgb: float) -> float:
+def linear_channel(srgb: float) -> float:
+    """Returns a channel of a colour in sRGB as a linear one, both 0..1."""
     c = min(max(srgb, 0.0), 1.0)
     return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
 
@@ -154,20 +158,41 @@ def _piece(name: str, obj: ObjData, runs: dict[str, list[np.ndarray]], materials
 
 
 def _obj_surface(obj: ObjData, triangles: np.ndarray, material: Material) -> Surface:
-    """Returns the triangles as one surface; a vertex is split where texture coordinates or normals differ."""
     corners = obj.corners[triangles.ravel()]
+    return surface_of_corners(corners, obj.vertices, obj.uv, obj.normals, obj.colors, material)
+
+
+def surface_of_corners(
+    corners: Int[np.ndarray, "m 3"],
+    vertices: Points,
+    uv: np.ndarray,
+    normals: np.ndarray,
+    colors: np.ndarray | None,
+    material: Material,
+) -> Surface:
+    """Returns triangles as one surface; a vertex is split where texture coordinates or normals differ.
+
+    Args:
+        corners: three rows for each triangle: the index of its vertex, of its texture coordinates, and of its normal;
+            -1 where it has none.
+        vertices: positions.
+        uv: texture coordinates, origin at the bottom left.
+        normals: normals of any length.
+        colors: one colour for each vertex, None where there are none.
+        material: the material of all triangles.
+    """
     has_uv, has_normals = len(corners) and (corners[:, 1] >= 0).all(), len(corners) and (corners[:, 2] >= 0).all()
     keys = corners[:, 0].copy()
     if has_uv:
-        keys = keys * len(obj.uv) + corners[:, 1]
+        keys = keys * len(uv) + corners[:, 1]
     if has_normals:
-        keys = keys * len(obj.normals) + corners[:, 2]
+        keys = keys * len(normals) + corners[:, 2]
     _, first, index = np.unique(keys, return_index=True, return_inverse=True)
     used = corners[first]
-    normals = _unit(obj.normals[used[:, 2]]) if has_normals else None
-    colors = obj.colors[used[:, 0]] if obj.colors is not None else None
-    mesh = TriangleMesh(obj.vertices[used[:, 0]], index.reshape(-1, 3))
-    return Surface(mesh, material, obj.uv[used[:, 1]] if has_uv else None, normals, colors)
+    units = _unit(normals[used[:, 2]]) if has_normals else None
+    mesh = TriangleMesh(vertices[used[:, 0]], index.reshape(-1, 3))
+    shown = colors[used[:, 0]] if colors is not None else None
+    return Surface(mesh, material, uv[used[:, 1]] if has_uv else None, units, shown)
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Files that other people's libraries read: PLY and STL to surfaces by trimesh, NumPy's arrays; and their guard.
+"""Files that other people's libraries read: PLY and STL by trimesh, XML by lxml, NumPy's arrays; and their guard.
 
 Whatever such a reader raises, the file is damaged. The guard stands around the library's call alone: around our own
 code it would hide our own faults. Of arrays nothing is unpickled, and no memory is taken that the file does not hold.
@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from lxml import etree
 
-from grafu.asset.options import Tally
+from grafu.asset.options import Limits, Tally
 from grafu.asset.reading import MeshFile, MeshPiece
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
@@ -41,6 +42,29 @@ def library_call(where: object, expected: str) -> Iterator[None]:
         raise
     except Exception as error:
         raise UnreadableAsset(f"{where} is damaged or of another kind: expected {expected}") from error
+
+
+def parse_xml(data: bytes, path: Path, expected: str, limits: Limits) -> Any:
+    """Returns the root element of XML; `expected` says in words what the file at `path` should be.
+
+    Raises:
+        UnreadableAsset: if it is not XML, nested more than 255 elements deep, or declares a document type: its entities
+            are a known way to exhaust memory and to read other files.
+        AssetTooLarge: if it is larger than the limits allow.
+    """
+    limits.require("values", data.count(b"<") + data.count(b"="), path)
+    # libxml2's own limits hold as long as `huge_tree` is not asked for: depth, length of texts, growth by entities
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True)
+    try:
+        root = etree.fromstring(data, parser)
+    except (etree.XMLSyntaxError, ValueError, LookupError) as error:  # text beside an encoding it does not have
+        reason = (str(error).splitlines() or [""])[0]
+        raise UnreadableAsset(f"{path} is not readable XML ({reason}): expected {expected}") from None
+    if root.getroottree().docinfo.internalDTD is not None:
+        raise UnreadableAsset(
+            f"{path} declares a document type or XML entities, which are refused: expected {expected} without them"
+        )
+    return root
 
 
 _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}

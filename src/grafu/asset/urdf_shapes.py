@@ -12,13 +12,14 @@ from pathlib import Path
 from typing import Any, final
 
 import numpy as np
-from lxml import etree
 from scipy.spatial.transform import Rotation
 
+from grafu.asset.collada import read_collada_surfaces
 from grafu.asset.gltf import read_surfaces
 from grafu.asset.json_files import spelled
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
 from grafu.asset.resources import MISSING, OUTSIDE, ModelFiles, Sought
+from grafu.asset.scan_files import parse_xml
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4
@@ -53,27 +54,8 @@ def origin_of(element: Any, path: Path) -> Mat4:
 
 
 def read_xml(path: Path, files: ModelFiles) -> Any:
-    """Returns the root element of an XML file of a model.
-
-    Raises:
-        UnreadableAsset: if the file is missing, not XML, nested more than 255 elements deep, or declares a document
-            type: its entities are a known way to exhaust memory and to read other files.
-        AssetTooLarge: if it is larger than the limits allow.
-    """
-    data = files.read(path)
-    files.limits.require("values", data.count(b"<") + data.count(b"="), path)
-    # libxml2's own limits hold as long as `huge_tree` is not asked for: depth, length of texts, growth by entities
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True)
-    try:
-        root = etree.fromstring(data, parser)
-    except (etree.XMLSyntaxError, ValueError, LookupError) as error:  # text beside an encoding it does not have
-        reason = (str(error).splitlines() or [""])[0]
-        raise UnreadableAsset(f"{path} is not readable XML ({reason}): expected a URDF") from None
-    if root.getroottree().docinfo.internalDTD is not None:
-        raise UnreadableAsset(
-            f"{path} declares a document type or XML entities, which are refused: expected plain URDF"
-        )
-    return root
+    """Returns the root element of a URDF of a model; see `parse_xml`."""
+    return parse_xml(files.read(path), path, "a URDF", files.limits)
 
 
 _LEVELS = 4
@@ -180,6 +162,10 @@ class ShapeReader:
     def _load(self, path: Path) -> tuple[Surface, ...] | None:
         if path.suffix.lower() in (".glb", ".gltf"):
             return read_surfaces(path, self.files)
+        if path.suffix.lower() == ".dae":
+            surfaces, notes = read_collada_surfaces(path, self.files)
+            self.notes += notes
+            return surfaces
         if path.suffix.lower() not in MESH_SUFFIXES:
             self.notes.append(f"mesh {path.name} is of a kind that is not read and was left out; convert it to OBJ")
             return None
