@@ -17,7 +17,8 @@ from grafu.version import __version__
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
-OPTIONAL = {"collada", "bpy", "pxr"}  # what only grafu.export.blend, in a process of its own, and grafu.export.usd import
+# What extras bring: COLLADA, the .blend export in a process of its own, the USD export.
+OPTIONAL = {"collada", "bpy", "pxr"}
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.
 ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")
