@@ -33,10 +33,10 @@ class Reason(StrEnum):
         return made
 
     # of a joint
-    NO_FACING_SURFACES = "no facing surfaces", "Nothing that stands still is near enough to carry a hinge or a rail."
+    NO_FACING_SURFACES = "no facing surfaces", "No static part is near enough to carry a hinge or a rail."
     BLOCKED = "blocked", "The part cannot move freely: other parts are in its way."
     NO_MOTION = "no motion", "How the part moves is not known."
-    REJECTED = "rejected", "The user decided that the part stands still."
+    REJECTED = "rejected", "The user fixed the part."
     UNSUPPORTED = "unsupported motion", "Motions of this kind are not built."
     # of anything
     TOO_COMPLEX = "too complex", "The work would take more time or memory than its part of the budget."

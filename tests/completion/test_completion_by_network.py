@@ -262,7 +262,7 @@ def test_what_nothing_carries_is_refused_with_the_reason() -> None:
     assert "sits on no door or drawer" in completion.refused[0].why  # the nearest is metres away
     assert all("the network sees no part that carries it" in r.why for r in completion.refused[1:])
     assert [r.why for r in complete(cupboard("door", "drawer"), told_nothing()).refused] == [
-        "there is no static part that could carry it: label the parts that stand still"
+        "there is no static part that could carry it: label the static parts"
     ] * 2
 
 

@@ -179,7 +179,7 @@ def test_where_all_was_stopped_nothing_moves_as_asked_and_where_nothing_could_is
     board = replace(asset, joints=(), parts=tuple(p for p in asset.parts if p.id.startswith("side")))
     nothing = verdict_of(reported(board))
 
-    assert (stopped.colour, stopped.sentence) == (Colour.GREEN, "Nothing moves, as asked.")
+    assert (stopped.colour, stopped.sentence) == (Colour.GREEN, "Nothing moves: the user fixed all parts.")
     assert (nothing.colour, [line.kind for line in nothing.lines]) == (Colour.YELLOW, [FaultKind.NOTHING_MOVES])
 
 
@@ -240,7 +240,7 @@ def test_a_part_that_is_hardly_told_from_a_drawer_is_a_guess_until_somebody_says
     [line] = verdict_of(report.model_copy(update={"guesses": (guess,)})).lines
 
     assert (line.kind, line.part) == (FaultKind.GUESSED, "top_panel")
-    assert "60 % sure, less than 80 %; drawer: 30 %" in line.why
+    assert "confidence 60 %, below 80 %; drawer: 30 %" in line.why
     sure = guess.model_copy(update={"score": LEAST_CONFIDENCE})
     assert verdict_of(report.model_copy(update={"guesses": (sure,)})).colour is Colour.GREEN
 
@@ -249,4 +249,4 @@ def test_what_the_budget_did_not_hold_is_something_to_look_at():
     verdict = verdict_of(sound(0).model_copy(update={"notes": ("no interiors: the budget was used up",)}))
 
     assert (verdict.colour, [line.kind for line in verdict.lines]) == (Colour.YELLOW, [FaultKind.NOTED])
-    assert verdict.sentence == "Works, but look at the whole (note)."
+    assert verdict.sentence == "Works, but check the whole (note)."

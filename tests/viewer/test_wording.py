@@ -23,7 +23,7 @@ def test_the_facts_say_what_moves_was_missing_and_was_added(made):
     said = facts(made.report)
 
     assert said.startswith("1 part on hinges and 1 on rails move.")
-    assert "Missing were hardware for 2 parts" in said
+    assert "Missing in the input: hardware for 2 parts" in said
     assert said.endswith("Added: 2 hinges, 2 rails and 1 handle.")
 
 
@@ -43,7 +43,7 @@ def test_stated_joints_that_nobody_read_are_said(made, unused, words):
 def test_a_report_of_nothing_says_so(made):
     empty = made.report.model_copy(update={"joints": (), "added": (), "skipped": (), "deficiencies": ()})
 
-    assert facts(empty) == "Nothing moves. Nothing was missing. Nothing was added."
+    assert facts(empty) == "Nothing moves. Nothing was missing in the input. Nothing was added."
 
 
 def test_the_boards_of_a_drawers_box_are_one_box(made):
@@ -75,9 +75,9 @@ def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
     def said(reason):
         return made.report.model_copy(update={**changes, "skipped": (skips[reason],)})
 
-    assert facts(said(Reason.REJECTED)).endswith(f"As asked, {door} stands still.")
+    assert facts(said(Reason.REJECTED)).endswith(f"Fixed by the user: {door}.")
     assert still_lacking(said(Reason.REJECTED)) == ()
-    assert "As asked" not in facts(said(Reason.BLOCKED))
+    assert "Fixed by" not in facts(said(Reason.BLOCKED))
     assert still_lacking(said(Reason.BLOCKED)) == (lack,)
 
 

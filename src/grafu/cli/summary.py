@@ -89,7 +89,7 @@ def _joints_table(report: Report) -> Table:
         if len(requests) > 1:
             table.add_row("", "", "", "", escape(f"so are {listed(requests[1:])}"))
     for part in stopped(report):
-        table.add_row(part, "still", "", "", "as asked")
+        table.add_row(part, "fixed", "", "", "by the user")
     return table
 
 

@@ -40,9 +40,7 @@ _EDGE, _UPRIGHT = 0.5, 0.7
 def hang_door(door: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the hinge of a door with the confidence of each choice, or why it gets none."""
     if not scene.supports:
-        return Refusal(
-            door.id, Reason.NO_MOTION, "there is no static part to hang it on: label the parts that stand still"
-        )
+        return Refusal(door.id, Reason.NO_MOTION, "there is no static part to hang it on: label the static parts")
     thin = door.box.thin_axis
     front, border = vote_front(door, scene), vote_border(door, scene)
     mount = vote_mount(door, border.choice, scene)

@@ -24,9 +24,7 @@ _LEAST_FLANK = 0.05
 def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer with the confidence of each choice, or why it gets none."""
     if not scene.supports:
-        return Refusal(
-            drawer.id, Reason.NO_MOTION, "there is no static part to run it on: label the parts that stand still"
-        )
+        return Refusal(drawer.id, Reason.NO_MOTION, "there is no static part to run it on: label the static parts")
     way = vote_direction(drawer, scene)
     mounts = _flanks(drawer, way.choice, scene) or _nearest(drawer, scene)
     if not mounts:

@@ -53,7 +53,7 @@ def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
     return ratios**power
 
 
-_NO_SUPPORT = "there is no static part that could carry it: label the parts that stand still"
+_NO_SUPPORT = "there is no static part that could carry it: label the static parts"
 SOME_CHANCE = 0.05  # of being the parent, where no edge says so
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 

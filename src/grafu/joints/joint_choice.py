@@ -43,7 +43,7 @@ def with_choices(
 def _require_still(part: str, mount: str, parts: Collection[str], moving: Collection[str]) -> None:
     if mount and (mount not in parts or mount in moving):
         why = "moves itself" if mount in moving else "is no part"
-        raise OptionError(f"the mount of `{part}` must be a part that stands still: {mount!r} {why}")
+        raise OptionError(f"the mount of `{part}` must be a static part: {mount!r} {why}")
 
 
 def _chosen(request: JointRequest, choice: JointChoice, parts: Mapping[str, Part], gallery: Gallery) -> JointRequest:

@@ -24,7 +24,7 @@ from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 USER = "user"
-REJECTED = "it was decided that it stands still"
+REJECTED = "the user fixed it"
 _OF_MOTIONS = ("mount", "border", "sign", "slide")
 
 Motions = Mapping[str, MotionChoice]

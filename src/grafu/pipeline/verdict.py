@@ -115,7 +115,7 @@ def _faults_of(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
         yield _fault(report, joint.part, FaultKind.LOOSE, f"by {1000 * joint.largest_gap:.1f} mm")
     yield from _short(joint, report)
     if joint.grasp == "none":
-        yield _fault(report, joint.part, FaultKind.NO_GRASP, "there is nothing to take hold of", "")
+        yield _fault(report, joint.part, FaultKind.NO_GRASP, "it has no handle, grip or free edge", "")
     yield from (_fault(report, joint.part, FaultKind.NOTED, note, "") for note in joint.notes)
 
 
@@ -137,10 +137,10 @@ def _unsure(report: Report) -> Iterator[GuessRecord]:
 
 
 def _guessed(guess: GuessRecord, report: Report) -> FaultRecord:
-    what = {"label": "that it is a", "border": "that it turns about its", "sign": "that it opens to the"}
-    sure = f"is {percent(guess.score)} sure, less than {percent(LEAST_CONFIDENCE)}"
+    what = {"label": "category", "border": "hinge border", "sign": "opening direction"}
+    sure = f"confidence {percent(guess.score)}, below {percent(LEAST_CONFIDENCE)}"
     other = f"; {guess.runner_up}: {percent(guess.runner_up_score)}" if guess.runner_up else ""
-    why = f"{what.get(guess.question, 'that it slides to the')} {guess.choice} {sure}{other}"
+    why = f"{what.get(guess.question, 'slide direction')} {guess.choice}: {sure}{other}"
     return _fault(report, guess.part, FaultKind.GUESSED, why)
 
 
@@ -159,13 +159,13 @@ def _sentence(report: Report, faults: tuple[FaultRecord, ...]) -> str:
     """Returns one sentence that says the same as the faults: what works, what to look at, or what does not work."""
     fronts = _fronts_words(report)
     if not fronts:
-        return f"Nothing moves{', as asked' if stopped(report) else ': no part is a door or a drawer'}."
+        return f"Nothing moves: {'the user fixed all parts' if stopped(report) else 'no part is a door or a drawer'}."
     if not faults:
         return f"Everything works: {fronts}; nothing collides, nothing comes loose."
     red = tuple(fault for fault in faults if fault.colour is Colour.RED)
     if red:
         return f"Does not work: {_names(red)}, of {fronts}."
-    return f"Works, but look at {_names(faults)}."
+    return f"Works, but check {_names(faults)}."
 
 
 def _names(faults: tuple[FaultRecord, ...]) -> str:

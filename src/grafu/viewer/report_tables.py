@@ -83,9 +83,7 @@ def not_built_table(report: Report) -> Html:
     """Returns one row per door or drawer without a joint, request that was not built, and part that was stopped."""
     faults = [fault for fault in verdict_of(report).lines if fault.kind in _NOT_BUILT]
     rows = [(fault.part, fault.kind.value, reason_of(report, fault), fault.why) for fault in faults]
-    rows += [
-        (part, "as asked", Reason.REJECTED.sentence, "it was decided that it stands still") for part in stopped(report)
-    ]
+    rows += [(part, "as asked", Reason.REJECTED.sentence, "the user fixed it") for part in stopped(report)]
     columns = ("part or request", "what", "reason", "what was found")
     none = "Every door and drawer has its joint, and all else that was asked for was built."
     return plain_rows(columns, rows, "Not built") if rows else tag("p", none, class_="none")

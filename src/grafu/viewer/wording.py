@@ -98,7 +98,7 @@ def _lacked(report: Report) -> str:
     what = "joints and hardware" if kinds[DeficiencyKind.JOINT] else "hardware"
     said = [f"{what} for {counted(len(mechanisms), 'part')}"] if mechanisms else []
     said += [_lacked_words(kind, count) for kind, count in kinds.items() if kind not in _MECHANISMS]
-    return f"Missing were {listed(said)}." if said else "Nothing was missing."
+    return f"Missing in the input: {listed(said)}." if said else "Nothing was missing in the input."
 
 
 def _lacked_words(kind: DeficiencyKind, count: int) -> str:
@@ -112,7 +112,7 @@ def _added(report: Report) -> str:
 
 def _stopped(report: Report) -> list[str]:
     still = stopped(report)
-    return [f"As asked, {listed(still)} {'stands' if len(still) == 1 else 'stand'} still."] if still else []
+    return [f"Fixed by the user: {listed(still)}."] if still else []
 
 
 def _mended(lack: DeficiencyRecord, report: Report) -> bool:
