@@ -139,8 +139,8 @@ def test_a_choice_for_a_part_without_a_joint_waits():
         (JointChoice(template="spring"), "must be one of butt"),
         (JointChoice(template="butt", mechanism=MechanismClass.P), "`butt` is of class C"),
         (JointChoice(mechanism=MechanismClass.CORNER), "got the class corner-mount"),
-        (JointChoice(mount="door_1"), "stands still"),
-        (JointChoice(mount="nowhere"), "stands still"),
+        (JointChoice(mount="door_1"), "static part"),
+        (JointChoice(mount="nowhere"), "static part"),
     ],
 )
 def test_what_cannot_be_is_said(choice, words):
