@@ -4,6 +4,7 @@ from clocks import Clock
 from grafu.completion.rule import complete_by_rule
 from grafu.geometry.budget import Budget
 from grafu.graph.parse import parse_graph
+from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Drawer, Stack
@@ -18,4 +19,4 @@ def test_doors_and_drawers_that_come_too_late_are_refused() -> None:
     assert moved
     assert refused
     assert moved | refused == {node.id for node in graph.nodes if node.label.is_movable}
-    assert all(one.is_too_complex for one in found.refused)
+    assert all(one.reason is Reason.TOO_COMPLEX for one in found.refused)
