@@ -36,12 +36,13 @@ class PartLabel(StrEnum):
 
 
 class EdgeKind(StrEnum):
-    """The four kinds of functional edges."""
+    """The paper's four kinds of functional edges, and `slide`: a door that slides, which the network does not know."""
 
     CONTACT = "contact"
     HINGE = "hinge"
     RAIL = "rail"
     ATTACHED = "attached"
+    SLIDE = "slide"
 
 
 class JointType(StrEnum):

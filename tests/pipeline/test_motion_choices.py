@@ -16,6 +16,7 @@ from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
+from grafu.graph.serialize import completion_from_json, completion_to_json
 from grafu.joints.motion_choice import (
     DIRECTIONS,
     STANDS_STILL,
@@ -114,6 +115,20 @@ def test_a_drawer_that_was_taken_for_a_door_slides_on_rails(asset, source):
     assert {p.id: p.labelled_by for p in report_of(result).parts}[drawer] == "user"
     assert opened(result, drawer)[1] < -0.1
     assert {r.axis for r in result.completion.completed.rails if r.child == drawer} == {2}
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_a_front_that_slides_along_the_case_has_an_edge_and_no_refusal(asset, source):
+    door = named(asset, PartLabel.DOOR)
+    result = run(asset, Settings(source).with_motion(door, MotionChoice(Moves.SLIDES, Side.RIGHT)))
+    completion = result.completion
+    (edge,) = completion.completed.slides
+    assert (edge.child, edge.axis) == (door, 1)
+    assert completion.completed.node(edge.parent).label.is_support
+    assert door not in {refusal.part for refusal in completion.refused}
+    assert completion.decision(door, "slide").choice == "1"
+    assert result.object.joint_of[door].axis.direction[0] == pytest.approx(1.0)
+    assert completion_from_json(completion_to_json(completion)) == completion
 
 
 @pytest.mark.parametrize("source", SOURCES)

@@ -23,7 +23,7 @@ from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
 from grafu.graph.arrays import KIND_CODES, KINDS, LABEL_CODES, LABELS
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, as_paper, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.synth.specimen import Defect, DefectKind
 from grafu.vocabulary import EdgeKind
@@ -185,7 +185,7 @@ def _clouds(arrays: ModelArrays) -> list[PointCloud | None]:
 
 def _edge_array(edges: Sequence[Edge], places: dict[str, int]) -> EdgeArray:
     rows = []
-    for edge in edges:
+    for edge in map(as_paper, edges):
         a, b = ends_of(edge)
         rows.append((places[a], places[b], KIND_CODES[kind_of(edge)], _motion_code(edge)))
     return np.array(rows, dtype=np.uint16).reshape(-1, 4)

@@ -27,7 +27,7 @@ from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.graph.edges import Hinge, Rail
+from grafu.graph.edges import Hinge, Rail, Slide
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.vocabulary import PartLabel
@@ -203,7 +203,7 @@ def _joints(functional: FunctionalGraph, ids: dict[str, str]) -> Iterator[Annota
     """Gives the motion of each part that has one, from its first hinge or rail."""
     done: set[str] = set()
     for edge in functional.edges:
-        if not isinstance(edge, Hinge | Rail) or edge.child not in ids or edge.child in done:
+        if not isinstance(edge, Hinge | Rail | Slide) or edge.child not in ids or edge.child in done:
             continue
         done.add(edge.child)
         box = functional.node(edge.child).box

@@ -16,7 +16,7 @@ from grafu.errors import GraphError
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.graph.edges import Attached, Hinge, Rail
+from grafu.graph.edges import Attached, Hinge, Rail, Slide
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import axis_to_hinge, axis_to_rail, signed_axis
 from grafu.refusal import Reason, Refusal
@@ -33,17 +33,17 @@ class AnnotatedEdges:
     All edges of one joint stand together; `refused` also names doors and drawers without a joint.
     """
 
-    edges: tuple[Attached | Hinge | Rail, ...]
+    edges: tuple[Attached | Hinge | Rail | Slide, ...]
     refused: tuple[Refusal, ...]
 
 
 def annotated_edges(asset: Asset, graph: FunctionalGraph) -> AnnotatedEdges:
     """Returns an edge for each annotated joint and each handle that rides on a door or drawer of the graph.
 
-    A joint that the codes cannot say (a sliding door, a door that turns across its plane), and a door or drawer
-    without a joint, are refused with the reason.
+    A joint that the codes cannot say (a door that turns across its plane), and a door or drawer without a joint,
+     are refused with the reason.
     """
-    edges: list[Attached | Hinge | Rail] = list(_attachments(asset, graph))
+    edges: list[Attached | Hinge | Rail | Slide] = list(_attachments(asset, graph))
     refused = {node.id: _NOT_STATED for node in graph.nodes if node.label.is_movable}
     joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
     still = [node for node in graph.nodes if node.label.is_support and node.id not in joints]
@@ -63,8 +63,8 @@ def _attachments(asset: Asset, graph: FunctionalGraph) -> Iterable[Attached]:
             yield Attached(parent, part.id)
 
 
-def joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartNode]) -> list[Hinge] | list[Rail]:
-    """Returns the hinge, or the one or two rails, of a joint; `still` are the nodes that may carry it.
+def joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartNode]) -> list[Hinge | Rail | Slide]:
+    """Returns the hinge, the one or two rails, or the slide of a joint; `still` are the nodes that may carry it.
 
     Raises:
         GraphError: where the codes cannot say it, or nothing could carry it.
@@ -84,6 +84,8 @@ def joint_edges(joint: AnnotatedJoint, graph: FunctionalGraph, still: list[PartN
         flanks = (node.box.face_center(signed_axis(across, positive)) for positive in (False, True))
         mounts = dict.fromkeys(_nearest(supports, flank) for flank in flanks)
         return [Rail(mount, node.id, slide) for mount in mounts]
+    if motion_kind(joint.type).slides and node.label is PartLabel.DOOR:
+        return [Slide(_nearest(supports, node.box.center), node.id, axis_to_rail(_opening_axis(joint)))]
     raise GraphError(f"a functional graph has no edge for a {node.label} part with a {joint.type} joint")
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float64, Int64
 
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
-from grafu.graph.edges import Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.edges import Contact, Edge, Hinge, Rail, as_paper, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import EdgeKind, PartLabel
 
@@ -55,8 +55,8 @@ def graph_arrays(graph: FunctionalGraph) -> GraphArrays:
     motion = np.full((3, count), NONE)
     for edge in graph.edges:
         first, second = (place[end] for end in ends_of(edge))
-        edges[first, second] = edges[second, first] = KIND_CODES[kind_of(edge)]
-        child[second, first] = not isinstance(edge, Contact)
+        edges[first, second] = edges[second, first] = KIND_CODES[kind_of(as_paper(edge))]
+        child[second, first] = not isinstance(as_paper(edge), Contact)
         motion[:, second] = np.maximum(motion[:, second], _motion(edge))
     lows = np.array([n.box.low for n in graph.nodes]).reshape(-1, 3)
     highs = np.array([n.box.high for n in graph.nodes]).reshape(-1, 3)

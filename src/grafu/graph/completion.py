@@ -76,8 +76,7 @@ class GraphCompletion:
             raise GraphError(f"every door and drawer needs its motion or a refusal: {silent} have neither")
 
     def _silent_parts(self) -> list[str]:
-        answered = {h.child for h in self.completed.hinges} | {r.child for r in self.completed.rails}
-        answered |= {r.part for r in self.refused}
+        answered = self.completed.moving | {r.part for r in self.refused}
         return [n.id for n in self.completed.nodes if n.label.is_movable and n.id not in answered]
 
     def decision(self, part: str, question: Question) -> Decision | None:

@@ -1,4 +1,7 @@
-"""The four kinds of functional edges as four final types: a motion stands only where it can exist. No geometry here.
+"""The kinds of functional edges as final types: a motion stands only where it can exist. No geometry here.
+
+Four are the paper's; the network and the authors' files know no others. `Slide` stands in graphs that were completed by
+what the input or the user states, and in graphs as built.
 
 Codes are the authors' (official.md 3): `HingeBorder` names a border of the door's own box, `AxisSign` the sense of the
 rotation axis along it (1 is positive), `SignedAxis` one of -X, +X, -Y, +Y, -Z, +Z. `grafu.graph.motion` turns them into
@@ -82,13 +85,32 @@ class Rail:
         _require_code("Rail.axis", self.axis, SIGNED_AXES)
 
 
-Edge = Contact | Attached | Hinge | Rail
+@final
+@dataclass(frozen=True, slots=True)
+class Slide:
+    """The door `child` slides on the support `parent` and opens along a signed axis, which may be any of the case's.
+
+    Raises:
+        GraphError: if `axis` is not 0..5.
+    """
+
+    joint_type: ClassVar = JointType.PRISMATIC
+    parent: str
+    child: str
+    axis: SignedAxis
+
+    def __post_init__(self) -> None:
+        _require_code("Slide.axis", self.axis, SIGNED_AXES)
+
+
+Edge = Contact | Attached | Hinge | Rail | Slide
 
 _KINDS: dict[type, EdgeKind] = {
     Contact: EdgeKind.CONTACT,
     Attached: EdgeKind.ATTACHED,
     Hinge: EdgeKind.HINGE,
     Rail: EdgeKind.RAIL,
+    Slide: EdgeKind.SLIDE,
 }
 
 
@@ -100,6 +122,11 @@ def kind_of(edge: Edge) -> EdgeKind:
 def ends_of(edge: Edge) -> tuple[str, str]:
     """Returns the two ids: parent then child, or a contact's two in alphabetical order."""
     return (edge.a, edge.b) if isinstance(edge, Contact) else (edge.parent, edge.child)
+
+
+def as_paper(edge: Edge) -> Edge:
+    """Returns the edge as the paper's four kinds can say it: of a slide, that the two parts touch."""
+    return Contact(edge.parent, edge.child) if isinstance(edge, Slide) else edge
 
 
 def _require_code(name: str, value: int, allowed: tuple[int, ...]) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.graph.motion import mirror_face, mirror_hinge
 from grafu.vocabulary import PartLabel
@@ -115,7 +115,7 @@ def _mirrored_edge(graph: FunctionalGraph, edge: Edge, across: int) -> Edge:
     match edge:
         case Contact() | Attached():
             return edge
-        case Rail():
+        case Rail() | Slide():
             return replace(edge, axis=mirror_face(edge.axis, across))
         case Hinge():
             border, sign = mirror_hinge(graph.node(edge.child).box.thin_axis, edge.border, edge.sign, across)

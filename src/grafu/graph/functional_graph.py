@@ -14,7 +14,7 @@ import numpy as np
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of, kind_of
 from grafu.vocabulary import PartLabel
 
 
@@ -128,6 +128,16 @@ class FunctionalGraph:
         return tuple(e for e in self.edges if isinstance(e, Rail))
 
     @cached_property
+    def slides(self) -> tuple[Slide, ...]:
+        """The slide edges, in order."""
+        return tuple(e for e in self.edges if isinstance(e, Slide))
+
+    @cached_property
+    def moving(self) -> frozenset[str]:
+        """The ids of the parts that an edge moves."""
+        return frozenset(e.child for e in self.edges if isinstance(e, Hinge | Rail | Slide))
+
+    @cached_property
     def neighbours(self) -> dict[str, tuple[str, ...]]:
         """For each id, the ids that an edge of any kind joins it to, in edge order."""
         found: dict[str, list[str]] = {node.id: [] for node in self.nodes}
@@ -144,7 +154,7 @@ def is_allowed(edge: Edge, parent: PartLabel, child: PartLabel) -> bool:
     match edge:
         case Contact():
             return True
-        case Hinge():
+        case Hinge() | Slide():
             return child in (PartLabel.DOOR, unknown) and parent.is_support
         case Rail():
             return child in (PartLabel.DRAWER, unknown) and parent.is_support
@@ -181,7 +191,10 @@ def _require_simple_edges(edges: Iterable[Edge], known: dict[str, PartNode]) -> 
 def _require_types(edge: Edge, known: dict[str, PartNode]) -> None:
     parent, child = (known[end].label for end in ends_of(edge))
     if not is_allowed(edge, parent, child):
-        rules = "a hinge joins support and door, a rail support and drawer, attached a door or drawer and its handle"
+        rules = (
+            "a hinge or a slide joins support and door, a rail support and drawer, attached a door or drawer and its "
+            "handle"
+        )
         raise GraphError(f"{rules}: got {kind_of(edge)} from {parent} to {child}, {edge}")
 
 
@@ -201,7 +214,9 @@ def _require_one_motion(edges: Iterable[Edge]) -> None:
             stated[edge.child].add(("hinge", edge.border, edge.sign))
         elif isinstance(edge, Rail):
             stated[edge.child].add(("rail", edge.axis, 0))
-        if isinstance(edge, Hinge | Rail) and len(stated[edge.child]) > 1:
+        elif isinstance(edge, Slide):
+            stated[edge.child].add(("slide", edge.axis, 0))
+        if isinstance(edge, Hinge | Rail | Slide) and len(stated[edge.child]) > 1:
             raise GraphError(
                 f"all edges of a moving part must state one motion: `{edge.child}` has {stated[edge.child]}"
             )

@@ -13,7 +13,7 @@ from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.transform import quaternion_matrix
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, as_paper, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
 from grafu.graph.json_values import Json, read_list, read_object, read_text, read_vector
 from grafu.graph.motion import signed_axis
@@ -118,7 +118,7 @@ def _obb(box: Box) -> dict[str, list[float]]:
 def _edge_to_official(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
     slot = {node.id: k for k, node in enumerate(graph.nodes)}
     src, dst = sorted(ends_of(edge), key=lambda end: slot[end])
-    return {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None}
+    return {"src": src, "dst": dst, "kind": kind_of(as_paper(edge)).value, "connector": None}
 
 
 def _node_items(data: Json) -> list[tuple[str, Json]]:

@@ -12,7 +12,8 @@ The form is a superset of the authors' (official.md 2), so that their tools read
       points                    [[x, y, z], ...], only where the node has points
     edges     [edge]
       src, dst, kind, connector as the authors'; src is the parent, dst the child of a directed edge
-      hinge: hinge_border_4, hinge_axis_sign, hinge_border, hinge_axis_signed; rail: rail_axis_signed
+      hinge: hinge_border_4, hinge_axis_sign, hinge_border, hinge_axis_signed; rail: rail_axis_signed;
+      slide (a kind that the authors do not have): slide_axis_signed
     completion   only in a completed graph
       source, added [id], decisions [{part, question, choice, score, runner_up, runner_up_score, by}],
       refused [{part, why}], input {a graph of the same form}
@@ -30,7 +31,7 @@ from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
 from grafu.graph.completion import Decision, GraphCompletion, Question
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.json_values import Json, read_code, read_list, read_object, read_score, read_text, read_vector
 from grafu.graph.official_motion import motion_fields, node_to_material
@@ -137,7 +138,11 @@ def _node_to_json(node: PartNode) -> dict[str, Any]:
 
 def _edge_to_json(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
     src, dst = ends_of(edge)
-    return {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None} | motion_fields(edge, graph)
+    return {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None} | _motion_to_json(edge, graph)
+
+
+def _motion_to_json(edge: Edge, graph: FunctionalGraph) -> dict[str, int]:
+    return {"slide_axis_signed": edge.axis} if isinstance(edge, Slide) else motion_fields(edge, graph)
 
 
 def _node_from_json(node_id: str, data: Any) -> PartNode:
@@ -169,6 +174,8 @@ def _edge_from_json(data: Json) -> Edge:
             return Hinge(src, dst, border, sign)
         case EdgeKind.RAIL:
             return Rail(src, dst, _code(data, "rail_axis_signed", 6))
+        case EdgeKind.SLIDE:
+            return Slide(src, dst, _code(data, "slide_axis_signed", 6))
         case other:
             assert_never(other)
 

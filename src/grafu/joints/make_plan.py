@@ -14,6 +14,7 @@ from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.graph.completion import GraphCompletion
+from grafu.graph.edges import Rail, Slide
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.joints.carried import carried_parts
 from grafu.joints.plan import JointRequest, RealizationPlan
@@ -54,10 +55,11 @@ def plan_from_completion(completion: GraphCompletion, asset: Asset) -> Realizati
         requests.append(
             JointRequest(hinge.child, hinge.joint_type, axis, completion.source, None, (hinge.parent,), rides)
         )
-    for child in dict.fromkeys(rail.child for rail in graph.rails):
-        edges = [rail for rail in graph.rails if rail.child == child]
+    slides: list[Rail | Slide] = [*graph.rails, *graph.slides]
+    for child in dict.fromkeys(edge.child for edge in slides):
+        edges = [edge for edge in slides if edge.child == child]
         axis = rail_to_axis(graph.node(child).box, edges[0].axis)
-        mounts = tuple(rail.parent for rail in edges)
+        mounts = tuple(edge.parent for edge in edges)
         rides = attached.get(child, ())
         requests.append(JointRequest(child, edges[0].joint_type, axis, completion.source, None, mounts, rides))
     moved = {part for _, part in carried}

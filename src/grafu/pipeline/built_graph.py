@@ -12,7 +12,7 @@ import numpy as np
 from grafu.additions.addition import Addition
 from grafu.asset.part import Asset, Part
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of
 from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import ParsingConfig, near_pairs
@@ -49,7 +49,7 @@ def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs:
     if not removed:
         return completion
     graph = completion.completed
-    carried = [e for e in graph.edges if isinstance(e, Hinge | Rail) and e.parent in removed]
+    carried = [e for e in graph.edges if isinstance(e, Hinge | Rail | Slide) and e.parent in removed]
     graph = with_edges(graph, [replace(e, parent=_nearest(heirs, e.parent, graph)) for e in carried if heirs])
     given, completed = (without_nodes(g, removed & {n.id for n in g.nodes}) for g in (completion.input, graph))
     decisions = tuple(d for d in completion.decisions if d.part not in removed)

@@ -34,7 +34,7 @@ def guesses_of(completion: GraphCompletion, stated: Set[str] = frozenset()) -> t
     What is `stated` of parts is no guess. Sides are seen from the front, as in `certainty_words`.
     """
     hinges = {hinge.child: hinge for hinge in completion.completed.hinges}
-    moving = hinges.keys() | {rail.child for rail in completion.completed.rails}
+    moving = completion.completed.moving
     return tuple(
         _guess(decision, completion.completed, hinges.get(decision.part))
         for decision in completion.decisions

@@ -14,7 +14,7 @@ from grafu.errors import GraphError, OptionError
 from grafu.geometry.box import Box
 from grafu.graph.annotated import joint_edges
 from grafu.graph.completion import Decision, GraphCompletion
-from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
+from grafu.graph.edges import Attached, Contact, Hinge, Rail, Slide, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
@@ -88,7 +88,7 @@ def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, 
     graph = relabelled(graph, {part.id: part.label})
     axis = axis_of_motion(part, choice, asset.box)
     joint = AnnotatedJoint(part.id, choice.type, axis, 0.0, pi / 2, stated_by=USER)
-    moving = {h.child for h in graph.hinges} | {r.child for r in graph.rails} | {part.id}
+    moving = graph.moving | {part.id}
     try:
         edges = joint_edges(joint, graph, [n for n in graph.nodes if n.label.is_support and n.id not in moving])
     except GraphError as error:
@@ -102,7 +102,7 @@ def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, 
     return replace(completion, completed=with_edges(graph, edges), decisions=(*decisions, *told), refused=refused)
 
 
-def _decision(edge: Hinge | Rail) -> Decision:
+def _decision(edge: Hinge | Rail | Slide) -> Decision:
     if isinstance(edge, Hinge):
         return Decision(edge.child, "border", str(edge.border), 1.0)
     return Decision(edge.child, "slide", str(edge.axis), 1.0)
@@ -111,13 +111,14 @@ def _decision(edge: Hinge | Rail) -> Decision:
 def _without_motion(graph: FunctionalGraph, part: str) -> FunctionalGraph:
     """Returns the graph in which a part hangs on nothing: its hinge, rails and attachment are contacts."""
     edges = (
-        Contact(*ends_of(e)) if isinstance(e, Hinge | Rail | Attached) and e.child == part else e for e in graph.edges
+        Contact(*ends_of(e)) if isinstance(e, Hinge | Rail | Slide | Attached) and e.child == part else e
+        for e in graph.edges
     )
     return replace(graph, edges=tuple(edges))
 
 
-def _carrying(part: str, graph: FunctionalGraph) -> list[Hinge | Rail]:
-    return [e for e in graph.edges if isinstance(e, Hinge | Rail) and e.child == part]
+def _carrying(part: str, graph: FunctionalGraph) -> list[Hinge | Rail | Slide]:
+    return [e for e in graph.edges if isinstance(e, Hinge | Rail | Slide) and e.child == part]
 
 
 def with_mounts(completion: GraphCompletion, joints: Mapping[str, JointChoice]) -> GraphCompletion:
