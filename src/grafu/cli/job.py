@@ -119,10 +119,10 @@ class Listener:
     on_object: "Callable[[ArticulatedObject], None]" = _ignore
 
 
-NOBODY = Listener()
+SILENT = Listener()
 
 
-def run_job(job: Job, listener: Listener = NOBODY) -> JobResult:
+def run_job(job: Job, listener: Listener = SILENT) -> JobResult:
     """Returns the outcome of a job; a failure is a value, except for an interruption."""
     try:
         resumed = _resumed(job) if job.options.resume else job

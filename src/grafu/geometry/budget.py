@@ -2,8 +2,8 @@
 
 A budget is put in force for a block of code. What is called in it asks `require_time` now and then, and `require_room`
 before it makes something large; both raise `TooComplex` where the budget does not hold it, and the caller delivers what
-it has. Where nobody sets a budget, time is unlimited and room is not: one array larger than a computer's memory helps
-nobody. As long as the budget holds, results do not depend on it.
+it has. Without a budget, time is unlimited and memory is not: one array may not exceed a computer's memory. As long as
+the budget holds, results do not depend on it.
 """
 
 from collections.abc import Callable, Iterator

@@ -14,7 +14,7 @@ class Clearance:
     """Material taken away so that a part can move: which part, how, and how much.
 
     `kind` says how: joined (it lay enclosed in the moving part and moves with it now), closed (it was drawn ajar and
-    was moved by `amount`), trimmed (pressed back by up to `amount`, `share` of a side), eased (made smaller all round
+    was moved by `amount`), trimmed (pressed back by up to `amount`, `share` of a side), eased (shrunk on all sides
     by `amount`, `share` of the volume) or carved (cut out; `amount` is the square root of the surface that went,
     `share` the larger of `surface_share`, of what is seen of the part, and `volume_share`, of the volume of its pieces'
     convex hulls). Lengths are metres, angles radians.

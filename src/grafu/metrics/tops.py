@@ -2,7 +2,7 @@
 
 By rays, which share nothing with what makes tops. The measure of a new top is the plan that the piece's own top lay
 over: of all that one saw of it from above, what lies over the body. Near its upper end the body's plan is all that
-reaches there, and what lies between, so kneeholes and rooms belong to it and overhangs do not: nobody can tell them
+reaches there, and what lies between, so kneeholes and rooms belong to it and overhangs do not: they are not known
 from the body alone. What stands up through a top is no part of it.
 """
 

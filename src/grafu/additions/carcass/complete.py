@@ -34,7 +34,7 @@ from grafu.vocabulary import PartLabel
 
 _SPREAD = np.linspace(-0.4, 0.4, 9)  # fractions of a bay's side around a spot from which walls are felt for
 _BEFORE = 0.1  # fraction of a bay's side before its end from which a wall is felt for, and beyond it
-_LET_IN = 2e-4  # metres by which a board is let into the walls that hold it
+_INSET = 2e-4  # metres by which a board is inset into the walls that hold it
 _NEAR = 2e-3  # metres within which a board is held
 
 
@@ -91,13 +91,13 @@ class BoardRoom:
             hits = np.sort(self._cast(origins, direction))
             reach = np.inf if axis == 2 else 2.0 * _BEFORE * (high - low)  # a back ends at a board, not at a front
             is_wall = np.isfinite(hits[len(hits) // 2]) and hits[len(hits) // 2] <= reach
-            ends.append(float(origins[0, axis]) + sign * (float(hits[0]) + _LET_IN) if is_wall else end)
+            ends.append(float(origins[0, axis]) + sign * (float(hits[0]) + _INSET) if is_wall else end)
         return ends[0], ends[1]
 
     def rear_of(self, around: Box, fallback: float) -> float:
         """Returns how far back anything reaches in a box."""
         pieces = pieces_in(np.concatenate([self._still, self.moving]), around, (8, 1, 8))
-        return max(float(pieces.high[:, 1].max(initial=fallback)), fallback) - _LET_IN
+        return max(float(pieces.high[:, 1].max(initial=fallback)), fallback) - _INSET
 
     def is_free(self, board: Box, touch: float) -> bool:
         """Whether a board pierces nothing by more than a touch in metres."""

@@ -19,7 +19,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.refusal import Reason, Refusal
 
-_LET_IN = 2e-4  # metres by which a board is let into what it is fixed to, so that the two hold together
+_INSET = 2e-4  # metres by which a board is inset into what it is fixed to, so that the two hold together
 _TO_FRONT = 0.05  # metres, and fraction of the depth, over which a board is lengthened to meet a front that is hollow
 _GRID = 5
 
@@ -83,7 +83,7 @@ def boards_to_complete(
             inner[k] = _inner_face(caster, outer, 0, 2 * k - 1, inner[k])
     if "back" not in verdict.missing:
         inner[2] = _inner_face(caster, outer, 1, 1, inner[2])
-    lift = _top_of_bottom(caster, outer) - float(low[2]) - _LET_IN if not has_walls(verdict) else 0.0
+    lift = _top_of_bottom(caster, outer) - float(low[2]) - _INSET if not has_walls(verdict) else 0.0
     if lift > 0.7 * float(outer.size[2]):
         return Refusal("", Reason.NO_ROOM, "above the bottom that is there is no room for walls")
     lifted = Outline(Box(vec3(low[0], low[1], low[2] + lift), high), inner)
@@ -111,7 +111,7 @@ def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: f
     direction = np.zeros(3)
     direction[axis] = sign
     hits = caster.along(origins, direction)
-    found = hits[hits <= outer.half[axis] + _LET_IN]
+    found = hits[hits <= outer.half[axis] + _INSET]
     return float(outer.center[axis] + sign * np.median(found)) if len(found) else float(fallback)
 
 
@@ -153,10 +153,10 @@ def _boards(
     if "side_right" in missing:
         found["side_right"] = Box(vec3(x1 - sides[1], front, z0), vec3(x1, y1, z1))
     if "back" in missing:
-        found["back"] = Box(vec3(left - _LET_IN, back, z0), vec3(right + _LET_IN, y1, z1))
+        found["back"] = Box(vec3(left - _INSET, back, z0), vec3(right + _INSET, y1, z1))
     if "bottom" in missing:
-        low = vec3(left - _LET_IN, front, z0)
-        found["bottom"] = Box(low, vec3(right + _LET_IN, back + _LET_IN, z0 + bottom))
+        low = vec3(left - _INSET, front, z0)
+        found["bottom"] = Box(low, vec3(right + _INSET, back + _INSET, z0 + bottom))
     return found
 
 
@@ -173,4 +173,4 @@ def _front_face(drawer: RayCaster, outer: Box, start: float, frame: DrawerFrame)
     ahead = min(_TO_FRONT, 0.5 * frame.depth)
     hits = drawer.along(np.column_stack([x, np.full(x.size, start + 1e-3), z]), vec3(0.0, -1.0, 0.0)) - 1e-3
     found = hits[(hits >= -1e-3) & (hits <= ahead)]
-    return start - max(float(np.median(found)), 0.0) - _LET_IN if len(found) else start - _LET_IN
+    return start - max(float(np.median(found)), 0.0) - _INSET if len(found) else start - _INSET

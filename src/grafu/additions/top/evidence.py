@@ -22,7 +22,7 @@ _BASIN_DEPTH = (0.06, 0.4)  # metres: of sinks and wash basins
 _BASIN_RIM = (0.03, 0.12)  # metres that a basin's rim may lie below the cabinet's, or stand above it
 _MARGIN = 0.008  # metres of cabinet around a basin
 _BASIN_AREA = 0.05  # of what stands at the rim
-_LET_IN = 0.2  # metres below a rim at which a part that is called top panel still is one
+_INSET = 0.2  # metres below a rim at which a part that is called top panel still is one
 _FLAT = 0.09  # metres: thicker than a worktop
 _SPANS = 0.85  # of what stands at the rim
 _PLATE = 0.5  # of its own box: a frame of bars covers less, a plate with a sink's hole more
@@ -51,7 +51,7 @@ def cells_of(parts: Iterable[Part], views: Views) -> CellMask:
 def named_cells(roles: Roles, views: Views, coverage: Coverage, metre: float) -> CellMask:
     """Returns the cells covered by parts that are called top panels and lie not too far below the rim."""
     assert coverage.level is not None
-    high = coverage.level - _LET_IN * metre
+    high = coverage.level - _INSET * metre
     named = [p for p in roles.still if p.label is PartLabel.TOP_PANEL and p.box.high[2] >= high]
     mask = np.zeros(views.grid.shape, dtype=bool)
     for part in named:

@@ -49,7 +49,7 @@ _SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to wh
 _FRONT = 0.08  # metres before the body in which a front belongs under the top
 _REACH = 0.06  # metres that a front may end below the rim
 _BELOW = 0.08  # metres that base mouldings and pedestals may jut out, and the top with them
-_LET_IN = 0.01  # metres above the rest to which an end panel still carries the top
+_INSET = 0.01  # metres above the rest to which an end panel still carries the top
 _TRAY = 0.15  # metres before the body that a tray under a top may reach, and the top with it
 _SLOT = (0.008, 0.06)  # metres above a seat at which what stands on a top begins: as thick as tops are
 _TONGUE = 0.012  # metres: narrower pieces of a top are no top
@@ -116,7 +116,7 @@ def over_the_base(
 
 def _is_tray(body: Box, seat: float, metre: float) -> bool:
     """Whether what slides lies in a top's thickness: closed, a keyboard's tray ends with the top that hides it."""
-    return bool(body.low[2] >= seat - _LET_IN * metre and body.high[2] <= seat + _SLOT[1] * metre)
+    return bool(body.low[2] >= seat - _INSET * metre and body.high[2] <= seat + _SLOT[1] * metre)
 
 
 def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -> BaseGeometry:
@@ -151,7 +151,7 @@ def _standing_on(roles: Roles, seat: float, metre: float) -> list[Part]:
 
 def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: float) -> BaseGeometry:
     """Returns what stands up through a slab on the rim, hollow things filled: no top goes there."""
-    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + max(seat, _LET_IN * metre)]
+    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + max(seat, _INSET * metre)]
     return _standing(tall, (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness - seat), metre)
 
 
@@ -160,7 +160,7 @@ def inset_regions(roles: Roles, rim: Rim, seat: float, metre: float) -> list[tup
     found = []
     for part in roles.still:
         top = float(part.box.high[2])
-        if rim.seat + seat < top <= rim.seat + max(seat, _LET_IN * metre):
+        if rim.seat + seat < top <= rim.seat + max(seat, _INSET * metre):
             found.append((_standing([part.mesh], (rim.seat + 0.5 * seat, 0.5 * (rim.seat + top)), metre), top))
     return found
 

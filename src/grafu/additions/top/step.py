@@ -1,6 +1,6 @@
 """The step of tops: none where none belongs, one where it is missing, one in the place of another where it is chosen.
 
-Furniture that wants no top is told by names: beds, crates, sinks, appliances. A top is replaced by hand alone, since
+Furniture without tops is known by its names: beds, crates, sinks, appliances. A top is replaced by hand alone, since
 what is there is no fault; only parts that are called top panels and stand still are taken away.
 """
 

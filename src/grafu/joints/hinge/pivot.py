@@ -21,7 +21,7 @@ from grafu.scene.border import BorderFrame
 from grafu.vocabulary import PartLabel
 
 _SEGMENTS = 24
-_LET_IN = 0.0015  # how deep a disc is let into its own part, metres
+_INSET = 0.0015  # how deep a disc is inset into its own part, metres
 _PLATE = 0.002  # thickness of a plate beside a door's end, metres
 _PLATE_PLAY = 0.001  # between the door's end and the plate
 _PLATE_REACH = 0.025  # how far behind the door's back it reaches, and how far inwards the case may stand there
@@ -44,10 +44,10 @@ def pivot_ends(
             continue
         on_door, on_body, radius = met
         gap = sign * (on_body - on_door)
-        middle = on_door + sign * min(max(gap, 0.0) / 2, _LET_IN)
+        middle = on_door + sign * min(max(gap, 0.0) / 2, _INSET)
         wide = replace(pin, radius=radius)
-        static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * _LET_IN)
-        dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * _LET_IN, middle)
+        static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * _INSET)
+        dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * _INSET, middle)
         found.append(((_visual("hinge_static", static_disc),), (_visual("hinge_dynamic", dynamic_disc),)))
     return found
 
@@ -88,7 +88,7 @@ def _plated_end(
         block("hinge_plate", plate, _PLATE, METAL),
         block("support_hinge", foot, gap, METAL),
     )
-    return still, (_visual("hinge_dynamic", _disc(frame, pin, sign * (on_door - _LET_IN), middle)),)
+    return still, (_visual("hinge_dynamic", _disc(frame, pin, sign * (on_door - _INSET), middle)),)
 
 
 def _met_by_rays(
@@ -121,7 +121,7 @@ def _met_by_corners(
         on_door = float(near[0].max())
         beyond = near[1][np.abs(near[1] - on_door) <= max(reach, 0.25 * frame.length)]
         if len(beyond):
-            rim = corners[0][np.abs(corners[0][:, 2] - on_door) <= _LET_IN]
+            rim = corners[0][np.abs(corners[0][:, 2] - on_door) <= _INSET]
             wide = np.hypot(rim[:, 0] - pin.x, rim[:, 1] - pin.y)
             met = sign * float(beyond[np.argmin(np.abs(beyond - on_door))])
             return sign * on_door, met, float(wide[wide <= radius].max(initial=pin.radius))
