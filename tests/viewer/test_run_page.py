@@ -13,7 +13,7 @@ REASONS = (*Reason, NOT_ADDED)
 COLUMNS = (
     Column("model"),
     Column("note"),
-    Column("share", "percent", histogram=True),
+    Column("ratio", "percent", histogram=True),
     Column("count", "number", histogram=True),
     Column("time", "seconds"),
 )
