@@ -6,8 +6,9 @@ import pytest
 from grafu.geometry.appearance import Material, Surface, joined, selected
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.solids import ConvexSolid, subtract
+from grafu.geometry.transform import translation
 
 MESH = TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0)))
 COLORS = np.arange(32).reshape(8, 4).astype(np.uint8)
@@ -38,3 +39,14 @@ def test_vertices_that_no_face_uses_are_dropped() -> None:
     assert len(found.mesh.vertices) == 3
     np.testing.assert_array_equal(found.mesh.triangles, MESH.triangles[[3]])
     np.testing.assert_array_equal(found.colors[found.mesh.faces[0]], COLORS[MESH.faces[3]])
+
+
+def test_the_mesh_near_a_box_has_the_faces_whose_boxes_meet_it_in_order() -> None:
+    far = MESH.transformed(translation(vec3(5.0, 0.0, 0.0)))
+    low = Box(vec3(-1.0, -1.0, -1.0), vec3(2.0, 2.0, -0.0))
+    found = mesh_near([far, MESH, TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64))], low)
+    reaches_down = MESH.triangles[:, :, 2].min(axis=1) <= 0.0
+
+    np.testing.assert_array_equal(found.triangles, MESH.triangles[reaches_down])
+    assert mesh_near([MESH], low.grown(1.0)) is MESH
+    assert not len(mesh_near([far], low).faces)

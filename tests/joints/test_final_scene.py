@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from grafu.scene.front import front_of
+from grafu.scene.scene import Scene
 from judging import realized, realized_kind
 from small_scenes import DOOR, SIDE, box, hinged, scene
 
@@ -36,3 +38,19 @@ def test_what_got_no_joint_stands_still_in_the_final_scene() -> None:
     assert {skip.part for skip in result.report.skipped} == {"door_far"}
     assert set(result.scene.moving_bodies) == {"door"}
     assert "door_far" in {part.id for part in result.scene.static_parts}
+
+
+def test_what_is_found_in_a_scene_is_found_once_and_anew_where_the_scene_changed() -> None:
+    final = realized(scene(DOOR, SIDE, joints=(hinged(),))).scene
+    asked: list[int] = []
+
+    def doubled(of: Scene, number: int) -> int:
+        asked.append(number)
+        return 2 * number + len(of.parts)
+
+    assert [final.once(doubled, n) for n in (1, 1, 3)] == [4, 4, 8]
+    assert asked == [1, 3]
+    grown = final.with_parts([box("far", (3.0, -0.02, 0.0), (3.4, 0.0, 0.6))])
+    assert grown.once(doubled, 1) == 5
+    assert front_of(final, "door") is front_of(final, "door")
+    assert front_of(grown, "door") is not front_of(final, "door")

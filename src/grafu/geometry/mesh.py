@@ -1,6 +1,6 @@
 """Triangle meshes as values. Heavy queries live in `raycast`, `intersection` and `solids`; no materials here."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import final
@@ -145,6 +145,17 @@ def merge_meshes(meshes: Sequence[TriangleMesh]) -> TriangleMesh:
         np.vstack([m.vertices for m in meshes]),
         np.vstack([m.faces + start for m, start in zip(meshes, starts, strict=True)]),
     )
+
+
+def mesh_near(meshes: Iterable[TriangleMesh], box: Box) -> TriangleMesh:
+    """Returns one mesh of the faces whose own boxes meet a box, in order."""
+    near = []
+    for mesh in meshes:
+        if len(mesh.faces) and mesh.box.overlaps(box):
+            low, high = triangle_bounds(mesh.triangles)
+            keep = np.all((low <= box.high) & (high >= box.low), axis=1)
+            near.append(mesh if keep.all() else mesh.with_faces(keep))
+    return merge_meshes(near)
 
 
 # The corners come as Box.corners(): bit 0 is x, bit 1 is y, bit 2 is z.

@@ -4,26 +4,7 @@ from dataclasses import dataclass
 from math import radians
 from typing import final
 
-
-def require_positive(config: object, *names: str) -> None:
-    """Raises ValueError unless these fields of a config are above 0."""
-    for name in names:
-        if not getattr(config, name) > 0:
-            raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {getattr(config, name)}")
-
-
-def require_not_negative(config: object, *names: str) -> None:
-    """Raises ValueError unless these fields of a config are at least 0."""
-    for name in names:
-        if not getattr(config, name) >= 0:
-            raise ValueError(f"`{type(config).__name__}.{name}` must not be negative: got {getattr(config, name)}")
-
-
-def require_ratios(config: object, *names: str) -> None:
-    """Raises ValueError unless these fields of a config lie between 0 and 1."""
-    for name in names:
-        if not 0 < getattr(config, name) < 1:
-            raise ValueError(f"`{type(config).__name__}.{name}` must be between 0 and 1: got {getattr(config, name)}")
+from grafu.scene.checks import require_positive, require_ratios
 
 
 @final

@@ -7,7 +7,7 @@ on the meshes that stayed the same.
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import final
+from typing import Concatenate, ParamSpec, TypeVar, cast, final
 
 import numpy as np
 
@@ -18,8 +18,12 @@ from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
-from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, mesh_near
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import JointType
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 @final
@@ -80,6 +84,19 @@ class Scene:
     )
     _path_boxes: dict[str, tuple[TriangleMesh, JointMotion, Box]] = field(default_factory=dict, repr=False)
     _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = field(default_factory=dict, repr=False)
+    _known: dict[tuple[object, ...], object] = field(default_factory=dict, repr=False, init=False)
+
+    def once(self, find: "Callable[Concatenate[Scene, P], T]", *args: P.args, **more: P.kwargs) -> T:
+        """Returns what `find` finds in this scene: worked out once, whoever asks. All arguments must be hashable."""
+        key = (find, args, tuple(more.items()))
+        if key not in self._known:
+            self._known[key] = find(self, *args, **more)
+        return cast(T, self._known[key])
+
+    @cached_property
+    def metre(self) -> float:
+        """How long one metre of real furniture is in this scene; see `metre_on`."""
+        return metre_on(self.extent)
 
     @cached_property
     def moving_ids(self) -> frozenset[str]:
@@ -198,12 +215,5 @@ class Scene:
 
     def static_mesh_near(self, box: Box, margin: float, of: str = "") -> TriangleMesh:
         """Returns the static triangles (`of`: of that part alone) whose own boxes come within `margin` of a box."""
-        near = []
-        for part in self.static_parts:
-            if of not in ("", part.id) or not part.box.overlaps(box, margin):
-                continue
-            grown = box.grown(margin)
-            low, high = triangle_bounds(part.mesh.triangles)
-            keep = np.all((low <= grown.high) & (high >= grown.low), axis=1)
-            near.append(part.mesh.with_faces(keep))
-        return merge_meshes(near)
+        parts = (part for part in self.static_parts if of in ("", part.id))
+        return mesh_near((part.mesh for part in parts), box.grown(margin))

@@ -17,7 +17,7 @@ from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.carcass.bays import Bay, View
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.carcass.missing_panels import DEFAULT, MissingPanel, missing_panels, panels_missing
-from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
+from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Deficiency, DeficiencyKind, Request, StepResult
 from grafu.asset.part import Part
@@ -168,13 +168,13 @@ def complete_carcass(
     parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT
 ) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
-    around = surroundings_of(parts, plan)
-    missing = panels_missing(around, config)
+    closed = closed_scene(parts, plan)
+    missing = panels_missing(closed, config)
     additions: list[Addition] = []
     refused: list[Refusal] = []
     taken = {part.id for part in parts}
-    rooms = {id(panel.view): _room(panel.view, around) for panel in {id(k.view): k for k in missing}.values()}
-    for group in _groups(missing, around.scene.extent):
+    rooms = {id(panel.view): _room(panel.view, closed) for panel in {id(k.view): k for k in missing}.values()}
+    for group in _groups(missing, closed.scene.extent):
         room = rooms[id(group[0].view)]
         whole = _whole(group)
         together = _board(whole, room, config) is not None
@@ -185,15 +185,15 @@ def complete_carcass(
                 refused.append(Refusal(panel.moving_bodies[0], Reason.NO_ROOM, why, Asked.BOARD))
                 continue
             room = rooms[id(panel.view)] = room.with_board(board)
-            additions.append(_addition(panel, board, around, taken))
+            additions.append(_addition(panel, board, closed, taken))
             taken.add(additions[-1].part.id)
     return CarcassCompletion(missing, tuple(additions), tuple(refused))
 
 
-def _addition(panel: MissingPanel, board: Box, around: Surroundings, taken: Collection[str]) -> Addition:
+def _addition(panel: MissingPanel, board: Box, closed: ClosedScene, taken: Collection[str]) -> Addition:
     (part_id,) = free_ids(panel.what.value.replace(" ", "_"), 1, taken)
     mesh = TriangleMesh.box_mesh(board).transformed(from_rotation(panel.view.rotation))
-    return Addition(added_part(part_id, panel.what, (surface_like(mesh, around.body),)), panel.why, "carcass board")
+    return Addition(added_part(part_id, panel.what, (surface_like(mesh, closed.body),)), panel.why, "carcass board")
 
 
 def _groups(missing: Iterable[MissingPanel], extent: float) -> list[list[MissingPanel]]:
@@ -243,9 +243,9 @@ def _fills(board: Box, bay: Bay) -> bool:
     return bool(board.size[thin] > 0 and np.all(board.size[along] > _FILLED * (bay.high - bay.low)[along]))
 
 
-def _room(view: View, around: Surroundings) -> BoardRoom:
-    moving = [around.scene.parts[i] for i in sorted(around.scene.moving_ids)]
-    merged = (merge_meshes([p.mesh for p in some]) for some in (around.scene.static_parts, moving))
+def _room(view: View, closed: ClosedScene) -> BoardRoom:
+    moving = [closed.scene.parts[i] for i in sorted(closed.scene.moving_ids)]
+    merged = (merge_meshes([p.mesh for p in some]) for some in (closed.scene.static_parts, moving))
     return BoardRoom.of(*(TriangleMesh(view.local(mesh.vertices), mesh.faces) for mesh in merged))
 
 

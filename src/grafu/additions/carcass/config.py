@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
-from grafu.joints.config import require_positive
+from grafu.scene.checks import require_positive
 
 
 @final

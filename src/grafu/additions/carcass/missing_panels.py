@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.additions.carcass.bays import Bay, View, find_bays, find_views
 from grafu.additions.carcass.config import CarcassConfig
-from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
+from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.asset.part import Part
 from grafu.geometry.arrays import vec3
 from grafu.joints.plan import RealizationPlan
@@ -46,25 +46,25 @@ def missing_panels(
     parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT
 ) -> tuple[MissingPanel, ...]:
     """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
-    around = surroundings_of(parts, plan)
-    return panels_missing(around, config)
+    closed = closed_scene(parts, plan)
+    return panels_missing(closed, config)
 
 
-def panels_missing(around: Surroundings, config: CarcassConfig = DEFAULT) -> tuple[MissingPanel, ...]:
+def panels_missing(closed: ClosedScene, config: CarcassConfig = DEFAULT) -> tuple[MissingPanel, ...]:
     """Returns what the bodies lack, all moving bodies closed."""
     found: list[MissingPanel] = []
-    for view in find_views(around.scene, around.requests):
+    for view in find_views(closed.scene, closed.requests):
         bays = [
             bay
-            for bay in find_bays(view, around.scene, around.requests, config)
-            if bay.walled >= config.walled and _is_carcass(bay, around.scene.extent, view, config)
+            for bay in find_bays(view, closed.scene, closed.requests, config)
+            if bay.walled >= config.walled and _is_carcass(bay, closed.scene.extent, view, config)
         ]
         for bay in bays:
             covered = _back_covered(view, bay)
             if covered < config.covered:
                 found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
             if not any(_under(other, bay) for other in bays):
-                covered = _bottom_covered(view, bay, around.scene.extent)
+                covered = _bottom_covered(view, bay, closed.scene.extent)
                 if covered < config.covered:
                     found.append(_missing_panel(PartLabel.BOTTOM_PANEL, bay, covered, view))
     return tuple(found)

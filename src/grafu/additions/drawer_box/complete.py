@@ -12,11 +12,11 @@ from typing import final
 import numpy as np
 
 from grafu.additions.addition import Addition, added_part, free_ids
+from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.drawer_box.loose import loose_boards
 from grafu.additions.drawer_box.room import Room, find_room
-from grafu.additions.drawer_box.surroundings import Surroundings, surroundings_of
 from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult
@@ -78,67 +78,67 @@ def complete_drawers(
     requests = [r for r in plan.joints if r.kind.slides]
     if not requests:
         return DrawerBoxes()
-    around = surroundings_of(parts, plan)
+    closed = closed_scene(parts, plan)
     verdicts: list[BoxVerdict] = []
     additions: list[Addition] = []
     refused: list[Refusal] = []
     loose: list[tuple[str, str]] = []
     known = {part.id for part in parts}
     for request in requests:
-        if request.moving not in around.scene.parts:
+        if request.moving not in closed.scene.parts:
             continue
-        verdict = missing_box(request, around, config)
+        verdict = missing_box(request, closed, config)
         if verdict.kind == "front only":
-            found = find_loose(request, around, config)
+            found = find_loose(request, closed, config)
             loose += [(request.moving, part_id) for part_id in found]
-            around = around.with_members(request.moving, found)
-            verdict = missing_box(request, around, config) if found else verdict
+            closed = closed.with_members(request.moving, found)
+            verdict = missing_box(request, closed, config) if found else verdict
         verdicts.append(verdict)
         if not build or not verdict.missing:
             continue
-        made = drawer_box(verdict, request, around, config, known)
+        made = drawer_box(verdict, request, closed, config, known)
         if isinstance(made, Refusal):
-            if drawn_with_the_case(verdict, request, around, config):
+            if drawn_with_the_case(verdict, request, closed, config):
                 verdicts[-1] = replace(verdict, kind="whole", missing=(), why=_WITH_THE_CASE)
             else:
                 refused.append(made)
             continue
         additions += made
         known |= {addition.part.id for addition in made}
-        around = around.with_parts(tuple(_closed(a.part, request) for a in made))
+        closed = closed.with_parts(tuple(_closed(a.part, request) for a in made))
     return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
 
 
-def find_loose(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> tuple[str, ...]:
+def find_loose(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DEFAULT) -> tuple[str, ...]:
     """Returns the still parts that are boards of the box behind a mere front."""
-    frame, mesh = _framed(request, around.scene)
-    return loose_boards(request, mesh, frame, around, config) if frame is not None and mesh is not None else ()
+    frame, mesh = _framed(request, closed.scene)
+    return loose_boards(request, mesh, frame, closed, config) if frame is not None and mesh is not None else ()
 
 
-def missing_box(request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT) -> BoxVerdict:
+def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DEFAULT) -> BoxVerdict:
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
-    frame, mesh = _framed(request, around.scene)
+    frame, mesh = _framed(request, closed.scene)
     if frame is None or mesh is None:
         return BoxVerdict(request.moving, "no drawer", why="it does not slide out of a case")
     verdict = box_verdict(request.moving, mesh, frame, config)
     if verdict.kind != "front only" and is_shallow(frame):
-        behind = _space_behind(frame, around, request)
+        behind = _space_behind(frame, closed, request)
         if behind > config.deeper * frame.depth:
             return as_front_only(verdict, frame, behind)
     return verdict
 
 
 def drawn_with_the_case(
-    verdict: BoxVerdict, request: JointRequest, around: Surroundings, config: DrawerBoxConfig = DEFAULT
+    verdict: BoxVerdict, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DEFAULT
 ) -> bool:
     """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
 
     They look like parts of the case; boards beside them would be doubles.
     """
-    frame, mesh = _framed(request, around.scene)
+    frame, mesh = _framed(request, closed.scene)
     if verdict.kind != "incomplete" or frame is None or mesh is None:
         return False
-    still, _ = around.triangles(request, frame)
+    still, _ = closed.triangles(request, frame)
     half = np.array([frame.width / 2, np.inf, frame.height / 2]) + _OVER
     inside = (np.abs(still) <= half).all(axis=(1, 2)) & (still[..., 1] <= frame.depth + _OVER).all(axis=1)
     inside &= (still[..., 1] >= 0.0).all(axis=1)
@@ -150,7 +150,7 @@ def drawn_with_the_case(
 def drawer_box(
     verdict: BoxVerdict,
     request: JointRequest,
-    around: Surroundings,
+    closed: ClosedScene,
     config: DrawerBoxConfig = DEFAULT,
     taken: Iterable[str] = (),
 ) -> tuple[Addition, ...] | Refusal:
@@ -158,15 +158,15 @@ def drawer_box(
 
     `taken` are the ids that parts have.
     """
-    frame, mesh = _framed(request, around.scene)
+    frame, mesh = _framed(request, closed.scene)
     if frame is None or mesh is None or not verdict.missing:
         return _of(request, Refusal("", Reason.NOT_MISSING, "nothing is missing behind it"))
-    still, others = around.triangles(request, frame)
+    still, others = closed.triangles(request, frame)
     caster = RayCaster(mesh)
     room: Room | Refusal | None = None
     if verdict.kind == "front only" or not has_walls(verdict):
         front = replace(frame, depth=verdict.inner_front)
-        room = find_room(caster, front, still, others, config, around.limit_behind(request, front))
+        room = find_room(caster, front, still, others, config, closed.limit_behind(request, front))
     if isinstance(room, Refusal):
         return _of(request, room)
     if verdict.kind == "front only" and room is not None:
@@ -177,7 +177,7 @@ def drawer_box(
             boards = _free(boards, np.concatenate([still, others]))
     if isinstance(boards, Refusal):
         return _of(request, boards)
-    return _additions(boards, verdict, request, frame, around, set(taken))
+    return _additions(boards, verdict, request, frame, closed, set(taken))
 
 
 def _of(request: JointRequest, refusal: Refusal) -> Refusal:
@@ -200,9 +200,9 @@ def _local(points: Points, frame: DrawerFrame) -> Points:
     return np.asarray((points - frame.origin) @ frame.rotation)
 
 
-def _space_behind(frame: DrawerFrame, around: Surroundings, request: JointRequest) -> float:
+def _space_behind(frame: DrawerFrame, closed: ClosedScene, request: JointRequest) -> float:
     """Returns how deep the space behind a part's middle is, metres, 0 where nothing ends it."""
-    still, others = around.triangles(request, frame)
+    still, others = closed.triangles(request, frame)
     near = np.concatenate([still, others])
     reach = 0.2 * min(frame.width, frame.height)
     low, high = spans_of(near)
@@ -225,12 +225,12 @@ def _additions(
     verdict: BoxVerdict,
     request: JointRequest,
     frame: DrawerFrame,
-    around: Surroundings,
+    closed: ClosedScene,
     taken: set[str],
 ) -> tuple[Addition, ...]:
     ajar = translation(request.drawn_at * np.asarray(request.axis.direction))
     T = ajar @ frame.T_object_drawer
-    like = around.body if verdict.kind == "front only" else (around.scene.parts[request.moving],)
+    like = closed.body if verdict.kind == "front only" else (closed.scene.parts[request.moving],)
     why = "it was only a front" if verdict.kind == "front only" else f"its box lacked {verdict.why}"
     made = []
     for name, board in boards.items():

@@ -7,8 +7,8 @@ touch the case as well are not told from parts of it.
 
 import numpy as np
 
+from grafu.additions.closed_scene import ClosedScene
 from grafu.additions.drawer_box.config import DrawerBoxConfig
-from grafu.additions.drawer_box.surroundings import Surroundings
 from grafu.additions.drawer_box.verdict import box_verdict
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Points
@@ -25,7 +25,7 @@ _TOUCH = 0.004  # metres, or this fraction of the front's width, across which bo
 
 
 def loose_boards(
-    request: JointRequest, mesh: TriangleMesh, frame: DrawerFrame, around: Surroundings, config: DrawerBoxConfig
+    request: JointRequest, mesh: TriangleMesh, frame: DrawerFrame, closed: ClosedScene, config: DrawerBoxConfig
 ) -> tuple[str, ...]:
     """Returns the ids of the still parts that are boards of the box behind a mere front; none where they make no box.
 
@@ -33,11 +33,11 @@ def loose_boards(
     """
     touch = max(min(_TOUCH, 0.02 * frame.width), 1e-6)
     near: dict[str, TriangleMesh] = {}
-    for part in around.scene.static_parts:
+    for part in closed.scene.static_parts:
         if part.label not in _NEVER and _is_behind(_local_box(part, frame), frame, touch):
             near[part.id] = TriangleMesh(_local(part.mesh.vertices, frame), part.mesh.faces)
-    held = _hanging_together(mesh.box, _apart(near, around, 0.1 * touch), touch)
-    rest = [p for p in around.scene.static_parts if p.id not in held]
+    held = _hanging_together(mesh.box, _apart(near, closed, 0.1 * touch), touch)
+    rest = [p for p in closed.scene.static_parts if p.id not in held]
     if not held or not any(_reaches_behind(_local_box(p, frame), frame) for p in rest):
         return ()
     whole = merge_meshes([mesh, *(near[part_id] for part_id in held)])
@@ -73,9 +73,9 @@ def _reaches_behind(box: Box, frame: DrawerFrame) -> bool:
     return float(box.high[1]) > frame.depth + 0.3 * min(frame.width, frame.height)
 
 
-def _apart(near: dict[str, TriangleMesh], around: Surroundings, touch: float) -> dict[str, TriangleMesh]:
+def _apart(near: dict[str, TriangleMesh], closed: ClosedScene, touch: float) -> dict[str, TriangleMesh]:
     """Returns those of the parts that touch no still part but one another."""
-    colliders = {obstacle.id: obstacle.collider for obstacle in around.scene.static_obstacles}
+    colliders = {obstacle.id: obstacle.collider for obstacle in closed.scene.static_obstacles}
     left = dict(near)
     changed = bool(left)
     while changed:

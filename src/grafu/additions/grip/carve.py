@@ -13,7 +13,7 @@ from grafu.additions.grip.config import GripConfig, GripKind
 from grafu.additions.grip.ground import Site, front_part, site_of
 from grafu.additions.grip.outcome import Carved
 from grafu.additions.grip.place import levelled, spots
-from grafu.additions.grip.shape import Cut, cutters, front_of, lining, tilted, union
+from grafu.additions.grip.shape import Cut, cutters, grip_frame, lining, tilted, union
 from grafu.additions.likeness import surface_like
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
@@ -23,7 +23,6 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.refusal import Asked, Reason, Refusal
-from grafu.scene.scale import metre_on
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -47,17 +46,17 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     joint_motion = scene.joint_motions.get(moving_id)
     if joint_motion is None:
         return _no_grip(moving_id, Reason.NO_MOTION)
-    scale = metre_on(scene.extent)
-    front = front_of(scene.parts[moving.id].mesh, joint_motion, config)
-    part = front_part(scene, moving_id, front)
+    scale = scene.metre
+    frame = grip_frame(scene.parts[moving.id].mesh, joint_motion, config)
+    part = front_part(scene, moving_id, frame)
     if part.id != moving_id:
-        local = Box.around(front.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
-        front = replace(front, box=local)
-    site = site_of(scene, moving_id, front, part, scale)
+        local = Box.around(frame.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
+        frame = replace(frame, box=local)
+    site = site_of(scene, moving_id, frame, part, scale)
     reasons: list[tuple[GripKind, Counter[Reason]]] = []
     for kind in config.kinds:
         met: Counter[Reason] = Counter()
-        for cut in spots(front, config, kind, scale, spot):
+        for cut in spots(frame, config, kind, scale, spot):
             found = levelled(site, cut, config)
             made = found if isinstance(found, Reason) else _carved(site, found)
             if isinstance(made, Carved):
@@ -74,7 +73,7 @@ def _no_grip(moving_id: str, reason: Reason, told: str = "") -> Refusal:
 
 def _carved(site: Site, cut: Cut) -> Carved | Reason:
     """Returns the part less the grip, unless that would harm it."""
-    front = site.front
+    frame = site.frame
     hulls = [ConvexSolid.around(_in_object(site, cut, np.asarray(solid.vertices))) for solid in cutters(cut)]
     solids = [solid for solid in hulls if solid is not None]
     around = union(cut)
@@ -90,11 +89,11 @@ def _carved(site: Site, cut: Cut) -> Carved | Reason:
     if not _has_same_box(site.part, part):
         return Reason.WOULD_BREAK
     size = np.array([cut.size.length, cut.size.width, cut.size.depth])
-    direction, outward = front.rotation[:, 0], front.rotation[:, 2]
+    direction, outward = frame.rotation[:, 0], frame.rotation[:, 2]
     if size[1] > size[0]:
-        size, direction = size[[1, 0, 2]], front.rotation[:, 1]
+        size, direction = size[[1, 0, 2]], frame.rotation[:, 1]
     middle = np.array([*cut.box.center[:2], cut.face])
-    centre = front.in_object(middle[None])[0]
+    centre = frame.in_object(middle[None])[0]
     return Carved(part, cut.kind, cut.profile, centre, direction, outward, size, left.volume, left.area)
 
 
@@ -112,7 +111,7 @@ def _walls(site: Site, cut: Cut, left: CutOut) -> tuple[Surface, ...]:
 
 
 def _in_object(site: Site, cut: Cut, points: Points) -> Points:
-    return site.front.in_object(tilted(cut, points))
+    return site.frame.in_object(tilted(cut, points))
 
 
 def _has_same_box(before: Part, after: Part) -> bool:

@@ -8,12 +8,12 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.additions.grip.shape import Front
+from grafu.additions.grip.shape import GripFrame
 from grafu.asset.part import Part
 from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
 from grafu.geometry.bodywork import Bodywork
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.geometry.mesh import TriangleMesh, mesh_near, triangle_bounds
 from grafu.geometry.raycast import Crossings, line_crossings
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -31,7 +31,7 @@ Grid = Float[np.ndarray, " _"]  # rising coordinates
 @final
 @dataclass(frozen=True, eq=False)
 class Ground(ArrayValue):
-    """What lines into the front meet first, one row per line; heights are Z of the front frame.
+    """What lines into the front meet first, one row per line; heights are Z of the grip frame.
 
     `face` is where a line enters (-inf: it meets nothing), `back` where the first layer ends, `solid` how much of that
     layer is solid (0: mere sheets), `beneath` where the part's next layer begins (-inf: there is none). Sheets that
@@ -79,13 +79,13 @@ class Ground(ArrayValue):
 @final
 @dataclass(frozen=True, eq=False)
 class Site:
-    """A front to carve: its part, its frame, and everything around it as triangles in the front frame.
+    """A front to carve: its part, its frame, and everything around it as triangles in the grip frame.
 
     `attached` moves with the front (handles, hardware); `still` and `others` do not.
     """
 
     part: Part
-    front: Front
+    frame: GripFrame
     attached: Triangles
     still: Triangles
     others: Triangles
@@ -98,7 +98,7 @@ class Site:
 
     @cached_property
     def _triangles(self) -> Triangles:
-        local = self.front.local(np.asarray(self.body.mesh.vertices))
+        local = self.frame.local(np.asarray(self.body.mesh.vertices))
         return np.asarray(local[self.body.faces])
 
     @cached_property
@@ -162,36 +162,33 @@ def _first_layer(
     return face, back, solid, -np.inf, is_opaque
 
 
-def site_of(scene: Scene, moving_id: str, front: Front, part: Part, scale: float) -> Site:
+def site_of(scene: Scene, moving_id: str, frame: GripFrame, part: Part, scale: float) -> Site:
     """Returns the site on one of the moving body's parts."""
-    around = Box.around(front.in_object(front.box.corners())).grown(_AROUND * scale)
+    around = Box.around(frame.in_object(frame.box.corners())).grown(_AROUND * scale)
     own = [scene.parts[m].mesh for m in scene.moving_bodies[moving_id].members if m != part.id]
     own += [v.mesh for v in scene.hardware_of(moving_id)]
     still = [scene.static_mesh_near(around, 0.0)]
     still += [v.mesh for owner, v in scene.hardware if not owner]
     others = [scene.equipped_mesh(other) for other in scene.moving_bodies if other != moving_id]
-    attached, fixed, moving = (_near(front, meshes, around) for meshes in (own, still, others))
-    return Site(part, front, attached, fixed, moving, scale)
+    attached, fixed, moving = (_near(frame, meshes, around) for meshes in (own, still, others))
+    return Site(part, frame, attached, fixed, moving, scale)
 
 
-def _near(front: Front, meshes: Sequence[TriangleMesh], around: Box) -> Triangles:
-    """Returns the triangles, in the front frame, whose boxes meet a box of the object frame."""
-    mesh = merge_meshes([m for m in meshes if len(m.faces) and m.box.overlaps(around)])
-    corners = mesh.triangles
-    low, high = triangle_bounds(corners)
-    keep = np.all((low <= around.high) & (high >= around.low), axis=1)
-    return np.asarray(front.local(corners[keep].reshape(-1, 3)).reshape(-1, 3, 3))
+def _near(frame: GripFrame, meshes: Sequence[TriangleMesh], around: Box) -> Triangles:
+    """Returns the triangles, in the grip frame, whose boxes meet a box of the object frame."""
+    corners = mesh_near(meshes, around).triangles
+    return np.asarray(frame.local(corners.reshape(-1, 3)).reshape(-1, 3, 3))
 
 
-def front_part(scene: Scene, moving_id: str, front: Front) -> Part:
+def front_part(scene: Scene, moving_id: str, frame: GripFrame) -> Part:
     """Returns the moving body's part that lies outermost over most of its front; handles do not count."""
     ids = scene.moving_bodies[moving_id].members
     parts = [scene.parts[m] for m in ids if m == moving_id or scene.parts[m].label is not PartLabel.HANDLE]
     if len(parts) == 1:
         return parts[0]
     owner = np.repeat(np.arange(len(parts)), [len(p.mesh.faces) for p in parts])
-    triangles = np.concatenate([front.local(p.mesh.vertices)[p.mesh.faces] for p in parts])
-    x, y = (np.linspace(front.box.low[k], front.box.high[k], _MAP + 2)[1:-1] for k in (0, 1))
+    triangles = np.concatenate([frame.local(p.mesh.vertices)[p.mesh.faces] for p in parts])
+    x, y = (np.linspace(frame.box.low[k], frame.box.high[k], _MAP + 2)[1:-1] for k in (0, 1))
     found = line_crossings(triangles, aside(x), aside(y))
     first = np.unique(found.line, return_index=True)[1]
     counts = np.bincount(owner[found.face[first]], minlength=len(parts))

@@ -8,7 +8,7 @@ import numpy as np
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripSize
 from grafu.additions.grip.ground import Grid, Ground, Site, Triangles, aside
-from grafu.additions.grip.shape import Cut, Front
+from grafu.additions.grip.shape import Cut, GripFrame
 from grafu.geometry.arrays import Mask, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import triangle_bounds
@@ -35,39 +35,39 @@ _AWAY = 0.06  # metres: what is attached and stands farther before the front lea
 _CLEAR = 0.004  # metres between a grip and what is attached
 
 
-def spots(front: Front, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
+def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
     """Yields grips to try, best first; their levels are not known yet (0). None: the front is too small.
 
     `wish` is a point of the object frame near which the grip is wanted.
     """
-    margin = _margin(front, config, scale)
+    margin = _margin(frame, config, scale)
     wanted = config.wanted(kind)
-    length = min(wanted.length * scale, config.length_ratio * front.length)
-    width = min(wanted.width * scale, config.width_ratio * front.breadth)
+    length = min(wanted.length * scale, config.length_ratio * frame.length)
+    width = min(wanted.width * scale, config.width_ratio * frame.breadth)
     if kind is GripKind.HOLE and wanted.length == wanted.width:
         length = width = min(length, width)
-    edge = float(front.box.high[1])
+    edge = float(frame.box.high[1])
     for factor in _SIZES:
         size = GripSize(factor * length, factor * width, wanted.depth * scale)
         if _is_too_small(size, scale):
             continue
         rows = [edge] if kind is GripKind.EDGE else [edge - m * margin - size.width / 2 for m in _INWARDS]
         ends = size.length / 2 + margin
-        low, high = float(front.box.low[0]) + ends, float(front.box.high[0]) - ends
+        low, high = float(frame.box.low[0]) + ends, float(frame.box.high[0]) - ends
         if wish is not None:
-            x, y, _ = front.local(wish[None])[0]
+            x, y, _ = frame.local(wish[None])[0]
             inner = size.width / 2 + margin
-            y = edge if kind is GripKind.EDGE else np.clip(y, front.box.low[1] + inner, front.box.high[1] - inner)
+            y = edge if kind is GripKind.EDGE else np.clip(y, frame.box.low[1] + inner, frame.box.high[1] - inner)
             yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
-        middle = best_along(front, scale)
-        columns = dict.fromkeys(float(np.clip(middle + s * front.length, low, high)) for s in _ALONG)
+        middle = best_along(frame, scale)
+        columns = dict.fromkeys(float(np.clip(middle + s * frame.length, low, high)) for s in _ALONG)
         for y, x in product(rows, columns):
             yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
 
 
-def _margin(front: Front, config: GripConfig, scale: float) -> float:
+def _margin(frame: GripFrame, config: GripConfig, scale: float) -> float:
     """Returns how much material stays between a grip and the edges, metres."""
-    return min(config.margin * scale, _RIM * front.length, _RIM * front.breadth)
+    return min(config.margin * scale, _RIM * frame.length, _RIM * frame.breadth)
 
 
 def _is_too_small(size: GripSize, scale: float) -> bool:
@@ -75,11 +75,11 @@ def _is_too_small(size: GripSize, scale: float) -> bool:
     return across < _FINGERS.width * scale - 1e-9 or along < _FINGERS.length * scale - 1e-9
 
 
-def best_along(front: Front, scale: float) -> float:
+def best_along(frame: GripFrame, scale: float) -> float:
     """Returns the X at which a front is best gripped: in its middle; tall and high doors where a hand reaches."""
-    low, high = float(front.box.low[0]), float(front.box.high[0])
-    up = float(front.rotation[2, 0])
-    if abs(up) < 0.9 or front.length < _TALL * scale:
+    low, high = float(frame.box.low[0]), float(frame.box.high[0])
+    up = float(frame.rotation[2, 0])
+    if abs(up) < 0.9 or frame.length < _TALL * scale:
         return (low + high) / 2
     bottom, top = sorted((low * up, high * up))
     inset = _LOW * (top - bottom)
@@ -89,7 +89,7 @@ def best_along(front: Front, scale: float) -> float:
 
 def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | Reason:
     """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
-    ring = _margin(site.front, config, site.scale) / 2
+    ring = _margin(site.frame, config, site.scale) / 2
     box = cut.box
     over = -_BLUNT * site.scale if cut.kind is GripKind.EDGE else ring
     xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])

@@ -1,6 +1,6 @@
-"""The solids that are cut away: convex, in the front frame (X along the gripped edge, Y towards it, Z outwards).
+"""The solids that are cut away: convex, in the grip frame (X along the gripped edge, Y towards it, Z outwards).
 
-The front frame: a door or drawer front seen from before it, with the edge at which it is gripped on top.
+The grip frame: a door or drawer front seen from before it, with the edge at which it is gripped on top.
 
 X runs along the gripped edge, Y across the front towards it, Z outwards, right-handed; the frame shares its origin with
 the object frame. A door is gripped opposite its hinge, a drawer at its upper edge, a sliding door at the edge that
@@ -23,12 +23,10 @@ from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import border_frame, part_axes
 from grafu.scene.scene import JointMotion
 
-_HAND = 0.1  # metres: on a front with a shorter side, all that fingers need shrinks with it
-
 
 @final
 @dataclass(frozen=True, eq=False)
-class Front(ArrayValue):
+class GripFrame(ArrayValue):
     """See the module's docstring; `rotation` has X, Y, Z as columns in the object frame, `box` is in the frame."""
 
     rotation: Mat3
@@ -47,22 +45,17 @@ class Front(ArrayValue):
         """The front's side across the gripped edge."""
         return float(self.box.size[1])
 
-    @property
-    def scale(self) -> float:
-        """What lengths that are made for hands are multiplied with: 1, less on fronts that are smaller than a hand."""
-        return min(1.0, min(self.length, self.breadth) / _HAND)
-
     def local(self, points: Points) -> Points:
-        """Returns points of the object frame in the front frame."""
+        """Returns points of the object frame in the grip frame."""
         return points @ self.rotation
 
     def in_object(self, points: Points) -> Points:
-        """Returns points of the front frame in the object frame."""
+        """Returns points of the grip frame in the object frame."""
         return points @ self.rotation.T
 
 
-def front_of(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) -> Front:
-    """Returns the front frame of a part that moves in a way."""
+def grip_frame(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) -> GripFrame:
+    """Returns the grip frame of a part that moves in a way."""
     direction = np.asarray(joint_motion.axis.direction)
     if joint_motion.kind.turns:
         border = border_frame(mesh, joint_motion.axis)
@@ -81,7 +74,7 @@ def front_of(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) 
         towards = _across(up, out) * (1.0 if config.drawer_side == "top" else -1.0)
         along = np.cross(towards, out)
     rotation = np.column_stack([along, towards, out])
-    return Front(rotation, Box.around(mesh.vertices[np.unique(mesh.faces)] @ rotation))
+    return GripFrame(rotation, Box.around(mesh.vertices[np.unique(mesh.faces)] @ rotation))
 
 
 def _looks_back(out: Vec3) -> bool:
@@ -108,7 +101,7 @@ _ROUNDED = 0.15  # the radius of a hole's rounded rim, as a fraction of the fron
 @final
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """One grip in the front frame: its middle (x, y), where an edge notch's y is the edge itself; its size; its levels.
+    """One grip in the grip frame: its middle (x, y), where an edge notch's y is the edge itself; its size; its levels.
 
     It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face. `is_hollow` says
     that there is nothing but sheets to cut, so that the cut needs a lining. Levels hold in the middle; elsewhere they
@@ -144,7 +137,7 @@ def tilted(cut: Cut, points: Points) -> Points:
 
 
 def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
-    """Returns the solids of a grip, in the front frame, as they are on a level front."""
+    """Returns the solids of a grip, in the grip frame, as they are on a level front."""
     rounded = cut.profile == "rounded"
     if cut.kind is GripKind.GROOVE:
         outline = _oval(cut) if rounded else _rectangle(cut)
@@ -158,7 +151,7 @@ def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
 
 
 def lining(cut: Cut) -> TriangleMesh:
-    """Returns the walls of a grip in a hollow board, in the front frame, as on a level front: they look into it."""
+    """Returns the walls of a grip in a hollow board, in the grip frame, as on a level front: they look into it."""
     if cut.kind is GripKind.GROOVE:
         (solid,) = cutters(replace(cut, top=cut.face, is_hollow=False))
     else:

@@ -29,15 +29,15 @@ _TOUCH = 0.0002  # of the object's largest side: how deep a handle may touch som
 
 @final
 @dataclass(frozen=True, eq=False)
-class Surroundings:
+class HandleObstacles:
     """All parts and hardware at rest, the still ones and those of each moving body."""
 
     scene: Scene
     still: tuple[Obstacle, ...]
     moving: Mapping[str, tuple[Obstacle, ...]]
 
-    def with_handle(self, moving_id: str, handle: TriangleMesh) -> "Surroundings":
-        """Returns the surroundings with a handle that was added to a moving body."""
+    def with_handle(self, moving_id: str, handle: TriangleMesh) -> "HandleObstacles":
+        """Returns the obstacles with a handle that was added to a moving body."""
         grown = (*self.moving[moving_id], Obstacle(moving_id, MeshCollider(handle)))
         return replace(self, moving={**self.moving, moving_id: grown})
 
@@ -100,8 +100,8 @@ def _closed(_: float) -> Mat4:
     return np.eye(4)
 
 
-def surroundings_of(scene: Scene) -> Surroundings:
-    """Returns the surroundings of all handles of a scene."""
+def handle_obstacles(scene: Scene) -> HandleObstacles:
+    """Returns the obstacles to all handles of a scene."""
     moving = {
         moving.id: (
             *(Obstacle(m, MeshCollider(scene.parts[m].mesh)) for m in moving.members if len(scene.parts[m].mesh.faces)),
@@ -109,7 +109,7 @@ def surroundings_of(scene: Scene) -> Surroundings:
         )
         for moving in scene.moving_bodies.values()
     }
-    return Surroundings(scene, (*scene.static_obstacles, *scene.static_hardware), moving)
+    return HandleObstacles(scene, (*scene.static_obstacles, *scene.static_hardware), moving)
 
 
 def _met(body: SweptBody, motion: PoseFunction, upper: float, near: Sequence[Obstacle], poses: int) -> str:

@@ -23,9 +23,9 @@ from grafu.additions.handle.finger_room import (
     find_lips,
     find_ridges,
 )
-from grafu.additions.handle.front import Side
 from grafu.additions.handle.relief import Relief
 from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays
+from grafu.scene.front import Side
 
 CellRows = Int[np.ndarray, "k 2"]
 

@@ -9,7 +9,7 @@ from typing import final
 
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.handle.config import HandleConfig
-from grafu.additions.handle.fit import Shape, Surroundings, fitted, ground_of, surroundings_of
+from grafu.additions.handle.fit import HandleObstacles, Shape, fitted, ground_of, handle_obstacles
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.handle.spots import Extent, Spot, spots_on
 from grafu.additions.handle.style import Sibling, Style, choose_style, named_template, siblings_of
@@ -67,19 +67,19 @@ def add_handles(
         return Handles((), (), scene)
     siblings = siblings_of(scene)
     reliefs = reliefs or Reliefs(scene)
-    style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.extent, config, own or {})
+    style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.metre, config, own or {})
     task = _Task(style, siblings, config, hints or {}, reliefs)
-    around = surroundings_of(scene)
+    obstacles = handle_obstacles(scene)
     additions: list[Addition] = []
     refused: list[Refusal] = []
     for moving in wanting:
-        found = _handles_for(scene, moving, around, task)
+        found = _handles_for(scene, moving, obstacles, task)
         if isinstance(found, Refusal):
             refused.append(found)
             continue
         additions += found
         for addition in found:
-            around = around.with_handle(moving, addition.part.mesh)
+            obstacles = obstacles.with_handle(moving, addition.part.mesh)
         scene = scene.with_parts(addition.part for addition in found)
     return Handles(tuple(additions), tuple(refused), scene)
 
@@ -104,7 +104,7 @@ class _Task:
     reliefs: Reliefs
 
 
-def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -> tuple[Addition, ...] | Refusal:
+def _handles_for(scene: Scene, moving: str, obstacles: HandleObstacles, task: _Task) -> tuple[Addition, ...] | Refusal:
     """Returns the handle of one moving body, two on a wide drawer, or why there is none."""
     relief = task.reliefs.of(moving)
     ground = ground_of(scene, moving, relief)
@@ -118,7 +118,7 @@ def _handles_for(scene: Scene, moving: str, around: Surroundings, task: _Task) -
             if any(pose is None for pose in poses):
                 continue
             placed = [shape.mesh.transformed(pose) for pose in poses if pose is not None]
-            met = next((b for mesh in placed if (b := around.blocker(moving, mesh, task.config.poses))), "")
+            met = next((b for mesh in placed if (b := obstacles.blocker(moving, mesh, task.config.poses))), "")
             if not met:
                 kept = [pose for pose in poses if pose is not None]
                 return _additions(scene, moving, template, shape, kept, spot, task)

@@ -13,12 +13,11 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.additions.handle.front import Front, body_members, front_of
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
-from grafu.scene.scale import metre_on
+from grafu.scene.front import Front, body_members, front_of
 from grafu.scene.scene import Scene
 
 Grid = Float[np.ndarray, "n m"]
@@ -95,7 +94,7 @@ class Reliefs:
 
     def _made(self, moving_id: str) -> Relief:
         scene = self.scene
-        front, factor = front_of(scene, moving_id), metre_on(scene.extent)
+        front, factor = front_of(scene, moving_id), scene.metre
         region = _around(front, factor)
         bodies = [scene.parts[m].mesh for m in body_members(scene, moving_id)]
         casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, _others(scene, moving_id, front))]

@@ -10,10 +10,10 @@ from typing import final
 import numpy as np
 
 from grafu.additions.handle.config import HandleConfig
-from grafu.additions.handle.front import Side
 from grafu.additions.handle.relief import Relief
 from grafu.additions.handle.style import Sibling
 from grafu.geometry.arrays import Mat3, Vec3
+from grafu.scene.front import Side
 
 _FIFTH = 0.2  # of a front's side: the farthest that a handle lies from the free edge, where there is room for more
 _INSETS = (1.0, 0.7, 1.4, 0.5, 1.9)  # fractions of the usual inset that are tried

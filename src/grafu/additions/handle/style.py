@@ -7,11 +7,10 @@ from typing import final
 import numpy as np
 
 from grafu.additions.handle.config import HandleConfig
-from grafu.additions.handle.front import Front, front_of
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material
 from grafu.geometry.box import Box
-from grafu.scene.scale import metre_on
+from grafu.scene.front import Front, front_of
 from grafu.scene.scene import Scene
 from grafu.templates.handles import HANDLES, handle_template
 from grafu.templates.solids import BLACK, BRASS, BRONZE, NICKEL, STEEL
@@ -69,16 +68,17 @@ def siblings_of(scene: Scene) -> tuple[Sibling, ...]:
 def choose_style(
     fronts: Sequence[Front],
     siblings: Sequence[Sibling],
-    extent: float,
+    factor: float,
     config: HandleConfig,
     own: Mapping[str, HandleTemplate],
 ) -> Style:
-    """Returns the style of all handles that a model gets; `own` are the user's templates by id.
+    """Returns the style of all handles that a model gets.
+
+    `factor` is the length of a metre on it, `own` are the user's templates by id.
 
     Raises:
         TemplateError: if the config names no template that there is.
     """
-    factor = metre_on(extent)
     alike = () if config.finish else tuple(s.part for s in siblings)
     finish = FINISHES.get(config.finish, STEEL)
     if config.style or not siblings:

@@ -7,7 +7,7 @@ panels in its own scale.
 from dataclasses import dataclass
 from typing import final
 
-from grafu.joints.config import require_not_negative, require_positive
+from grafu.scene.checks import require_not_negative, require_positive
 
 
 @final

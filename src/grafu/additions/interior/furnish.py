@@ -23,7 +23,7 @@ from grafu.additions.interior.arrangement import (
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.occupied import is_drawer
-from grafu.additions.interior.panels import BEYOND, Clearing, Place, Walls, clearing_of, cut_panel, moved_to
+from grafu.additions.interior.panels import BEYOND, Clearing, Place, WallRays, clearing_of, cut_panel, moved_to
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import PanelHint
@@ -126,10 +126,10 @@ def _own_sizes(choice: CompartmentChoice | None, sizes: Sizes) -> Sizes:
     return replace(sizes, thickness=thickness, inset=sizes.inset if choice.inset is None else choice.inset)
 
 
-def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> Walls:
+def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> WallRays:
     """Returns the still meshes in and around some compartments."""
     whole = Box.enclosing(compartment.box for compartment in compartments)
-    return Walls((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
+    return WallRays((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
 
 
 def refused_panel(compartment: int | None, label: PartLabel | None, reason: Reason, why: str) -> Refusal:
@@ -200,7 +200,7 @@ class _Maker:
         self,
         number: int,
         compartment: Compartment,
-        walls: Walls,
+        walls: WallRays,
         clearing: Clearing,
         sizes: Sizes,
         config: InteriorConfig,

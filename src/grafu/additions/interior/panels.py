@@ -128,7 +128,7 @@ class Place:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Walls:
+class WallRays:
     """The meshes that panels may rest on, prepared for rays; not a value."""
 
     casters: tuple[RayCaster, ...]
@@ -138,12 +138,12 @@ class Walls:
         nearest = [caster.along(origins, direction) for caster in self.casters]
         return np.minimum.reduce(nearest)
 
-    def and_also(self, mesh: TriangleMesh) -> "Walls":
+    def and_also(self, mesh: TriangleMesh) -> "WallRays":
         """Returns these walls and one more mesh."""
-        return Walls((*self.casters, RayCaster(mesh)))
+        return WallRays((*self.casters, RayCaster(mesh)))
 
 
-def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | Refusal:
+def cut_panel(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | Refusal:
     """Returns a panel that touches the walls at both ends, or why there is none. `walls` are the still meshes."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     inward = -1.0 if place.compartment.opening % 2 else 1.0
@@ -167,7 +167,7 @@ def cut_panel(place: Place, walls: Walls, sizes: Sizes, config: InteriorConfig) 
     return _prism(place, sizes.thickness, (front, back), ends[0], ends[1])
 
 
-def _back(place: Place, walls: Walls, sizes: Sizes, inward: float) -> float:
+def _back(place: Place, walls: WallRays, sizes: Sizes, inward: float) -> float:
     """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     end = float(box.low[depth] if inward < 0 else box.high[depth])
@@ -182,7 +182,7 @@ def _back(place: Place, walls: Walls, sizes: Sizes, inward: float) -> float:
     return float(origins[0, depth] + inward * found[hit].min())
 
 
-def _distances(place: Place, walls: Walls, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
+def _distances(place: Place, walls: WallRays, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
     """Returns how far the wall is from the compartment's middle along a panel's end; infinity where there is none."""
     origins = _origins(place, sizes.thickness, place.compartment.depth_axis, along)
     direction = np.zeros(3)

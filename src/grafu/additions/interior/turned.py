@@ -73,6 +73,10 @@ def compartments_of(scene: Scene, config: InteriorConfig = InteriorConfig()) -> 
 
 def _straight(scene: Scene) -> tuple[Mat4, Scene]:
     """Returns the turn into the frame that the walls follow, and the scene in it (itself where it stands straight)."""
+    return scene.once(_straightened)
+
+
+def _straightened(scene: Scene) -> tuple[Mat4, Scene]:
     angle = heading_of(part.mesh for part in scene.static_parts)
     T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle))
     return T, _turned(scene, T) if angle else scene

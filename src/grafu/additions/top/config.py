@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, final
 
-from grafu.joints.config import require_not_negative, require_positive, require_ratios
+from grafu.scene.checks import require_not_negative, require_positive, require_ratios
 
 TopShape = Literal["rectangle", "rounded", "chamfered"]
 

@@ -20,7 +20,7 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
-from grafu.joints.hinge.survey import Surroundings
+from grafu.joints.hinge.survey import BorderSurvey
 from grafu.scene.border import BorderFrame
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel
@@ -62,10 +62,10 @@ class Tolerances:
     radius: float
 
 
-_Rule = Callable[[BorderFrame, Surroundings, Tolerances], PinCandidate | None]
+_Rule = Callable[[BorderFrame, BorderSurvey, Tolerances], PinCandidate | None]
 
 
-def _contact_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _contact_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """C beside an inset door: the leaves lie in the seam, the barrel in front of it."""
     if not (s.side_gap <= tol.contact and s.side_top <= 0.6 * tol.radius):
         return None
@@ -74,7 +74,7 @@ def _contact_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinC
     return PinCandidate(MechanismClass.C, 0.0, -max(s.side_gap, 0.0) / 2, tol.radius, room, tol.radius, 0)
 
 
-def _contact_behind(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _contact_behind(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """C behind an overlay door: the leaves lie between its back and the carcass, the barrel beside both."""
     strip = max(0.0, -s.side_face)
     if not (s.back_gap <= tol.contact and strip <= 3 * tol.contact):
@@ -84,7 +84,7 @@ def _contact_behind(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> Pin
     return PinCandidate(MechanismClass.C, pi / 2, -strip - tol.radius, y, room, tol.radius, 0)
 
 
-def _flush_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _flush_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """F across the seam of an inset door: both leaves on the fronts."""
     if not (s.side_gap <= tol.contact and abs(s.side_top) <= tol.flush):
         return None
@@ -92,7 +92,7 @@ def _flush_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCan
     return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, 0.3 * frame.width, tol.radius, 1)
 
 
-def _flush_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _flush_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """F across the seam behind an overlay door: both leaves on the outer sides."""
     if not (s.back_gap <= tol.contact and abs(s.side_face) <= tol.flush):
         return None
@@ -101,7 +101,7 @@ def _flush_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCand
     return PinCandidate(MechanismClass.F, pi / 2, x, y, max(0.95 * frame.board, 2 * tol.radius), tol.radius, 1)
 
 
-def _corner_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _corner_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """P in the corner between an inset door's front and a side that stands out beyond it."""
     if not (s.side_gap <= tol.contact and s.side_top >= 2 * tol.radius):
         return None
@@ -109,7 +109,7 @@ def _corner_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCa
     return PinCandidate(MechanismClass.P, 0.0, tol.radius - max(s.side_gap, 0.0), tol.radius, room, tol.radius, 2)
 
 
-def _corner_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _corner_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """P in the corner between an overlay door's edge and the frame that it lies on."""
     strip = -s.side_face
     if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= 3 * tol.radius):
@@ -119,7 +119,7 @@ def _corner_side(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCan
     return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), tol.radius, 2)
 
 
-def _let_in_front(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> PinCandidate | None:
+def _let_in_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
     """C at a door's front edge, its static leaf let into what stands behind: for doors that meet over one divider."""
     if not np.isfinite(s.back_gap):
         return None
@@ -138,7 +138,7 @@ _RULES: tuple[_Rule, ...] = (
 )
 
 
-def ruled_pins(frame: BorderFrame, s: Surroundings, tol: Tolerances) -> list[PinCandidate]:
+def ruled_pins(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> list[PinCandidate]:
     """Returns a pin for every hinge class that the surroundings allow."""
     return [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
 

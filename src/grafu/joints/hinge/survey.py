@@ -24,7 +24,7 @@ def _median_of(distances: Scalars, reach: float) -> float:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class BorderSurvey:
     """The static surfaces around a hinge border.
 
     `side_gap`: from the border outwards (-x) to a face beside the door. `side_top`: the y of that neighbour's front,
@@ -42,12 +42,12 @@ class Surroundings:
     side_face: float
 
 
-def survey(frame: BorderFrame, body: RayCaster, reach: float) -> Surroundings:
+def survey(frame: BorderFrame, body: RayCaster, reach: float) -> BorderSurvey:
     """Returns what rays against the static body find within `reach` metres of the border."""
     probe = _Probe(frame, body, reach)
     side_gap = min(probe.side(y) for y in (-0.15, -0.5, -0.85))
     back_gap, back_width = probe.back()
-    return Surroundings(
+    return BorderSurvey(
         side_gap=side_gap,
         side_top=probe.side_top(side_gap),
         side_depth=probe.side_depth(side_gap),

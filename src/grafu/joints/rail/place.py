@@ -26,7 +26,7 @@ from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.joints.rail.search import DrawerSearch
-from grafu.joints.rail.spots import RailSpot, find_walls, rail_spots
+from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
 from grafu.joints.support_block import Footing, block, shortest_bridge
 from grafu.scene.scene import Obstacle
 from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
@@ -173,12 +173,12 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     region = search.region
     if region is None:
         return None
-    walls = find_walls(search.frame, region, search.static_rays, 0.25 * search.scene.extent)
+    gaps = flank_gaps(search.frame, region, search.static_rays, 0.25 * search.scene.extent)
     choice = search.request.choice
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
             continue
-        for spot in rail_spots(model, region, walls, search.config.rail_ratio):
+        for spot in rail_spots(model, region, gaps, search.config.rail_ratio):
             placed = _with_hardware(model, spot, region, search)
             if placed is not None:
                 return placed

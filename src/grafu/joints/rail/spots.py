@@ -37,7 +37,7 @@ class RailSpot:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Walls:
+class FlankGaps:
     """The gap in metres from each flank outwards to the static body; infinity where no wall is in reach.
 
     `passage` is the narrowest that the drawer's way out leaves beside it: a face frame may stand in before the walls.
@@ -53,7 +53,7 @@ class Walls:
         return min(self.left, self.right)
 
 
-def find_walls(frame: DrawerFrame, body: BodyRegion, static: RayCaster, reach: float) -> Walls:
+def flank_gaps(frame: DrawerFrame, body: BodyRegion, static: RayCaster, reach: float) -> FlankGaps:
     """Returns how far the walls are, seen from within both flanks; negative where the drawer cuts into one."""
     margin = 0.05 * body.length
     beside = [
@@ -62,7 +62,7 @@ def find_walls(frame: DrawerFrame, body: BodyRegion, static: RayCaster, reach: f
     left, right = (float(g[len(g) // 10]) if len(g) >= 0.2 * _GRID[0] * _GRID[1] else float("inf") for g in beside)
     ahead = [_gaps(frame, body, static, reach, (-0.02 - 0.1 * body.length, body.front), sign) for sign in (-1.0, 1.0)]
     passage = min((float(g[0]) for g in (*ahead, *beside) if len(g)), default=float("inf"))
-    return Walls(left, right, max(passage, 0.0))
+    return FlankGaps(left, right, max(passage, 0.0))
 
 
 def _gaps(
@@ -80,7 +80,7 @@ def _gaps(
     return distances[distances <= reach + inside] - inside
 
 
-def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, ratio: float) -> Iterator[RailSpot]:
+def rail_spots(model: RailModel, body: BodyRegion, gaps: FlankGaps, ratio: float) -> Iterator[RailSpot]:
     """Yields spots for one model, best first: at full thickness and inset, at the middle of the flank, then elsewhere.
 
     `ratio` is the rail's length over the body's (supplement, Scaling).
@@ -88,9 +88,9 @@ def rail_spots(model: RailModel, body: BodyRegion, walls: Walls, ratio: float) -
     flank = body.top - body.bottom
     length = ratio * body.length
     y = body.front + length / 2 if body.is_bare else body.back - length / 2
-    for thickness in _thicknesses(model, walls):
-        tight = (thickness - min(max(walls.nearer, 0.0), thickness)) / 2
-        inset = min(max(tight, _DYNAMIC_REACH * thickness - walls.passage, 0.0), _MOST_INSET * thickness)
+    for thickness in _thicknesses(model, gaps):
+        tight = (thickness - min(max(gaps.nearer, 0.0), thickness)) / 2
+        inset = min(max(tight, _DYNAMIC_REACH * thickness - gaps.passage, 0.0), _MOST_INSET * thickness)
         height = max(min(model.natural.height, 0.6 * flank, 4.0 * thickness + 0.01), min(_LOWEST, flank))
         for z in _heights_on(model, body, height):
             size = RailSize(length, height, thickness)
@@ -109,11 +109,11 @@ def _heights_on(model: RailModel, body: BodyRegion, height: float) -> list[float
     return [min(max(body.bottom + level * flank, lowest), highest) for level in (0.5, 0.3, 0.7, 0.15, 0.85)]
 
 
-def _thicknesses(model: RailModel, walls: Walls) -> list[float]:
+def _thicknesses(model: RailModel, gaps: FlankGaps) -> list[float]:
     """Returns the thicknesses to try: what gap and passage hold, then thinner ones that are inset."""
-    full = min(model.natural.thickness, walls.nearer)
-    through = min(full, walls.passage / (_DYNAMIC_REACH - _MOST_INSET))
-    fitting = [t for t in (full, min(full, walls.passage), through, through / 2) if t > _THINNEST]
+    full = min(model.natural.thickness, gaps.nearer)
+    through = min(full, gaps.passage / (_DYNAMIC_REACH - _MOST_INSET))
+    fitting = [t for t in (full, min(full, gaps.passage), through, through / 2) if t > _THINNEST]
     return [*dict.fromkeys(fitting), _THINNEST, *((0.0018, 0.001) if through <= _THINNEST else ())]
 
 

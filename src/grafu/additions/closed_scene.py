@@ -1,4 +1,4 @@
-"""What surrounds a drawer: static parts and other moving bodies, closed, as triangles in its frame."""
+"""The scene with every moving body closed, which drawer boxes and carcass boards are looked for in."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -17,7 +17,7 @@ _OPPOSITE = -0.9  # cosine between the ways of two drawers from which on they fa
 
 @final
 @dataclass(frozen=True, eq=False)
-class Surroundings:
+class ClosedScene:
     """The parts as they stand with every moving body closed, and who moves how; `scene` holds no hardware."""
 
     scene: Scene
@@ -49,24 +49,16 @@ class Surroundings:
                 nearest = min(nearest, (frame.depth + max(float(low[1]), frame.depth)) / 2)
         return nearest
 
-    def with_members(self, moving_id: str, members: Iterable[str]) -> "Surroundings":
-        """Returns the surroundings in which some still parts ride on a moving body."""
-        moving = self.scene.moving_bodies[moving_id]
-        moving_bodies = {**self.scene.moving_bodies, moving_id: MovingBody(moving_id, (*moving.members, *members))}
-        return replace(self, scene=Scene(self.scene.parts, moving_bodies, self.scene.extent))
+    def with_members(self, moving_id: str, members: Iterable[str]) -> "ClosedScene":
+        """Returns the closed scene in which some still parts ride on a moving body."""
+        return replace(self, scene=self.scene.with_attached((moving_id, member) for member in members))
 
-    def with_parts(self, parts: tuple[Part, ...]) -> "Surroundings":
-        """Returns the surroundings with parts that ride on a moving body added."""
-        moving_bodies = dict(self.scene.moving_bodies)
-        for part in parts:
-            if part.rides_on in moving_bodies:
-                moving = moving_bodies[part.rides_on]
-                moving_bodies[moving.id] = MovingBody(moving.id, (*moving.members, part.id))
-        scene = Scene({**self.scene.parts, **{p.id: p for p in parts}}, moving_bodies, self.scene.extent)
-        return replace(self, scene=scene)
+    def with_parts(self, parts: Iterable[Part]) -> "ClosedScene":
+        """Returns the closed scene with some more parts; those that ride on a moving body move with it."""
+        return replace(self, scene=self.scene.with_parts(parts))
 
 
-def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surroundings:
+def closed_scene(parts: Iterable[Part], plan: RealizationPlan) -> ClosedScene:
     """Returns the parts with every moving body of a plan closed; parts without faces are left out."""
     known = {part.id: part for part in parts if len(part.mesh.faces)}
     requests = tuple(r for r in plan.joints if r.moving in known)
@@ -78,7 +70,7 @@ def surroundings_of(parts: Iterable[Part], plan: RealizationPlan) -> Surrounding
             for member in moving_bodies[request.moving].members:
                 known[member] = _closed(known[member], request)
     whole = Box.enclosing(part.box for part in known.values())
-    return Surroundings(Scene(known, moving_bodies, float(whole.size.max())), requests)
+    return ClosedScene(Scene(known, moving_bodies, float(whole.size.max())), requests)
 
 
 def _closed(part: Part, request: JointRequest) -> Part:

@@ -82,6 +82,10 @@ def front_of(scene: Scene, moving_id: str) -> Front:
     Raises:
         KeyError: if the scene has no such moving body, or no motion for it.
     """
+    return scene.once(_front, moving_id)
+
+
+def _front(scene: Scene, moving_id: str) -> Front:
     mesh = _body_mesh(scene, moving_id)
     joint_motion = scene.joint_motions[moving_id]
     if joint_motion.kind.turns:
