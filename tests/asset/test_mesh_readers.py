@@ -148,7 +148,7 @@ def test_missing_and_empty_places_are_told_apart(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "way"),
-    [("a.fbx", "export it as GLB"), ("a.USDZ", "export it as GLB"), ("a.zip", "unpack it"), ("a.jpg", "no model")],
+    [("a.fbx", "export it as GLB"), ("a.3DS", "export it as GLB"), ("a.zip", "unpack it"), ("a.jpg", "no model")],
 )
 def test_files_of_other_kinds_are_told_a_way_in(tmp_path, name, way):
     (tmp_path / name).write_bytes(b"\0\1")

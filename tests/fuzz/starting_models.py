@@ -2,6 +2,7 @@
 
 import base64
 import json
+import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from small_assets import (
     write_pnm,
     write_urdf,
 )
+from usd_scenes import scene_of, write_usd
 
 MTL = (
     "newmtl wood\nKd 0.6 0.4 0.2\nNs 20\nd 1.0\nmap_Kd textures/wood.png\n"
@@ -148,6 +150,22 @@ def collada(folder: Path) -> str:
     return "cabinet.dae"
 
 
+def usda(folder: Path) -> str:
+    glass = "rel material:binding = </Looks/glass>"
+    write_usd(folder, scene_of(back_panel_5="rel material:binding = </Looks/wood>", handle_8=glass), PNG)
+    return "cabinet.usda"
+
+
+def usdz(folder: Path) -> str:
+    from pxr import UsdUtils  # noqa: TID251 packs, what our own code wrote
+
+    usda(folder)
+    UsdUtils.CreateNewUsdzPackage(str(folder / "cabinet.usda"), str(folder / "scene.usdz"))
+    shutil.rmtree(folder / "textures")
+    (folder / "cabinet.usda").unlink()
+    return "scene.usdz"
+
+
 def urdf(folder: Path) -> str:
     write_urdf(folder)
     path = folder / "cabinet.urdf"
@@ -215,6 +233,8 @@ MODELS: dict[str, Maker] = {
     "folder of ply": ply_folder,
     "sweet home": sweet_home,
     "collada": collada,
+    "usda": usda,
+    "usdz": usdz,
     "urdf": urdf,
     "partnet-mobility": partnet_mobility,
     "partnet-mobility urdf": partnet_mobility_urdf,

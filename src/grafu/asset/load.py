@@ -28,6 +28,7 @@ from grafu.asset.regular_files import read_head
 from grafu.asset.resources import ModelFiles
 from grafu.asset.shared_handles import with_split_handles
 from grafu.asset.urdf import read_urdf
+from grafu.asset.usd import USD_SUFFIXES, read_usd
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
 
@@ -39,19 +40,22 @@ READERS: Final[dict[str, Reader]] = {
     "urdf": read_urdf,
     "gltf": read_gltf,
     "collada": read_collada,
+    "usd": read_usd,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
+# Files of which a folder holds one, by how their names end; the first kind that is there is read.
+_SCENES: Final = {"urdf": (".urdf",), "gltf": (".glb", ".gltf"), "collada": (".dae",), "usd": USD_SUFFIXES}
 _EXPECTED = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB, glTF or COLLADA scene, an OBJ with groups, or a "
-    "folder of meshes"
+    "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB, glTF, COLLADA or OpenUSD scene, an OBJ with "
+    "groups, or a folder of meshes"
 )
 
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
 # What people try, by the way it ends, and what they can do with it.
 _WAYS_IN: Final[dict[str, str]] = {
     **dict.fromkeys((".fbx", ".blend", ".3ds", ".max", ".skp", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
-    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".step", ".stp", ".iges", ".igs"), _AS_GLB),
+    **dict.fromkeys((".step", ".stp", ".iges", ".igs"), _AS_GLB),
     **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
     **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
 }
@@ -139,6 +143,8 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "gltf", path
     if suffix == ".dae" or b"<COLLADA" in head:
         return "collada", path
+    if suffix in USD_SUFFIXES or head[:8] == b"PXR-USDC" or head[:5] == b"#usda":
+        return "usd", path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
     way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""
@@ -148,7 +154,12 @@ def _detect_file(path: Path) -> tuple[str, Path]:
 def _detect_folder(folder: Path) -> tuple[str, Path]:
     if is_partnet_mobility(folder):
         return "partnet-mobility", folder
-    for kind, suffixes in (("urdf", (".urdf",)), ("gltf", (".glb", ".gltf")), ("collada", (".dae",))):
+    for kind, suffixes in (
+        ("urdf", (".urdf",)),
+        ("gltf", (".glb", ".gltf")),
+        ("collada", (".dae",)),
+        ("usd", USD_SUFFIXES),
+    ):
         found = files_below(folder, suffixes)
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]
