@@ -6,7 +6,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from grafu.additions.drawer_box.complete import complete_drawers, with_attached
+from grafu.additions.drawer_box.complete import complete_drawers
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
@@ -40,7 +40,8 @@ def completed(asset: Asset):
     """The asset realized with the boards that its drawers lacked."""
     plan, made = plan_from_annotation(asset), found(asset)
     whole = replace(asset, parts=(*asset.parts, *(a.part for a in made.additions)))
-    return realize(with_attached(plan, made), whole, GALLERY)
+    riding = [(a.part.rides_on, a.part.id) for a in made.additions]
+    return realize(plan.with_attached([*made.loose, *riding]), whole, GALLERY)
 
 
 def boards_of(made, drawer: str) -> dict[str, object]:
@@ -176,7 +177,7 @@ def test_loose_boards_behind_a_front_are_its_box(label):
     assert sorted(part_id for _, part_id in made.loose) == sorted(boards)
     assert {v.kind for v in made.verdicts} == {"whole"}
     assert made.additions == ()
-    plan = with_attached(plan_from_annotation(asset), made)
+    plan = plan_from_annotation(asset).with_attached(made.loose)
     assert {r for request in plan.joints for r in request.attached} >= set(boards)
 
 

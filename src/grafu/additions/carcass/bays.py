@@ -21,16 +21,11 @@ from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
-_LEVEL = 0.3  # the most of a unit direction that points up where a front stands upright
 _SQUARE = float(np.cos(np.radians(8.0)))  # how near to an axis of the object a front's way is taken to be along it
-_SAME_WAY = 0.97  # cosine between the directions of two fronts of one view
 _INNER = np.linspace(0.15, 0.85, 7)  # fractions of a front's sides: its edges lap onto the case
 _DEEP = 24  # places along the depth at which walls are felt for
 _FINE = 17  # places between two of those at which the walls' edges are
-_FRONT = 0.02  # metres: the thickness of fronts, where a drawer is drawn with its box
-_ALIKE = 0.04  # fraction of the object's largest side by which the walls of one space may differ
 _MANY, _COARSE = 4000, 0.008  # faces from which a part is coarsened, to cells of this fraction of the largest side
-_APART = 0.08  # fraction of it that parts drawers above each other at most: a rail between them
 
 
 @final
@@ -96,12 +91,12 @@ class Bay(ArrayValue):
         )
 
 
-def find_views(scene: Scene, requests: Iterable[JointRequest]) -> tuple[View, ...]:
+def find_views(scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[View, ...]:
     """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
-    ways = {r.moving: way for r in requests if (way := _outward(scene, r)) is not None}
+    ways = {r.moving: way for r in requests if (way := _outward(scene, r, config.upright)) is not None}
     groups: list[tuple[Vec3, list[str]]] = []
     for moving, way in ways.items():
-        group = next((g for g in groups if float(g[0] @ way) > _SAME_WAY), None)
+        group = next((g for g in groups if float(g[0] @ way) > config.same_way), None)
         if group is None:
             groups.append((way, [moving]))
         else:
@@ -118,7 +113,7 @@ def _coarse(mesh: TriangleMesh, extent: float) -> TriangleMesh:
     return clustered(mesh, _COARSE * extent) if len(mesh.faces) > _MANY else mesh
 
 
-def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
+def _outward(scene: Scene, request: JointRequest, upright: float) -> Vec3 | None:
     """Returns the level unit direction to which a front looks; None where it is a lid, or slides up."""
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
@@ -132,7 +127,7 @@ def _outward(scene: Scene, request: JointRequest) -> Vec3 | None:
         else:
             towards = mesh.box.center - np.mean([p.box.center for p in scene.parts.values()], axis=0)
         way = thin * (1.0 if float(thin @ towards) >= 0 else -1.0)
-    if abs(float(way[2])) > _LEVEL:
+    if abs(float(way[2])) > upright:
         return None
     level = vec3(float(way[0]), float(way[1]), 0.0)
     level = level / np.linalg.norm(level)
@@ -159,17 +154,17 @@ def find_bays(view: View, scene: Scene, requests: Iterable[JointRequest], config
     while merged:
         merged = False
         for i, one in enumerate(bays):
-            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], scene.extent)), None)
+            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], scene.extent, config)), None)
             if k is not None:
                 bays[i], merged = one.joined(bays.pop(k)), True
                 break
     return tuple(bays)
 
 
-def _one_space(a: Bay, b: Bay, extent: float) -> bool:
+def _one_space(a: Bay, b: Bay, extent: float, config: CarcassConfig) -> bool:
     """Whether two bays have the same walls and lie above, below or within one another."""
-    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < _ALIKE * extent
-    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < _APART * extent)
+    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < config.alike * extent
+    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < config.apart * extent)
 
 
 def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
@@ -195,7 +190,7 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     )
     walled = float(both[first : last + 1].mean()) * (end - start) / depth
     outline = np.array([low[0], high[0], low[2], high[2]])
-    inset = start < float(low[1]) + 0.5 * min(float(high[1] - low[1]), _FRONT)
+    inset = start < float(low[1]) + 0.5 * min(float(high[1] - low[1]), config.front_thickness)
     return Bay(
         (moving,),
         vec3(x0, start, outline[2]),

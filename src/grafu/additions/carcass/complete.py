@@ -33,9 +33,6 @@ from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 _SPREAD = np.linspace(-0.4, 0.4, 9)  # fractions of a bay's side around a spot from which walls are felt for
-_BEFORE = 0.1  # fraction of a bay's side before its end from which a wall is felt for, and beyond it
-_INSET = 2e-4  # metres by which a board is inset into the walls that hold it
-_NEAR = 2e-3  # metres within which a board is held
 
 
 @final
@@ -46,12 +43,13 @@ class BoardRoom:
     body: TriangleMesh
     rays: RayCaster
     moving: np.ndarray
+    config: CarcassConfig
     boards: tuple[Box, ...] = ()
 
     @classmethod
-    def of(cls, still: TriangleMesh, moving: TriangleMesh) -> "BoardRoom":
+    def of(cls, still: TriangleMesh, moving: TriangleMesh, config: CarcassConfig) -> "BoardRoom":
         """Returns the room around a still mesh and a moving one, both in the view."""
-        return cls(still, RayCaster(still), moving.triangles)
+        return cls(still, RayCaster(still), moving.triangles, config)
 
     @property
     def box(self) -> Box:
@@ -81,23 +79,24 @@ class BoardRoom:
         there is none, the bay ends.
         """
         low, high = float(bay.low[axis]), float(bay.high[axis])
+        felt = self.config.wall_reach * (high - low)
         ends = []
         for sign, end in ((-1.0, low), (1.0, high)):
             origins = np.repeat(spot[None], len(_SPREAD), axis=0)
-            origins[:, axis] = end - sign * _BEFORE * (high - low)
+            origins[:, axis] = end - sign * felt
             origins[:, spread] += _SPREAD * (bay.high[spread] - bay.low[spread])
             direction = np.zeros(3)
             direction[axis] = sign
             hits = np.sort(self._cast(origins, direction))
-            reach = np.inf if axis == 2 else 2.0 * _BEFORE * (high - low)  # a back ends at a board, not at a front
+            reach = np.inf if axis == 2 else 2.0 * felt  # a back ends at a board, not at a front
             is_wall = np.isfinite(hits[len(hits) // 2]) and hits[len(hits) // 2] <= reach
-            ends.append(float(origins[0, axis]) + sign * (float(hits[0]) + _INSET) if is_wall else end)
+            ends.append(float(origins[0, axis]) + sign * (float(hits[0]) + self.config.inset) if is_wall else end)
         return ends[0], ends[1]
 
     def rear_of(self, around: Box, fallback: float) -> float:
         """Returns how far back anything reaches in a box."""
         pieces = pieces_in(np.concatenate([self._still, self.moving]), around, (8, 1, 8))
-        return max(float(pieces.high[:, 1].max(initial=fallback)), fallback) - _INSET
+        return max(float(pieces.high[:, 1].max(initial=fallback)), fallback) - self.config.inset
 
     def is_free(self, board: Box, touch: float) -> bool:
         """Whether a board pierces nothing by more than a touch in metres."""
@@ -126,16 +125,11 @@ class BoardRoom:
     def _touches(self, board: Box, axis: int, end: int) -> bool:
         low, high = np.array(board.low), np.array(board.high)
         face = (board.high if end else board.low)[axis]
-        low[axis], high[axis] = face - _NEAR, face + _NEAR
+        low[axis], high[axis] = face - self.config.held, face + self.config.held
         return len(pieces_in(self._still, Box(low, high), (16, 16, 16)).low) > 0
 
 
-_SIDE_BY_SIDE = 0.06  # fraction of the object's largest side: bays nearer than this fraction one back
-_WASTED = 0.15  # fraction of a common back that may cover what lacks none
-_FILLED = 0.7  # fraction of a bay's sides that a board must close
-_FRAME = 0.2  # fraction of the depth in which a face frame or a front may stand before a bottom
 _NO_ROOM = "no board fits between the walls without piercing something"
-_TOUCH = 5e-4  # metres: less deep than this a board and its neighbour merely touch
 
 
 @final
@@ -173,8 +167,8 @@ def complete_carcass(
     additions: list[Addition] = []
     refused: list[Refusal] = []
     taken = {part.id for part in parts}
-    rooms = {id(panel.view): _room(panel.view, closed) for panel in {id(k.view): k for k in missing}.values()}
-    for group in _groups(missing, closed.scene.extent):
+    rooms = {id(panel.view): _room(panel.view, closed, config) for panel in {id(k.view): k for k in missing}.values()}
+    for group in _groups(missing, closed.scene.extent, config):
         room = rooms[id(group[0].view)]
         whole = _whole(group)
         together = _board(whole, room, config) is not None
@@ -196,11 +190,11 @@ def _addition(panel: MissingPanel, board: Box, closed: ClosedScene, taken: Colle
     return Addition(added_part(part_id, panel.what, (surface_like(mesh, closed.body),)), panel.why, "carcass board")
 
 
-def _groups(missing: Iterable[MissingPanel], extent: float) -> list[list[MissingPanel]]:
+def _groups(missing: Iterable[MissingPanel], extent: float, config: CarcassConfig) -> list[list[MissingPanel]]:
     """Returns the lacks of bays that adjoin one another together: they may share one board."""
     groups: list[list[MissingPanel]] = []
     for panel in missing:
-        group = next((g for g in groups if _adjoins(panel, _whole(g), extent)), None)
+        group = next((g for g in groups if _adjoins(panel, _whole(g), extent, config)), None)
         if group is None:
             groups.append([panel])
         else:
@@ -216,14 +210,14 @@ def _whole(group: Sequence[MissingPanel]) -> MissingPanel:
     return replace(group[0], bay=bay, moving_bodies=bay.moving_bodies, why="; ".join(panel.why for panel in group))
 
 
-def _adjoins(a: MissingPanel, b: MissingPanel, extent: float) -> bool:
+def _adjoins(a: MissingPanel, b: MissingPanel, extent: float, config: CarcassConfig) -> bool:
     if a.view is not b.view or a.what is not b.what:
         return False
     low, high = np.minimum(a.bay.low, b.bay.low), np.maximum(a.bay.high, b.bay.high)
     gaps = np.maximum(a.bay.low - b.bay.high, b.bay.low - a.bay.high)[[0, 2]]
     areas = [float((s.high - s.low)[0] * (s.high - s.low)[2]) for s in (a.bay, b.bay)]
     whole = float((high - low)[0] * (high - low)[2])
-    return bool(gaps.max() < _SIDE_BY_SIDE * extent and whole - sum(areas) < _WASTED * whole)
+    return bool(gaps.max() < config.side_by_side * extent and whole - sum(areas) < config.wasted * whole)
 
 
 def _board(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Box | None:
@@ -231,22 +225,23 @@ def _board(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Box |
     for board in (
         _backs(panel.bay, room, config) if panel.what is PartLabel.BACK_PANEL else _bottoms(panel, room, config)
     ):
-        if _fills(board, panel.bay) and room.is_free(board, _TOUCH) and room.holds(board):
+        if _fills(board, panel.bay, config.closed_ratio) and room.is_free(board, config.touch) and room.holds(board):
             return board
     return None
 
 
-def _fills(board: Box, bay: Bay) -> bool:
-    """Whether a board closes most of a bay along its two longer sides."""
+def _fills(board: Box, bay: Bay, ratio: float) -> bool:
+    """Whether a board closes this fraction of a bay along its two longer sides."""
     thin = board.thin_axis
     along = [a for a in range(3) if a != thin]
-    return bool(board.size[thin] > 0 and np.all(board.size[along] > _FILLED * (bay.high - bay.low)[along]))
+    return bool(board.size[thin] > 0 and np.all(board.size[along] > ratio * (bay.high - bay.low)[along]))
 
 
-def _room(view: View, closed: ClosedScene) -> BoardRoom:
+def _room(view: View, closed: ClosedScene, config: CarcassConfig) -> BoardRoom:
     moving = [closed.scene.parts[i] for i in sorted(closed.scene.moving_ids)]
     merged = (merge_meshes([p.mesh for p in some]) for some in (closed.scene.static_parts, moving))
-    return BoardRoom.of(*(TriangleMesh(view.local(mesh.vertices), mesh.faces) for mesh in merged))
+    still, moved = (TriangleMesh(view.local(mesh.vertices), mesh.faces) for mesh in merged)
+    return BoardRoom.of(still, moved, config)
 
 
 def _backs(bay: Bay, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
@@ -279,13 +274,13 @@ def _bottoms(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Ite
     for thick in (full, 0.4 * full):
         below = foot - min(config.gap, 0.2 * thick) - thick
         for z in (below, foot) if bay.inset else (foot, below):
-            if z < floor - _TOUCH:
+            if z < floor - config.touch:
                 continue
             start, end = float(bay.low[1]), float(bay.high[1])
             spot = vec3(float(bay.low[0] + bay.high[0]) / 2, (start + end) / 2, z + thick / 2)
             x0, x1 = room.between(spot, 0, bay, 1)
             _, end = room.between(spot, 1, bay, 0)
-            front = room.behind_fronts(_box((x0, start, z), (x1, end, z + thick)), _FRAME)
+            front = room.behind_fronts(_box((x0, start, z), (x1, end, z + thick)), config.frame_depth)
             yield _box((x0, front, z), (x1, end, z + thick))
 
 

@@ -33,6 +33,36 @@ class CarcassConfig:
     """Room between a bottom and a door or drawer above it."""
     on_edge: float = 0.008
     """How far a back that is planted on the rear edges laps onto them."""
+    upright: float = 0.3
+    """Most of a front's outward unit direction that may point up or down for the front to stand upright (ratio)."""
+    same_way: float = 0.97
+    """Cosine between the directions of two fronts from which on they are seen from one side."""
+    front_thickness: float = 0.02
+    """Thickness of fronts, where a drawer is drawn with its box (metres)."""
+    alike: float = 0.04
+    """Fraction of the object's largest side by which the walls of one space may differ."""
+    apart: float = 0.08
+    """Fraction of the object's largest side that parts drawers above each other at most: a rail between them."""
+    wall_reach: float = 0.1
+    """Fraction of a bay's side before its end from which a wall is looked for, and beyond it."""
+    inset: float = 2e-4
+    """How deep a board is inset into the walls that hold it (metres)."""
+    held: float = 2e-3
+    """Distance within which a board is held (metres)."""
+    side_by_side: float = 0.06
+    """Fraction of the object's largest side: bays nearer than this share one back."""
+    wasted: float = 0.15
+    """Fraction of a common back that may cover what lacks none."""
+    closed_ratio: float = 0.7
+    """Fraction of a bay's sides that a board must close."""
+    frame_depth: float = 0.2
+    """Fraction of the depth in which a face frame or a front may stand before a bottom."""
+    touch: float = 5e-4
+    """Depth below which a board and its neighbour merely touch (metres)."""
+    bottom_above: float = 0.2
+    """A bottom is looked for from this fraction of the lowest front's height on ..."""
+    bottom_above_most: float = 0.15
+    """... and from at most this fraction of the object's largest side."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

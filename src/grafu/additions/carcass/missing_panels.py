@@ -22,8 +22,6 @@ from grafu.vocabulary import PartLabel
 DEFAULT = CarcassConfig()
 
 _GRID = np.linspace(0.12, 0.88, 13)  # fractions of a bay's sides at which rays are cast: walls and edges lie outside
-# A bottom is searched from this fraction of the lowest front's height, and of the object's largest side.
-_BELOW = (0.2, 0.15)
 
 
 @final
@@ -53,7 +51,7 @@ def missing_panels(
 def panels_missing(closed: ClosedScene, config: CarcassConfig = DEFAULT) -> tuple[MissingPanel, ...]:
     """Returns what the bodies lack, all moving bodies closed."""
     found: list[MissingPanel] = []
-    for view in find_views(closed.scene, closed.requests):
+    for view in find_views(closed.scene, closed.requests, config):
         bays = [
             bay
             for bay in find_bays(view, closed.scene, closed.requests, config)
@@ -64,7 +62,7 @@ def panels_missing(closed: ClosedScene, config: CarcassConfig = DEFAULT) -> tupl
             if covered < config.covered:
                 found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
             if not any(_under(other, bay) for other in bays):
-                covered = _bottom_covered(view, bay, closed.scene.extent)
+                covered = _bottom_covered(view, bay, closed.scene.extent, config)
                 if covered < config.covered:
                     found.append(_missing_panel(PartLabel.BOTTOM_PANEL, bay, covered, view))
     return tuple(found)
@@ -96,11 +94,11 @@ def _back_covered(view: View, bay: Bay) -> float:
     return float(np.isfinite(hits).mean())
 
 
-def _bottom_covered(view: View, bay: Bay, extent: float) -> float:
+def _bottom_covered(view: View, bay: Bay, extent: float, config: CarcassConfig) -> float:
     """Returns the fraction of a bay's bottom at which something stands below it."""
     (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
     x, y = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), y0 + _GRID * (y1 - y0), indexing="ij"))
-    start = z0 + min(_BELOW[0] * bay.lowest, _BELOW[1] * extent)
+    start = z0 + min(config.bottom_above * bay.lowest, config.bottom_above_most * extent)
     hits = view.cast(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     return float(np.isfinite(hits).mean())
 

@@ -19,8 +19,6 @@ from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.refusal import Reason, Refusal
 
-_INSET = 2e-4  # metres by which a board is inset into what it is fixed to, so that the two hold together
-_TO_FRONT = 0.05  # metres, and fraction of the depth, over which a board is lengthened to meet a front that is hollow
 _GRID = 5
 
 
@@ -80,10 +78,10 @@ def boards_to_complete(
     inner = np.array([low[0] + wall, high[0] - wall, high[1] - wall])
     for name, k in sides:
         if name not in verdict.missing:
-            inner[k] = _inner_face(caster, outer, 0, 2 * k - 1, inner[k])
+            inner[k] = _inner_face(caster, outer, 0, 2 * k - 1, inner[k], config.inset)
     if "back" not in verdict.missing:
-        inner[2] = _inner_face(caster, outer, 1, 1, inner[2])
-    lift = _top_of_bottom(caster, outer) - float(low[2]) - _INSET if not has_walls(verdict) else 0.0
+        inner[2] = _inner_face(caster, outer, 1, 1, inner[2], config.inset)
+    lift = _top_of_bottom(caster, outer) - float(low[2]) - config.inset if not has_walls(verdict) else 0.0
     if lift > 0.7 * float(outer.size[2]):
         return Refusal("", Reason.NO_ROOM, "above the bottom that is there is no room for walls")
     lifted = Outline(Box(vec3(low[0], low[1], low[2] + lift), high), inner)
@@ -95,7 +93,7 @@ def _wall(frame: DrawerFrame, config: DrawerBoxConfig) -> float:
     return min(config.wall, config.wall_ratio * min(frame.width, frame.height))
 
 
-def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: float) -> float:
+def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: float, inset: float) -> float:
     """Returns where a board's inner face lies, seen from the box's middle; `fallback` where nothing is met."""
     other = 1 - axis
     along, height = (
@@ -111,7 +109,7 @@ def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: f
     direction = np.zeros(3)
     direction[axis] = sign
     hits = caster.along(origins, direction)
-    found = hits[hits <= outer.half[axis] + _INSET]
+    found = hits[hits <= outer.half[axis] + inset]
     return float(outer.center[axis] + sign * np.median(found)) if len(found) else float(fallback)
 
 
@@ -146,22 +144,23 @@ def _boards(
     (x0, y0, z0), (x1, y1, z1) = outline.outer.low.tolist(), outline.outer.high.tolist()
     left, right, back = outline.inner.tolist()
     bottom = min(config.bottom, config.wall_ratio * min(frame.width, frame.height) / 2)
+    inset = config.inset
     found: dict[BoardName, Box] = {}
-    front = float(_front_face(drawer, outline.outer, y0, frame))
+    front = float(_front_face(drawer, outline.outer, y0, min(config.to_front, 0.5 * frame.depth))) - inset
     if "side_left" in missing:
         found["side_left"] = Box(vec3(x0, front, z0), vec3(x0 + sides[0], y1, z1))
     if "side_right" in missing:
         found["side_right"] = Box(vec3(x1 - sides[1], front, z0), vec3(x1, y1, z1))
     if "back" in missing:
-        found["back"] = Box(vec3(left - _INSET, back, z0), vec3(right + _INSET, y1, z1))
+        found["back"] = Box(vec3(left - inset, back, z0), vec3(right + inset, y1, z1))
     if "bottom" in missing:
-        low = vec3(left - _INSET, front, z0)
-        found["bottom"] = Box(low, vec3(right + _INSET, back + _INSET, z0 + bottom))
+        low = vec3(left - inset, front, z0)
+        found["bottom"] = Box(low, vec3(right + inset, back + inset, z0 + bottom))
     return found
 
 
-def _front_face(drawer: RayCaster, outer: Box, start: float, frame: DrawerFrame) -> float:
-    """Returns the y at which boards meet the front: its inner face over the section of the box, hollows counted in."""
+def _front_face(drawer: RayCaster, outer: Box, start: float, ahead: float) -> float:
+    """Returns the y of the front's inner face over the section of the box, hollows up to `ahead` metres counted in."""
     x, z = (
         a.ravel()
         for a in np.meshgrid(
@@ -170,7 +169,6 @@ def _front_face(drawer: RayCaster, outer: Box, start: float, frame: DrawerFrame)
             indexing="ij",
         )
     )
-    ahead = min(_TO_FRONT, 0.5 * frame.depth)
     hits = drawer.along(np.column_stack([x, np.full(x.size, start + 1e-3), z]), vec3(0.0, -1.0, 0.0)) - 1e-3
     found = hits[(hits >= -1e-3) & (hits <= ahead)]
-    return start - max(float(np.median(found)), 0.0) - _INSET if len(found) else start - _INSET
+    return start - max(float(np.median(found)), 0.0) if len(found) else start

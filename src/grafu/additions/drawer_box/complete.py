@@ -36,7 +36,6 @@ from grafu.vocabulary import PartLabel
 
 DEFAULT = DrawerBoxConfig()
 _WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
-_OVER = 1e-3  # metres by which such boards may stick out of the drawer's outline
 
 
 @final
@@ -139,8 +138,8 @@ def drawn_with_the_case(
     if verdict.kind != "incomplete" or frame is None or mesh is None:
         return False
     still, _ = closed.triangles(request, frame)
-    half = np.array([frame.width / 2, np.inf, frame.height / 2]) + _OVER
-    inside = (np.abs(still) <= half).all(axis=(1, 2)) & (still[..., 1] <= frame.depth + _OVER).all(axis=1)
+    half = np.array([frame.width / 2, np.inf, frame.height / 2]) + config.sticks_out
+    inside = (np.abs(still) <= half).all(axis=(1, 2)) & (still[..., 1] <= frame.depth + config.sticks_out).all(axis=1)
     inside &= (still[..., 1] >= 0.0).all(axis=1)
     corners = still[inside].reshape(-1, 3)
     boards = TriangleMesh(corners, np.arange(len(corners)).reshape(-1, 3))

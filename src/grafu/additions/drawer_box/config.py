@@ -47,6 +47,36 @@ class DrawerBoxConfig:
     """Fraction of the front's width below which a box behind it would be none."""
     least_depth: float = 0.3
     """Fraction of the front's smaller side below which the space behind it is too shallow for a box."""
+    inner_ratio: float = 0.8
+    """Fraction of the width in which the bottom and the back are looked for: walls and overhangs lie outside."""
+    outer_ratio: float = 0.35
+    """Fraction of the half width from which on a board is the one on that side."""
+    rim: float = 0.006
+    """What stands higher than this above a bottom is a wall (metres) ..."""
+    rim_ratio: float = 0.04
+    """... or higher than this fraction of the drawer's height, whichever is more."""
+    wall_height: float = 0.35
+    """Fraction of the height that makes a wall where there is no bottom: a slider's bar is lower."""
+    block: float = 0.9
+    """Fraction of the height from which on an upper side is that of a solid block, which has walls below it."""
+    tray: float = 0.12
+    """Fraction of its smaller level side below which a part is as low as a board or a tray."""
+    crooked: float = 0.02
+    """Fraction of the depth by which a back may lie crooked before its columns differ in depth."""
+    drawn_in: float = 5e-4
+    """How far the front's outline is drawn in: what merely touches it is not in the way (metres)."""
+    open_depth: float = 0.85
+    """Fraction of the depth that a box takes where nothing but the furniture's rear edge ends it."""
+    inset: float = 2e-4
+    """How deep a board is inset into what it is fixed to, so that the two hold together (metres)."""
+    to_front: float = 0.05
+    """Most that a board is lengthened to meet a front that is hollow (metres)."""
+    touch: float = 0.004
+    """Gap across which loose boards hang together (metres) ..."""
+    touch_ratio: float = 0.02
+    """... and the most of the front's width that it takes."""
+    sticks_out: float = 1e-3
+    """How far boards that are drawn with the case may stick out of the drawer's outline (metres)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

@@ -21,7 +21,6 @@ from grafu.vocabulary import PartLabel
 _NEVER = frozenset(
     {PartLabel.TOP_PANEL, PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.FACE_FRAME, PartLabel.LEG}
 )
-_TOUCH = 0.004  # metres, or this fraction of the front's width, across which boards hang together
 
 
 def loose_boards(
@@ -31,7 +30,7 @@ def loose_boards(
 
     `mesh` is the front in its own frame.
     """
-    touch = max(min(_TOUCH, 0.02 * frame.width), 1e-6)
+    touch = max(min(config.touch, config.touch_ratio * frame.width), 1e-6)
     near: dict[str, TriangleMesh] = {}
     for part in closed.scene.static_parts:
         if part.label not in _NEVER and _is_behind(_local_box(part, frame), frame, touch):

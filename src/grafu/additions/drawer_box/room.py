@@ -22,9 +22,6 @@ from grafu.refusal import Reason, Refusal
 _COLUMNS = (32, 16)  # across and upwards
 _SLICES = 6  # along the way into the cabinet
 _LEVELS = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)  # of all columns' depths: those that a box may end at
-_CROOKED = 0.02  # fraction of the depth by which a back may lie crooked before its columns differ in depth
-_INSIDE = 5e-4  # metres by which the front's outline is drawn in: what merely touches it is not in the way
-_OPEN = 0.85  # fraction of the depth that a box takes where nothing but the furniture's rear edge ends it
 _SHALLOW = "the space behind the front is only {:.3f} m deep"
 
 
@@ -54,29 +51,29 @@ def find_room(
         config: clearances and least sizes.
         limit: the y at which the box must end at the latest, metres.
     """
-    end = min(_end_of(still, frame), limit)
+    end = min(_end_of(still, frame, config.open_depth), limit)
     if end <= frame.depth:
         return Refusal("", Reason.NO_SUPPORT, "nothing stands behind the front that could carry a box")
-    half = np.array([frame.width / 2, frame.height / 2]) - min(_INSIDE, 0.01 * frame.height)
+    half = np.array([frame.width / 2, frame.height / 2]) - min(config.drawn_in, 0.01 * frame.height)
     around = Box(vec3(-half[0], 0.5 * frame.depth, -half[1]), vec3(half[0], end, half[1]))
     near = _near(np.concatenate([still, others]), around)
     columns = _columns(around)
     seen = float(RayCaster(near).along(columns, vec3(0.0, 1.0, 0.0)).max()) + float(around.low[1])
-    end = min(end, seen + _INSIDE)
+    end = min(end, seen + config.drawn_in)
     if end - frame.depth < config.least_depth * min(frame.width, frame.height):
         return Refusal("", Reason.NO_ROOM, _SHALLOW.format(max(end - frame.depth, 0.0)))
     around = Box(around.low, vec3(half[0], end, half[1]))
     pieces = pieces_in(near.triangles, around, (_COLUMNS[0], _SLICES, _COLUMNS[1]))
     depths = nearest_depths(pieces, around, _COLUMNS, (0, 2, 1), end)
     depths = np.where(_covered(front, frame, columns), depths, frame.depth)
-    seed = _best_rectangle(depths, around, frame)
+    seed = _best_rectangle(depths, around, frame, config.crooked)
     if seed is None:
         return Refusal("", Reason.IN_THE_WAY, "the space right behind the front is not free")
     free = _widened(seed, around, pieces, frame)
     return _with_clearance(free, frame, config)
 
 
-def _end_of(still: np.ndarray, frame: DrawerFrame) -> float:
+def _end_of(still: np.ndarray, frame: DrawerFrame, open_depth: float) -> float:
     """Returns the y up to which a box may reach: to a thing behind it, or under the rear edge of what is around it."""
     if not len(still):
         return 0.0
@@ -88,7 +85,7 @@ def _end_of(still: np.ndarray, frame: DrawerFrame) -> float:
     middle = beside & (low[:, 2] < 0.25 * frame.height) & (low[:, 0] < 0.25 * frame.width)
     middle &= (high[:, 2] > -0.25 * frame.height) & (high[:, 0] > -0.25 * frame.width) & (low[:, 1] > frame.depth)
     closed = middle.any() and float(high[middle, 1].max()) > 0.5 * rear
-    return rear if closed else frame.depth + _OPEN * (rear - frame.depth)
+    return rear if closed else frame.depth + open_depth * (rear - frame.depth)
 
 
 def _near(triangles: np.ndarray, around: Box) -> TriangleMesh:
@@ -119,12 +116,12 @@ def _covered(front: RayCaster, frame: DrawerFrame, columns: Points) -> np.ndarra
     return both
 
 
-def _best_rectangle(depths: np.ndarray, around: Box, frame: DrawerFrame) -> Box | None:
+def _best_rectangle(depths: np.ndarray, around: Box, frame: DrawerFrame, crooked: float) -> Box | None:
     """Returns the box of free columns that makes the best drawer: wide and deep rather than high."""
     step = np.array([around.size[0] / _COLUMNS[0], around.size[2] / _COLUMNS[1]])
     best, chosen = 0.0, None
     for deep in np.unique(np.append(np.quantile(depths, _LEVELS), depths.max())):
-        level = deep - _CROOKED * (deep - frame.depth)
+        level = deep - crooked * (deep - frame.depth)
         if level <= frame.depth + 1e-3:
             continue
         rows, found = largest_rectangles(depths >= level)

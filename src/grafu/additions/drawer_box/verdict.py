@@ -5,7 +5,7 @@ where rays meet it on its side of the drawer: the bottom from above, sides and b
 everywhere and lack nothing; flat trays and pull-out boards have no walls and want none.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, final
 
 import numpy as np
@@ -26,22 +26,21 @@ BoardName = Literal["side_left", "side_right", "back", "bottom"]
 BOARDS: tuple[BoardName, ...] = ("side_left", "side_right", "back", "bottom")
 
 _COLUMNS, _LEVELS = 16, 32
-_INNER = 0.8  # fraction of the width in which the bottom and the back are looked for: walls and overhangs lie outside
-_OUTER = 0.35  # fraction of the half width from which on a board is the one on that side
-_RIM = (0.006, 0.04)  # metres, fraction of the height: what stands higher than this above a bottom is a wall
-_WALL = 0.35  # fraction of the height that makes a wall where there is no bottom: a slider's bar is lower
-_BLOCK = 0.9  # fraction of the height from which on an upper side is that of a solid block, which has walls below it
-_FLAT = 0.12  # a part lower than this fraction of its smaller level side is a board or a tray
 _EPS = 1e-3
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class _Wall:
-    """What makes a wall: the z above which it is measured, and the least height above it."""
+    """What makes a wall: the z above which it is measured, and the least height above it.
+
+    `inner` and `outer` are the fractions of the half width within which the back and beyond which a side is.
+    """
 
     above: float
     height: float
+    inner: float
+    outer: float
 
 
 @final
@@ -66,12 +65,13 @@ def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: Dra
         return _front_only(drawer, frame, f"it is {frame.depth:.3f} m deep: a front")
     caster = RayCaster(mesh)
     inner = _inner_front(caster, frame)
-    bottom, floor = _bottom(caster, frame, inner)
-    if bottom >= config.covered and frame.height < _FLAT * min(frame.width, frame.depth):
+    bottom, floor = _bottom(caster, frame, inner, config)
+    if bottom >= config.covered and frame.height < config.tray * min(frame.width, frame.depth):
         return BoxVerdict(drawer, "whole", (("bottom", bottom),), (), inner, "it is a board or a tray")
-    wall = _Wall(-frame.height, _WALL * frame.height)
-    if bottom >= config.covered and floor < (_BLOCK - 0.5) * frame.height:
-        wall = _Wall(floor, min(max(_RIM[0], _RIM[1] * frame.height), 0.3 * frame.height))
+    wall = _Wall(-frame.height, config.wall_height * frame.height, config.inner_ratio, config.outer_ratio)
+    if bottom >= config.covered and floor < (config.block - 0.5) * frame.height:
+        rim = min(max(config.rim, config.rim_ratio * frame.height), 0.3 * frame.height)
+        wall = replace(wall, above=floor, height=rim)
     left, right = (_side(caster, frame, inner, sign, wall) for sign in (-1.0, 1.0))
     ratios = {"side_left": left, "side_right": right, "back": _back(caster, frame, inner, wall), "bottom": bottom}
     missing = tuple(name for name in BOARDS if ratios[name] < config.covered)
@@ -107,12 +107,14 @@ def _inner_front(caster: RayCaster, frame: DrawerFrame) -> float:
     return inner if inner > 1e-4 else min(0.02, 0.1 * frame.depth)  # a solid block shows its outer face
 
 
-def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float) -> tuple[float, float]:
+def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerBoxConfig) -> tuple[float, float]:
     """Returns the fraction of the bottom that is there, and the z of its upper side."""
     x, y = (
         a.ravel()
         for a in np.meshgrid(
-            np.linspace(-_INNER, _INNER, _COLUMNS) * frame.width / 2, _along(frame, inner), indexing="ij"
+            np.linspace(-config.inner_ratio, config.inner_ratio, _COLUMNS) * frame.width / 2,
+            _along(frame, inner),
+            indexing="ij",
         )
     )
     half = frame.height / 2 + _EPS
@@ -126,13 +128,13 @@ def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall
     y, z = (a.ravel() for a in np.meshgrid(_along(frame, inner), _levels(frame), indexing="ij"))
     outside = frame.width / 2 + _EPS
     origins = np.column_stack([np.full(y.size, sign * outside), y, z])
-    hits = caster.along(origins, vec3(-sign, 0.0, 0.0)) <= outside - _OUTER * frame.width / 2
+    hits = caster.along(origins, vec3(-sign, 0.0, 0.0)) <= outside - wall.outer * frame.width / 2
     return _high_enough(hits & (z > wall.above), frame, wall)
 
 
 def _back(caster: RayCaster, frame: DrawerFrame, inner: float, wall: _Wall) -> float:
     """Returns the fraction of the back's width at which a wall stands."""
-    x = np.linspace(-_INNER, _INNER, _COLUMNS) * frame.width / 2
+    x = np.linspace(-wall.inner, wall.inner, _COLUMNS) * frame.width / 2
     x, z = (a.ravel() for a in np.meshgrid(x, _levels(frame), indexing="ij"))
     origins = np.column_stack([x, np.full(x.size, frame.depth + _EPS), z])
     hits = caster.along(origins, vec3(0.0, -1.0, 0.0)) <= 0.5 * (frame.depth - inner) + _EPS
