@@ -3,8 +3,11 @@
 import base64
 import json
 import shutil
+import struct
 from collections.abc import Callable, Iterable
+from io import BytesIO
 from pathlib import Path
+from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 import numpy as np
 
@@ -157,12 +160,23 @@ def usda(folder: Path) -> str:
 
 
 def usdz(folder: Path) -> str:
-    from pxr import UsdUtils  # noqa: TID251 packs, what our own code wrote
+    """The scene and its image in one file: stored, each entry's bytes at a multiple of 64, without the time of day."""
+    from pxr import Sdf  # noqa: TID251 the package holds the binary form of what our own code wrote
 
     usda(folder)
-    UsdUtils.CreateNewUsdzPackage(str(folder / "cabinet.usda"), str(folder / "scene.usdz"))
+    layer = Sdf.Layer.FindOrOpen(str(folder / "cabinet.usda"))
+    layer.Export(str(folder / "cabinet.usdc"))
+    stream = BytesIO()
+    with ZipFile(stream, "w", ZIP_STORED) as package:
+        for name in ("cabinet.usdc", "textures/wood.png"):
+            entry = ZipInfo(name)
+            spare = -(stream.tell() + 30 + len(name) + 4) % 64
+            entry.extra = struct.pack("<HH", 0x1986, spare) + bytes(spare)
+            package.writestr(entry, (folder / name).read_bytes())
     shutil.rmtree(folder / "textures")
-    (folder / "cabinet.usda").unlink()
+    for layer_file in folder.glob("cabinet.*"):
+        layer_file.unlink()
+    (folder / "scene.usdz").write_bytes(stream.getvalue())
     return "scene.usdz"
 
 

@@ -54,6 +54,7 @@ class _Scene:
     def __init__(self, path: Path, files: ModelFiles) -> None:
         self.path, self.files = path, files
         self.notes: list[str] = []
+        self._warnings = _unheard(path)
         self._stage = _opened(path, files)
         self._materials = UsdMaterials(path, files, self.notes)
         with library_call(path, EXPECTED):
@@ -191,22 +192,29 @@ def _surface(
     return surface_of_corners(rows, points, np.zeros((0, 2)) if uv is None else uv[0], np.zeros((0, 3)), None, material)
 
 
-def _opened(path: Path, files: ModelFiles) -> Any:
-    """Returns the stage of a file whose layers all lie in the model's folder."""
-    files.read(path)
+def _unheard(path: Path) -> Any:
+    """Returns what takes OpenUSD's warnings as long as it lives: what a file lacks is said here in one line.
+
+    Raises:
+        UnreadableAsset: if usd-core is not installed.
+    """
     try:
-        from pxr import Usd, UsdUtils
+        from pxr import UsdUtils
     except ImportError:
         raise UnreadableAsset(
             f"{path} is OpenUSD, which is read by usd-core: install it with `pip install 'grafu[usd]'`"
         ) from None
-    unheard = UsdUtils.CoalescingDiagnosticDelegate()  # what it says of damaged files is said here in one line
-    try:
-        _check_layers(path, files)
-        with library_call(path, EXPECTED):
-            return Usd.Stage.Open(str(path.absolute()))
-    finally:
-        del unheard
+    return UsdUtils.CoalescingDiagnosticDelegate()
+
+
+def _opened(path: Path, files: ModelFiles) -> Any:
+    """Returns the stage of a file whose layers all lie in the model's folder."""
+    from pxr import Usd
+
+    files.read(path)
+    _check_layers(path, files)
+    with library_call(path, EXPECTED):
+        return Usd.Stage.Open(str(path.absolute()))
 
 
 def _check_layers(path: Path, files: ModelFiles) -> None:
