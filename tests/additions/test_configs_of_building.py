@@ -11,10 +11,11 @@ from grafu.additions.grip.config import GripConfig, GripSize
 from grafu.additions.handle.config import GraspConfig, HandleConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.top.config import TopConfig
-from grafu.joints.config import RealizationConfig
+from grafu.joints.config import HingeConfig, RailConfig, RealizationConfig
 
 CONFIGS = (
-    CarcassConfig, DrawerBoxConfig, GraspConfig, GripConfig, HandleConfig, InteriorConfig, RealizationConfig, TopConfig,
+    CarcassConfig, DrawerBoxConfig, GraspConfig, GripConfig, HandleConfig, HingeConfig, InteriorConfig, RailConfig,
+    RealizationConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -24,15 +25,25 @@ POSITIVE = [
     (GraspConfig, "gap"),
     (GripConfig, "margin"),
     (GripSize, "length"),
+    (GripConfig, "finger_width"),
     (HandleConfig, "inset"),
+    (HandleConfig, "least"),
+    (HingeConfig, "plate"),
     (InteriorConfig, "touch"),
+    (RailConfig, "divider"),
     (RealizationConfig, "depth"),
     (TopConfig, "thickness"),
 ]
 RATIOS = [
     (GraspConfig, "lever"),
+    (GraspConfig, "small"),
     (GripConfig, "depth_ratio"),
+    (GripConfig, "shown"),
+    (HandleConfig, "both"),
+    (HingeConfig, "slim"),
     (InteriorConfig, "carried"),
+    (RailConfig, "most_inset"),
+    (RealizationConfig, "least_opening"),
     (RealizationConfig, "max_carve"),
     (RealizationConfig, "max_carve_fitting"),
     (TopConfig, "coverage"),

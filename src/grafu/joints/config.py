@@ -9,6 +9,68 @@ from grafu.scene.checks import require_positive, require_ratios
 
 @final
 @dataclass(frozen=True)
+class RailConfig:
+    """Sizes of rails and of the dividers that carry them.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    thinnest: float = 0.0025
+    """Thickness below which rails are inset into the flank and the wall by what is missing (metres)."""
+    lowest: float = 0.004
+    """Least height of a rail, where the flank is as high (metres)."""
+    common: float = 0.0127
+    """Thickness of most ball-bearing slides (metres)."""
+    dynamic_reach: float = 0.86
+    """Fraction of a rail's thickness that its moving member takes, from the drawer's side."""
+    most_inset: float = 0.5
+    """Fraction of a rail's thickness that is inset at most: deeper, its static member would cut into the drawer."""
+    divider: float = 0.016
+    """Thickness of a divider where there is room for it (metres)."""
+    thinnest_divider: float = 0.003
+    """Thickness below which a divider carries nothing (metres)."""
+    divider_air: float = 0.001
+    """Distance between a divider and what stands behind it (metres)."""
+    deeper: float = 3.0
+    """A shallow drawer before a space so many times as deep is a front with its pull, not a container (ratio)."""
+    travel: float = 0.77
+    """Fraction of the depth that a drawer travels: what rails over 0.9 of a body travel with a lap of 15 %."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "dynamic_reach", "most_inset", "travel")
+
+
+@final
+@dataclass(frozen=True)
+class HingeConfig:
+    """Sizes of hinges that are not templates, and what is tried where usual ones do not fit.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    slim: float = 0.5
+    """Barrel radius of a slim hinge, a fraction of what suits the door."""
+    looser: float = 4.0
+    """Seams and steps for a class that is forced, over the usual ones (ratio): support blocks bridge what remains."""
+    disc_inset: float = 0.0015
+    """How deep a pivot's disc is inset into its own part (metres)."""
+    plate: float = 0.002
+    """Thickness of a plate beside a door's end (metres)."""
+    plate_play: float = 0.001
+    """Distance between the door's end and the plate (metres)."""
+    plate_reach: float = 0.025
+    """How far the plate reaches behind the door's back, and how far inwards the case may stand there (metres)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "slim")
+
+
+@final
+@dataclass(frozen=True)
 class RealizationConfig:
     """What realization may do, and how exact it is.
 
@@ -46,9 +108,19 @@ class RealizationConfig:
     """Length of a rail over the drawer's body (supplement: 1 - beta, beta = 0.1)."""
     body_tolerance: float = 0.01
     """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a fraction of the width."""
+    least_opening: float = 0.3
+    """An opening below this fraction of the wanted one is no motion."""
+    kept: float = 0.4
+    """Fraction of its own thickness that a trimmed piece keeps at least."""
+    rail: RailConfig = RailConfig()
+    """Of drawers' rails."""
+    hinge: HingeConfig = HingeConfig()
+    """Of doors' hinges and pivots."""
 
     def __post_init__(self) -> None:
         require_positive(self, "depth", "contact", "flush", "anchor", "bridge", "door_opening", "body_tolerance")
-        require_ratios(self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio")
+        require_ratios(
+            self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
+        )
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

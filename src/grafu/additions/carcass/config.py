@@ -50,7 +50,7 @@ class CarcassConfig:
     held: float = 2e-3
     """Distance within which a board is held (metres)."""
     side_by_side: float = 0.06
-    """Fraction of the object's largest side: bays nearer than this share one back."""
+    """Fraction of the object's largest side: bays nearer than this get one common back."""
     wasted: float = 0.15
     """Fraction of a common back that may cover what lacks none."""
     closed_ratio: float = 0.7

@@ -82,10 +82,52 @@ class GripConfig:
     """Deepest groove, as a fraction of the front's thickness."""
     thickest: float = 0.05
     """Thickest front through which a hole or notch is cut, metres."""
+    finger_width: float = 0.02
+    """One finger's width: the shortest grip, metres."""
+    finger_thickness: float = 0.012
+    """One finger's thickness: the narrowest grip, and the room before the front, metres."""
+    shallowest: float = 0.003
+    """Depth below which a groove is none, metres."""
+    uneven: float = 0.25
+    """Steps in the face where a groove is cut, as a fraction of its depth."""
+    step: float = 0.003
+    """Steps in the face where a hole is cut, metres."""
+    steepest: float = 0.35
+    """Most that a bowed front may slope where it is carved, metres per metre."""
+    margin_ratio: float = 0.12
+    """Most that the margin takes, as a fraction of the front's sides."""
+    blunt: float = 0.0015
+    """How far edges may be rounded, and count as straight all the same, metres."""
+    shown: float = 0.8
+    """Fraction of a hole behind which fingers must find room."""
+    away: float = 0.06
+    """What is attached and stands farther before the front leaves the hand room, metres."""
+    clear: float = 0.004
+    """Least distance between a grip and what is attached, metres."""
+    reach_height: float = 1.0
+    """Height above the floor at which tall doors are gripped (EN 12098 and joiners: 0.9 to 1.1), metres."""
+    tall: float = 0.5
+    """Length of the gripped edge from which on a door is gripped off its middle, metres."""
+    high: float = 1.2
+    """Height of a door's lower end above which it is gripped as low as it can be, metres."""
+    end_ratio: float = 0.25
+    """Least distance of such a grip from a door's ends, as a fraction of its height."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "margin", "wall", "finger_room", "thickest")
-        require_ratios(self, "length_ratio", "width_ratio", "depth_ratio")
+        lengths = (
+            "margin",
+            "wall",
+            "finger_room",
+            "thickest",
+            "finger_width",
+            "finger_thickness",
+            "shallowest",
+            "step",
+        )
+        require_positive(self, *lengths, "steepest", "blunt", "away", "clear", "reach_height", "tall", "high")
+        require_ratios(
+            self, "length_ratio", "width_ratio", "depth_ratio", "uneven", "margin_ratio", "shown", "end_ratio"
+        )
         own = (*(self.size or ()), *(() if self.depth is None else (self.depth,)))
         if not all(length > 0 for length in own):
             raise ValueError(f"a grip's own size and depth must be above 0: got {self.size} and {self.depth}")

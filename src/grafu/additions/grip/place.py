@@ -18,21 +18,7 @@ from grafu.refusal import Reason
 _SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
 _INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn
 _ALONG = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)  # fractions of the gripped edge, from the best place
-_FINGERS = GripSize(0.02, 0.012)  # metres: one finger's width and thickness
-_SHALLOW = 0.003  # metres: a groove less deep is none
 _LINES = (21, 17)  # near enough for beads and narrow mouldings
-_REACH = 1.0  # metres above the floor: where tall doors are gripped (EN 12098 and joiners: 0.9 to 1.1)
-# Metres: doors are gripped off their middle; hung high. Fraction of a door's height.
-_TALL, _HIGH, _LOW = 0.5, 1.2, 0.25
-_EVEN = 0.25  # steps in the face where a groove is cut, as a fraction of its depth
-_STEP = 0.003  # metres: steps in the face where a hole is cut
-_STEEPEST = 0.35  # metres per metre: how much a bowed front may slope where it is carved
-_RIM = 0.12  # fraction of a front's sides that a margin takes at most
-_BLUNT = 0.0015  # metres: how far edges may be rounded, and be straight all the same
-_BEFORE = 0.012  # metres: a finger's thickness before the front
-_SHOWN = 0.8  # fraction of a hole behind which fingers must find room
-_AWAY = 0.06  # metres: what is attached and stands farther before the front leaves the hand room
-_CLEAR = 0.004  # metres between a grip and what is attached
 
 
 def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
@@ -49,7 +35,7 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wi
     edge = float(frame.box.high[1])
     for factor in _SIZES:
         size = GripSize(factor * length, factor * width, wanted.depth * scale)
-        if _is_too_small(size, scale):
+        if _is_too_small(size, scale, config):
             continue
         rows = [edge] if kind is GripKind.EDGE else [edge - m * margin - size.width / 2 for m in _INWARDS]
         ends = size.length / 2 + margin
@@ -59,7 +45,7 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wi
             inner = size.width / 2 + margin
             y = edge if kind is GripKind.EDGE else np.clip(y, frame.box.low[1] + inner, frame.box.high[1] - inner)
             yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
-        middle = best_along(frame, scale)
+        middle = best_along(frame, scale, config)
         columns = dict.fromkeys(float(np.clip(middle + s * frame.length, low, high)) for s in _ALONG)
         for y, x in product(rows, columns):
             yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
@@ -67,23 +53,23 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wi
 
 def _margin(frame: GripFrame, config: GripConfig, scale: float) -> float:
     """Returns how much material stays between a grip and the edges, metres."""
-    return min(config.margin * scale, _RIM * frame.length, _RIM * frame.breadth)
+    return min(config.margin * scale, config.margin_ratio * frame.length, config.margin_ratio * frame.breadth)
 
 
-def _is_too_small(size: GripSize, scale: float) -> bool:
+def _is_too_small(size: GripSize, scale: float, config: GripConfig) -> bool:
     across, along = sorted((size.width, size.length))
-    return across < _FINGERS.width * scale - 1e-9 or along < _FINGERS.length * scale - 1e-9
+    return across < config.finger_thickness * scale - 1e-9 or along < config.finger_width * scale - 1e-9
 
 
-def best_along(frame: GripFrame, scale: float) -> float:
+def best_along(frame: GripFrame, scale: float, config: GripConfig) -> float:
     """Returns the X at which a front is best gripped: in its middle; tall and high doors where a hand reaches."""
     low, high = float(frame.box.low[0]), float(frame.box.high[0])
     up = float(frame.rotation[2, 0])
-    if abs(up) < 0.9 or frame.length < _TALL * scale:
+    if abs(up) < 0.9 or frame.length < config.tall * scale:
         return (low + high) / 2
     bottom, top = sorted((low * up, high * up))
-    inset = _LOW * (top - bottom)
-    reach = bottom if bottom > _HIGH * scale else _REACH * scale
+    inset = config.end_ratio * (top - bottom)
+    reach = bottom if bottom > config.high * scale else config.reach_height * scale
     return min(max(reach, bottom + inset), top - inset) / up
 
 
@@ -91,7 +77,7 @@ def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | Reason:
     """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
     ring = _margin(site.frame, config, site.scale) / 2
     box = cut.box
-    over = -_BLUNT * site.scale if cut.kind is GripKind.EDGE else ring
+    over = -config.blunt * site.scale if cut.kind is GripKind.EDGE else ring
     xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])
     ys = np.linspace(box.low[1] - ring, box.high[1] + over, _LINES[1])
     ground = site.ground(xs, ys)
@@ -101,7 +87,7 @@ def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | Reason:
         return Reason.GLASS
     x, y = (grid.reshape(-1) for grid in np.meshgrid(xs, ys, indexing="ij"))
     cut = replace(cut, is_hollow=ground.is_hollow, tilt=_tilt(x, y, np.asarray(ground.face)))
-    if max(abs(t) for t in cut.tilt) > _STEEPEST:
+    if max(abs(t) for t in cut.tilt) > config.steepest:
         return Reason.UNEVEN
     ground = ground.lowered(cut.lift(x, y))
     found = _groove(site, cut, ground, config) if cut.kind is GripKind.GROOVE else _through(site, cut, ground, config)
@@ -122,24 +108,24 @@ def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | R
     face = float(np.median(ground.face))
     room = float((face - ground.back).min())
     depth = min(cut.size.depth, config.depth_ratio * room, room - config.wall * site.scale)
-    if depth < _SHALLOW * site.scale:
+    if depth < config.shallowest * site.scale:
         return Reason.TOO_THIN
-    if float(np.ptp(ground.face)) > _EVEN * depth:
+    if float(np.ptp(ground.face)) > config.uneven * depth:
         return Reason.UNEVEN
-    top = float(ground.face.max()) + _EVEN * depth
+    top = float(ground.face.max()) + config.uneven * depth
     return replace(cut, size=replace(cut.size, depth=depth), top=top, face=face, bottom=face - depth)
 
 
 def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | Reason:
     """Returns a hole or notch through the first layer."""
-    if float(np.ptp(ground.face)) > _STEP * site.scale:
+    if float(np.ptp(ground.face)) > config.step * site.scale:
         return Reason.UNEVEN
     face, back = float(ground.face.max()), float(ground.back.min())
     if face - back > min(config.thickest * site.scale, 1.5 * cut.size.length):
         return Reason.TOO_THICK
     over = 0.4 * site.seam
     bottom = back - over
-    if float(np.ptp(ground.back)) > 2 * _STEP * site.scale or np.any(ground.beneath > bottom):
+    if float(np.ptp(ground.back)) > 2 * config.step * site.scale or np.any(ground.beneath > bottom):
         return Reason.UNEVEN
     size = replace(cut.size, depth=max(face - back, 1e-6))
     return replace(cut, size=size, top=face + over, face=face, bottom=bottom)
@@ -149,20 +135,20 @@ def _unless_in_the_way(
     site: Site, cut: Cut, ground: Ground, grid: tuple[Grid, Grid], config: GripConfig
 ) -> Cut | Reason:
     """Returns the grip, unless something sits on it or leaves fingers no room; `ground` lies level."""
-    scale, near = site.scale, cut.box.grown(_CLEAR * site.scale)
-    low, high = (*near.low[:2], cut.bottom + site.seam), (*near.high[:2], cut.face + _AWAY * scale)
+    scale, near = site.scale, cut.box.grown(config.clear * site.scale)
+    low, high = (*near.low[:2], cut.bottom + site.seam), (*near.high[:2], cut.face + config.away * scale)
     if _meets(site.attached, Box(np.array(low), np.array(high))):
         return Reason.TAKEN
     x, y = (values.reshape(-1) for values in np.meshgrid(*grid, indexing="ij"))
     inside, lift = _within(cut, x, y), cut.lift(x, y)
-    before = (cut.face, cut.face + _BEFORE * scale)
+    before = (cut.face, cut.face + config.finger_thickness * scale)
     if _met([site.still], grid, before, lift)[inside].any():
         return Reason.NO_FINGER_ROOM
     if cut.kind is GripKind.GROOVE:
         return cut
     room = (cut.bottom - config.finger_room * scale, cut.bottom)
     met = _met([site.still, site.others, site.attached], grid, room, lift) | (ground.beneath > room[0])
-    return cut if (~met)[inside].mean() >= _SHOWN else Reason.NO_FINGER_ROOM
+    return cut if (~met)[inside].mean() >= config.shown else Reason.NO_FINGER_ROOM
 
 
 def _within(cut: Cut, x: Scalars, y: Scalars) -> Mask:

@@ -17,7 +17,7 @@ class GraspConfig:
     """What counts as room for fingers; see `at_scale` for models of another size.
 
     Raises:
-        ValueError: if a length is not above 0, or `lever` is no fraction.
+        ValueError: if a length is not above 0, or `lever` or `small` is no fraction.
     """
 
     gap: float = 0.012
@@ -52,10 +52,14 @@ class GraspConfig:
     """The thickest thing that is taken between thumb and fingers."""
     lever: float = 0.5
     """Fraction of the way from the hinge to the free edge beyond which a door can be pulled open."""
+    small: float = 0.3
+    """Fraction of the front's two sides multiplied: an unlabelled part that is larger is no handle."""
+    sits: float = 0.006
+    """How far a handle that is not attached may be from the front that it sits on, metres."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "lever")
+        require_ratios(self, "lever", "small")
 
 
 @final
@@ -99,9 +103,35 @@ class HandleConfig:
     """How many handles a front gets, at equal parts of its longer side; 0: one, or two on wide drawers."""
     offset: tuple[float, float] = (0.0, 0.0)
     """By how much handles are moved from their usual places, metres: to the front's right, and up."""
+    least: float = 0.012
+    """The smallest handle, metres: what is smaller is nothing to hold."""
+    uneven: float = 0.0008
+    """How much the surface under a foot may differ from a plane, metres."""
+    steepest: float = 0.35
+    """Most that the surface under a foot may slope, metres per metre: about 20 degrees."""
+    both: float = 0.65
+    """Fraction of a drawer's width that two handles take at most."""
+    inset_ratio: float = 0.2
+    """Fraction of a front's side within which a handle lies from the free edge, where there is room for more."""
+    from_end: float = 0.1
+    """From the end of a door to the near end of its handle, metres."""
+    knob: float = 0.05
+    """Handles that are no longer than this either way are knobs, metres ..."""
+    knob_ratio: float = 1.7
+    """... where they are no longer than this, over their shorter side."""
+    bar_ratio: float = 0.3
+    """Length of a bar, as a fraction of the fronts' longer sides ..."""
+    shortest_bar: float = 0.096
+    """... but no shorter than this, metres ..."""
+    longest_bar: float = 0.32
+    """... and no longer than this, metres."""
 
     def __post_init__(self) -> None:
         require_positive(self, "inset", "reach_height", "tall", "short", "wide", "high", "most")
+        require_positive(
+            self, "least", "uneven", "steepest", "from_end", "knob", "knob_ratio", "shortest_bar", "longest_bar"
+        )
+        require_ratios(self, "both", "inset_ratio", "bar_ratio")
         require_not_negative(self, "length", "margin", "weak")
         if not 0 <= self.count <= 4:
             raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")

@@ -12,6 +12,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.relief import Relief
 from grafu.additions.handle.spots import Spot
 from grafu.articulation.kinematics import all_before
@@ -124,9 +125,7 @@ def _met(body: SweptBody, motion: PoseFunction, upper: float, near: Sequence[Obs
 
 
 _FOOT = 0.0006  # metres from the foot plane within which vertices belong to a foot
-_UNEVEN = 0.0008  # metres by which the surface under a foot may differ from a plane
 _PANE = 0.95  # of a colour's alpha: what is clearer is glass
-_LEAN = 0.35  # slope of the surface, about 20 degrees: on steeper places no handle is set
 _TRUST = 1e-4  # metres: where two casts see the same surface
 _MOST_FEET = 400  # points under a foot that are looked at
 
@@ -185,7 +184,7 @@ class Shape:
         return near[:: max(len(near) // _MOST_FEET, 1)] * (1.0, 0.0, 1.0)
 
 
-def fitted(ground: Ground, shape: Shape, spot: Spot, place: tuple[float, float]) -> Mat4 | None:
+def fitted(ground: Ground, shape: Shape, spot: Spot, place: tuple[float, float], config: HandleConfig) -> Mat4 | None:
     """Returns the pose, in the object frame, in which a handle sits flush at a place; None: there it cannot sit."""
     u, v = place
     feet = shape.foot @ spot.turn.T
@@ -195,7 +194,7 @@ def fitted(ground: Ground, shape: Shape, spot: Spot, place: tuple[float, float])
     across = feet[:, [0, 2]]
     slope, level = _plane_through(across, on[:, 1])
     off = on[:, 1] - level - across @ slope
-    if np.ptp(off) > _UNEVEN * max(ground.relief.factor, 1e-9) or float(np.linalg.norm(slope)) > _LEAN:
+    if np.ptp(off) > config.uneven * max(ground.relief.factor, 1e-9) or float(np.linalg.norm(slope)) > config.steepest:
         return None
     lean = _leaning(slope)
     T = from_rotation(lean @ spot.turn, np.array([u, level + float(off.min()), v]))

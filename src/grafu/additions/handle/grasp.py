@@ -8,8 +8,6 @@ from grafu.asset.part import Part
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-_SMALL = 0.3  # of the front's two sides multiplied: an unlabelled part that is larger is no handle
-_SITS = 0.006  # metres: how far a handle that is not attached may be from the front that it sits on
 _NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
 _LABELLED, _UNLABELLED, _UNATTACHED = 1.0, 0.8, 0.6
 
@@ -46,10 +44,10 @@ def _without_label(scene: Scene, moving_id: str, relief: Relief, config: GraspCo
     """Returns how a moving body can be grasped on which no part rides that is called a handle."""
     for member in scene.moving_bodies[moving_id].members:
         part = scene.parts[member]
-        if member != moving_id and part.label in _NAMELESS and _sticks_out(part, relief):
+        if member != moving_id and part.label in _NAMELESS and _sticks_out(part, relief, config.small):
             return _held_by(part, moving_id, _UNLABELLED, "a small part sticks out of its front")
     for part in scene.static_parts:
-        if part.label is PartLabel.HANDLE and _sits_on(part, relief):
+        if part.label is PartLabel.HANDLE and _sits_on(part, relief, config.sits):
             return _held_by(part, moving_id, _UNATTACHED, "a handle sits on it that nothing attaches to it")
     best = max(grips_on(relief, config), key=lambda g: (g.confidence, g.length), default=None)
     if best is None:
@@ -62,22 +60,22 @@ def _held_by(part: Part, moving_id: str, confidence: float, why: str) -> Grasp:
     return Grasp(moving_id, "handle", confidence, why, part.box.center, length, part.id)
 
 
-def _sticks_out(part: Part, relief: Relief) -> bool:
+def _sticks_out(part: Part, relief: Relief, ratio: float) -> bool:
     """Whether a part that rides on a moving body is small and stands out before its face."""
     if not len(part.mesh.faces):
         return False
     box, front = relief.front.box_of(part.mesh.vertices), relief.front
-    small = float(box.size[0] * box.size[2]) < _SMALL * front.width * front.height
+    small = float(box.size[0] * box.size[2]) < ratio * front.width * front.height
     out = relief.factor * STANDS_OUT
     return small and float(box.low[1]) <= relief.plane - out and float(box.size[1]) >= out
 
 
-def _sits_on(part: Part, relief: Relief) -> bool:
+def _sits_on(part: Part, relief: Relief, gap: float) -> bool:
     """Whether a part that moves with nothing sits on the face of a moving body."""
     if not len(part.mesh.faces):
         return False
     box, outline = relief.front.box_of(part.mesh.vertices), relief.outline
     u, _, v = box.center
     within = outline.low[0] < u < outline.high[0] and outline.low[2] < v < outline.high[2]
-    near = relief.factor * _SITS
+    near = relief.factor * gap
     return bool(within and box.low[1] < relief.plane and box.high[1] > relief.plane - near)

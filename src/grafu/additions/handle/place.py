@@ -23,7 +23,6 @@ from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
-_LEAST = 0.012  # metres: a handle that is smaller is nothing to hold
 _SMALLER = (1.0, 0.65, 0.4)  # of the length: what is tried where a handle does not fit
 _FLATTER = (1.0, 0.7)  # of the protrusion: between a drawer and the door before it there is little room
 _SPARE = (("knob-round", 1.0, 1.0), ("bar-strip", 0.6, 0.75), ("knob-flat", 0.75, 0.7), ("cup-slim", 0.7, 0.8))
@@ -114,7 +113,7 @@ def _handles_for(scene: Scene, moving: str, obstacles: HandleObstacles, task: _T
         spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(moving), task.config)
         for spot in _few(spots):
             tried = True
-            poses = [fitted(ground, shape, spot, place) for place in spot.places]
+            poses = [fitted(ground, shape, spot, place, task.config) for place in spot.places]
             if any(pose is None for pose in poses):
                 continue
             placed = [shape.mesh.transformed(pose) for pose in poses if pose is not None]
@@ -160,13 +159,13 @@ def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple
             length = min(ratio * style.length, most)
             scale = length / style.length if style.template.family == "knob" else 1.0
             size = (style.template, length, flat * scale * style.protrusion)
-            if length >= s * _LEAST and size[1:] not in seen:
+            if length >= s * config.least and size[1:] not in seen:
                 seen.add(size[1:])
                 yield size
     for name, ratio, out in _SPARE:
         template = named_template(name, {})
         length = min(ratio * s * template.natural.length, most)
-        if length >= s * _LEAST:
+        if length >= s * config.least:
             yield template, length, out * s * template.natural.protrusion
 
 

@@ -15,11 +15,8 @@ from grafu.additions.handle.style import Sibling
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.scene.front import Side
 
-_FIFTH = 0.2  # of a front's side: the farthest that a handle lies from the free edge, where there is room for more
 _INSETS = (1.0, 0.7, 1.4, 0.5, 1.9)  # fractions of the usual inset that are tried
 _ALONG = (0.0, 0.12, -0.12, 0.25, -0.25)  # fractions of a side by which a handle is moved along its edge
-_BOTH = 0.65  # of a drawer's width: what two handles take of it at most
-_FROM_END = 0.1  # metres from the end of a door to the near end of its handle
 _LEVEL = 0.7  # cosine: fronts that look up more than this are lids
 _TURNS: dict[Side, Mat3] = {  # about b: where the template's upper side comes to lie
     "top": np.eye(3),
@@ -93,7 +90,7 @@ def _as_chosen(relief: Relief, extent: Extent, spot: Spot, config: HandleConfig)
         level = spot.above in ("top", "bottom")
         if (
             config.count > 1
-            and config.count * (extent.along if level is (along == 0) else extent.across) > _BOTH * side
+            and config.count * (extent.along if level is (along == 0) else extent.across) > config.both * side
         ):
             return
         places = np.repeat(places.mean(axis=0)[None], config.count, axis=0)
@@ -131,7 +128,7 @@ def _on_drawer(relief: Relief, extent: Extent, siblings: Sequence[Sibling], conf
         level = float(near.box.center[2]) / near.front.height
     if extent.at_edge:
         level = 1.0
-    pairs = box.size[0] > s * config.wide and 2 * extent.along < _BOTH * box.size[0]
+    pairs = box.size[0] > s * config.wide and 2 * extent.along < config.both * box.size[0]
     wants_two = _pairs(alike) if alike else pairs
     for ratio in dict.fromkeys((level, 0.5, 0.7, 0.82, 0.3, 0.9, 0.18)):
         v = float(box.low[2]) + ratio * height
@@ -176,7 +173,7 @@ def _insets(
     wide = extent.across if upright else extent.along
     if extent.at_edge:
         return [wide / 2 + s * config.margin]
-    usual = min(s * config.inset, _FIFTH * float(box.size[0]))
+    usual = min(s * config.inset, config.inset_ratio * float(box.size[0]))
     if not upright:
         usual = max(usual, wide / 2 + 0.4 * usual)
     found = [_sibling_inset(q) for q in alike]
@@ -212,7 +209,7 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
     if float(front.up[2]) < _LEVEL or height <= s * config.short:
         return (low + high) / 2
     floor = float(front.origin[2]) + low  # the door's lower edge above the floor
-    end = min(s * _FROM_END, 0.15 * height) + tall / 2
+    end = min(s * config.from_end, 0.15 * height) + tall / 2
     wanted = s * config.reach_height - floor
     if height >= s * config.tall:
         return low + min(max(wanted, 0.25 * height), 0.75 * height)
@@ -223,7 +220,7 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
 
 def _on_flap(relief: Relief, extent: Extent, side: Side, config: HandleConfig) -> Iterator[Spot]:
     s, box = relief.factor, relief.outline
-    usual = min(s * config.inset, _FIFTH * float(box.size[2]))
+    usual = min(s * config.inset, config.inset_ratio * float(box.size[2]))
     insets = [extent.across / 2 + s * config.margin] if extent.at_edge else [ratio * usual for ratio in _INSETS]
     for inset in insets:
         v = float(box.low[2]) + inset if side == "bottom" else float(box.high[2]) - inset

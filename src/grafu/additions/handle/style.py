@@ -19,11 +19,6 @@ from grafu.vocabulary import PartLabel
 
 FINISHES: dict[str, Material] = {"steel": STEEL, "nickel": NICKEL, "brass": BRASS, "bronze": BRONZE, "black": BLACK}
 
-_KNOB = 0.05  # metres: what is no longer either way than this is a knob
-_SQUARE = 1.7  # of its shorter side: a knob is no longer than this
-_RATIO = 0.3  # of the fronts' longer sides: a good length for a bar
-_BARS = (0.096, 0.32)  # metres: the shortest and longest bars that are chosen by the size of fronts
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -83,11 +78,11 @@ def choose_style(
     finish = FINISHES.get(config.finish, STEEL)
     if config.style or not siblings:
         template = named_template(config.style or config.default, own)
-        length = config.length or _length(template, fronts, factor)
+        length = config.length or _length(template, fronts, factor, config)
         return Style(
             template, min(length, factor * template.longest), factor * template.natural.protrusion, alike, finish
         )
-    template, length, protrusion = _like(siblings, factor)
+    template, length, protrusion = _like(siblings, factor, config)
     return Style(template, config.length or length, protrusion, alike, finish)
 
 
@@ -100,22 +95,22 @@ def named_template(template_id: str, own: Mapping[str, HandleTemplate]) -> Handl
     return own[template_id] if template_id in own else handle_template(template_id)
 
 
-def _length(template: HandleTemplate, fronts: Sequence[Front], factor: float) -> float:
+def _length(template: HandleTemplate, fronts: Sequence[Front], factor: float, config: HandleConfig) -> float:
     natural = factor * template.natural.length
     if template.family != "bar" or not fronts:
         return natural
-    wanted = _RATIO * float(np.median([max(f.width, f.height) for f in fronts]))
-    low, high = (factor * length for length in _BARS)
+    wanted = config.bar_ratio * float(np.median([max(f.width, f.height) for f in fronts]))
+    low, high = (factor * length for length in (config.shortest_bar, config.longest_bar))
     return min(max(wanted, low), max(high, natural))
 
 
-def _like(siblings: Sequence[Sibling], factor: float) -> tuple[HandleTemplate, float, float]:
+def _like(siblings: Sequence[Sibling], factor: float, config: HandleConfig) -> tuple[HandleTemplate, float, float]:
     """Returns the template most like a model's handles, with their length and protrusion, metres."""
     lengths = [float(max(s.box.size[0], s.box.size[2])) for s in siblings]
     across = [float(min(s.box.size[0], s.box.size[2])) for s in siblings]
     length, width = float(np.median(lengths)), float(np.median(across))
     protrusion = float(np.median([min(float(s.box.size[1]), -float(s.box.low[1])) for s in siblings]))
-    is_knob = length <= factor * _KNOB and length <= _SQUARE * max(width, 1e-9)
+    is_knob = length <= factor * config.knob and length <= config.knob_ratio * max(width, 1e-9)
     family = "knob" if is_knob else "bar"
     able = [t for t in HANDLES if t.family == family and factor * t.longest >= length] or [HANDLES[0]]
     round_ones = [t for t in able if t.id in ("bar-round", "knob-round")] or able

@@ -17,8 +17,6 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
 from grafu.scene.scene import Scene
 
-_KEPT = 0.4  # a trimmed piece keeps at least this fraction of its own thickness
-
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -46,7 +44,7 @@ def trim(
     depth = 0.0
     surfaces = []
     for surface in part.surfaces:
-        pressed, deepest = _pressed(surface, theirs, path, most, (play, 0.9 * play if touching else 0.0))
+        pressed, deepest = _pressed(surface, theirs, path, most, (play, 0.9 * play if touching else 0.0), config.kept)
         surfaces.append(pressed)
         depth = max(depth, deepest)
     if depth == 0.0:
@@ -58,9 +56,9 @@ def trim(
 
 
 def _pressed(
-    surface: Surface, theirs: BoxEnds, path: Path, most: np.ndarray, play: tuple[float, float]
+    surface: Surface, theirs: BoxEnds, path: Path, most: np.ndarray, play: tuple[float, float], kept: float
 ) -> tuple[Surface, float]:
-    """Returns the surface with its pieces pressed back, and by how much at most (`play`: see `_presses`)."""
+    """Returns the surface with its pieces pressed back, and by how much at most (`play`, `kept`: see `_presses`)."""
     numbers = part_numbers(surface.mesh)
     local = surface.mesh.vertices @ path.axes
     deepest = 0.0
@@ -68,7 +66,7 @@ def _pressed(
         require_time()
         used = np.unique(surface.mesh.faces[faces])
         box = Box.around(local[used])
-        for press in _presses(box, theirs, path, most, play):
+        for press in _presses(box, theirs, path, most, play, kept):
             column = local[used, press.axis]
             limit = np.maximum(column, press.limit) if press.side == 0 else np.minimum(column, press.limit)
             local[used, press.axis] = limit
@@ -79,10 +77,13 @@ def _pressed(
     return replace(surface, mesh=mesh), deepest
 
 
-def _presses(box: Box, theirs: BoxEnds, path: Path, most: np.ndarray, play: tuple[float, float]) -> list[_Press]:
+def _presses(
+    box: Box, theirs: BoxEnds, path: Path, most: np.ndarray, play: tuple[float, float], kept: float
+) -> list[_Press]:
     """Returns how a piece must be pressed so that it clears the static pieces that it cuts into a little.
 
-    `play` is what it gets, and up to which gap it counts as cutting in.
+    `play` is what it gets, and up to which gap it counts as cutting in; `kept` the fraction of
+    its thickness that it keeps at least.
     """
     way = _swept(box, path)
     depths = np.stack([theirs[:, 1] - way.low, way.high - theirs[:, 0]], axis=1)
@@ -90,7 +91,7 @@ def _presses(box: Box, theirs: BoxEnds, path: Path, most: np.ndarray, play: tupl
     for both in depths[(depths > -play[1]).all(axis=(1, 2))]:
         side, axis = (int(i) for i in np.unravel_index(int(np.argmin(both)), both.shape))
         depth = float(both[side, axis]) + play[0]
-        if depth <= most[axis] and depth <= (1 - _KEPT) * box.size[axis]:
+        if depth <= most[axis] and depth <= (1 - kept) * box.size[axis]:
             limit = float(way.low[axis] + depth) if side == 0 else float(way.high[axis] - depth)
             found.append(_Press(axis, side, limit, depth))
     return found

@@ -15,45 +15,44 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, robust_median
+from grafu.joints.config import HingeConfig
 from grafu.joints.hinge.candidates import PinCandidate
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame
 from grafu.vocabulary import PartLabel
 
 _SEGMENTS = 24
-_INSET = 0.0015  # how deep a disc is inset into its own part, metres
-_PLATE = 0.002  # thickness of a plate beside a door's end, metres
-_PLATE_PLAY = 0.001  # between the door's end and the plate
-_PLATE_REACH = 0.025  # how far behind the door's back it reaches, and how far inwards the case may stand there
 
 
 PivotEnd = tuple[tuple[Visual, ...], tuple[Visual, ...]]
 
 
 def pivot_ends(
-    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, reach: float
+    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, reach: float, config: HingeConfig
 ) -> list[PivotEnd]:
     """Returns (static, dynamic) discs at each end of the pin where the door and, within `reach`, the body are met."""
     found: list[PivotEnd] = []
     casters = RayCaster(door), RayCaster(static)
     for sign in (1.0, -1.0):
-        met = _met_by_rays(frame, pin, casters, sign, reach) or _met_by_corners(frame, pin, (door, static), sign, reach)
+        met = _met_by_rays(frame, pin, casters, sign, reach) or _met_by_corners(
+            frame, pin, (door, static), sign, reach, config
+        )
         if met is None:
-            plated = _plated_end(frame, pin, casters, sign)
+            plated = _plated_end(frame, pin, casters, sign, config)
             found += [plated] if plated else []
             continue
         on_door, on_body, radius = met
         gap = sign * (on_body - on_door)
-        middle = on_door + sign * min(max(gap, 0.0) / 2, _INSET)
+        middle = on_door + sign * min(max(gap, 0.0) / 2, config.disc_inset)
         wide = replace(pin, radius=radius)
-        static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * _INSET)
-        dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * _INSET, middle)
+        static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * config.disc_inset)
+        dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * config.disc_inset, middle)
         found.append(((_visual("hinge_static", static_disc),), (_visual("hinge_dynamic", dynamic_disc),)))
     return found
 
 
 def _plated_end(
-    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float
+    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, config: HingeConfig
 ) -> PivotEnd | None:
     """Returns the discs beside an end of a door where the body has nothing, the static one on a plate.
 
@@ -65,9 +64,9 @@ def _plated_end(
     if not np.isfinite(to_door):
         return None
     on_door = frame.length / 2 + 0.01 - to_door
-    inner, outer = on_door + _PLATE_PLAY, on_door + _PLATE_PLAY + _PLATE
-    back = -frame.thickness - _PLATE_REACH
-    middle = sign * (on_door + _PLATE_PLAY / 2)
+    inner, outer = on_door + config.plate_play, on_door + config.plate_play + config.plate
+    back = -frame.thickness - config.plate_reach
+    middle = sign * (on_door + config.plate_play / 2)
     plate = Footing(
         frame.to_object(vec3(pin.x, (pin.y + pin.radius + back) / 2, sign * inner)[None])[0],
         frame.direction(0.0, 0.0, sign),
@@ -75,20 +74,20 @@ def _plated_end(
         frame.direction(0.0, (pin.y + pin.radius - back) / 2, 0.0),
     )
     foot = Footing(
-        frame.to_object(vec3(pin.x, back + 0.4 * _PLATE_REACH, sign * inner)[None])[0],
+        frame.to_object(vec3(pin.x, back + 0.4 * config.plate_reach, sign * inner)[None])[0],
         frame.direction(0.0, 0.0, -sign),
         frame.direction(0.9 * pin.radius, 0.0, 0.0),
-        frame.direction(0.0, 0.36 * _PLATE_REACH, 0.0),
+        frame.direction(0.0, 0.36 * config.plate_reach, 0.0),
     )
-    gap = foot.gap(static, _PLATE_REACH)
+    gap = foot.gap(static, config.plate_reach)
     if not np.isfinite(gap):
         return None
     still = (
         _visual("hinge_static", _disc(frame, pin, middle, sign * outer)),
-        block("hinge_plate", plate, _PLATE, METAL),
+        block("hinge_plate", plate, config.plate, METAL),
         block("support_hinge", foot, gap, METAL),
     )
-    return still, (_visual("hinge_dynamic", _disc(frame, pin, sign * (on_door - _INSET), middle)),)
+    return still, (_visual("hinge_dynamic", _disc(frame, pin, sign * (on_door - config.disc_inset), middle)),)
 
 
 def _met_by_rays(
@@ -110,7 +109,12 @@ def _met_by_rays(
 
 
 def _met_by_corners(
-    frame: BorderFrame, pin: PinCandidate, meshes: tuple[TriangleMesh, TriangleMesh], sign: float, reach: float
+    frame: BorderFrame,
+    pin: PinCandidate,
+    meshes: tuple[TriangleMesh, TriangleMesh],
+    sign: float,
+    reach: float,
+    config: HingeConfig,
 ) -> tuple[float, float, float] | None:
     """Returns the same for tubes and sockets, which rays along the axis pass through: from corners about the pin."""
     corners = [frame.to_border(mesh.vertices) * _upright(sign) for mesh in meshes]
@@ -121,7 +125,7 @@ def _met_by_corners(
         on_door = float(near[0].max())
         beyond = near[1][np.abs(near[1] - on_door) <= max(reach, 0.25 * frame.length)]
         if len(beyond):
-            rim = corners[0][np.abs(corners[0][:, 2] - on_door) <= _INSET]
+            rim = corners[0][np.abs(corners[0][:, 2] - on_door) <= config.disc_inset]
             wide = np.hypot(rim[:, 0] - pin.x, rim[:, 1] - pin.y)
             met = sign * float(beyond[np.argmin(np.abs(beyond - on_door))])
             return sign * on_door, met, float(wide[wide <= radius].max(initial=pin.radius))

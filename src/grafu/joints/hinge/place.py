@@ -22,7 +22,6 @@ from grafu.joints.plan import PIVOT
 from grafu.templates.template import Gallery, HingeModel
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
-_LEAST_RATIO = 0.3  # an opening below this fraction of the wanted one is no motion
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
 _STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
@@ -96,7 +95,7 @@ def _tries(search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
     """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
     tried = 0
     for judged in search.in_order():
-        if judged.free < _LEAST_RATIO * search.wanted or tried > _ENOUGH:
+        if judged.free < search.config.least_opening * search.wanted or tried > _ENOUGH:
             return
         tried += judged.pin.preference > 3
         install_at = _with_pivots if judged.pin.is_pivot else _with_hardware
@@ -111,7 +110,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
         if size is None or not choice.takes(model.id):
             continue
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
-        if upper < _LEAST_RATIO * search.wanted:
+        if upper < search.config.least_opening * search.wanted:
             return
         attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
         placement = attempt(is_whole=False)
@@ -122,11 +121,11 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
 def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[_Try]:
     """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
-    if upper < _LEAST_RATIO * search.wanted:
+    if upper < search.config.least_opening * search.wanted:
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
-    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, 0.2 * search.frame.length)
+    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, 0.2 * search.frame.length, search.config.hinge)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
     free = [hinge for hinge in held if not hinge.struck_by]

@@ -38,8 +38,6 @@ from grafu.joints.plan import PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Obstacle, Scene
 
-_SLIM = 0.5  # barrel radius of a slim hinge, a fraction of what suits the door
-_LOOSER = 4.0  # seams and steps for a class that is forced: support blocks bridge what remains
 _NEARLY = 0.05  # a pin that leaves this fraction of the wanted opening blocked is still as good as free
 
 
@@ -130,7 +128,7 @@ class DoorSearch:
         """
         if turns_about_itself(self.frame, self.request.axis):
             return []
-        tol = replace(self._tolerances, radius=max(_SLIM * self._tolerances.radius, SMALLEST))
+        tol = replace(self._tolerances, radius=max(self.config.hinge.slim * self._tolerances.radius, SMALLEST))
         pins = self._ruled_pins(tol)
         return self._judged([replace(pin, preference=MAKESHIFT) if pin.inset else pin for pin in pins])
 
@@ -162,7 +160,8 @@ class DoorSearch:
         pins = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
         if forced is None:
             return pins
-        wider = replace(tol, contact=_LOOSER * tol.contact, flush=_LOOSER * tol.flush)
+        looser = self.config.hinge.looser
+        wider = replace(tol, contact=looser * tol.contact, flush=looser * tol.flush)
         of_class = [pin for pin in pins if pin.mechanism is forced]
         more = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * wider.contact), wider)
         return of_class or [pin for pin in more if pin.mechanism is forced]

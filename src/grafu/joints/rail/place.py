@@ -21,6 +21,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, reflection
+from grafu.joints.config import RailConfig
 from grafu.joints.limits import in_the_way, is_free, swept_box
 from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.joints.plan import Supports
@@ -31,10 +32,6 @@ from grafu.joints.support_block import Footing, block, shortest_bridge
 from grafu.scene.scene import Obstacle
 from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
 from grafu.vocabulary import PartLabel
-
-_BOARD = 0.016  # thickness of a divider where there is room for it, metres
-_THINNEST = 0.003  # a divider thinner than this carries nothing
-_AIR = 0.001  # kept between a divider and what stands behind it
 
 
 @final
@@ -72,7 +69,7 @@ def _fixed(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, mount: st
     walls = search.walls_of(mount) if mount else search.static_rays
     reach = (CHOSEN_REACH if mount else search.config.bridge) * search.scene.extent
     if search.request.choice.supports is Supports.DIVIDER:
-        found = _divider(end, T, walls, reach)
+        found = _divider(end, T, walls, reach, search.config.rail)
     else:
         footings = _footings(end, T)
         found = shortest_bridge([next(footings)] if _is_slab(search) else footings, walls, reach)
@@ -112,15 +109,17 @@ def _visual(name: str, end: TemplateEnd) -> Visual:
     return Visual(name, end.surfaces, VisualRole.HARDWARE, PartLabel.MISC)
 
 
-def _divider(end: TemplateEnd, T: Mat4, walls: RayCaster, reach: float) -> tuple[Footing, float] | None:
+def _divider(
+    end: TemplateEnd, T: Mat4, walls: RayCaster, reach: float, config: RailConfig
+) -> tuple[Footing, float] | None:
     """Returns the foot of an upright board behind a rail and its height: from what is below to what is above.
 
     Where one of the two is out of reach it ends with the rail there; None where both are, or a wall leaves no room.
     """
     snap = end.snap
     room = Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v).gap(walls, reach)
-    thickness = min(_BOARD, room - _AIR)
-    if thickness < _THINNEST:
+    thickness = min(config.divider, room - config.divider_air)
+    if thickness < config.thinnest_divider:
         return None
     up, back = T[:3, 2], T[:3, 1]
     outward = np.asarray(snap.normal)
@@ -165,9 +164,6 @@ def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str]
         yield Footing(middle + towards, direction, 0.9 * reach[first], 0.9 * reach[second])
 
 
-_LEAST_RATIO = 0.3  # a travel below this fraction of the wanted one is no motion
-
-
 def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     """Returns the first placement whose rails hold on both sides and are in nothing's way; None where none does."""
     region = search.region
@@ -178,7 +174,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
             continue
-        for spot in rail_spots(model, region, gaps, search.config.rail_ratio):
+        for spot in rail_spots(model, region, gaps, search.config.rail_ratio, search.config.rail):
             placed = _with_hardware(model, spot, region, search)
             if placed is not None:
                 return placed
@@ -189,7 +185,7 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
     upper = search.travel(template.range)
-    if upper < _LEAST_RATIO * search.wanted:
+    if upper < search.config.least_opening * search.wanted:
         return None
     static: list[Visual] = []
     dynamic: list[Visual] = []

@@ -31,8 +31,6 @@ from grafu.vocabulary import PartLabel
 
 _FLAT = 0.2  # a board is thinner than this fraction of its smaller side
 _FLUSH = 1e-3  # metres by which an attached part may stand out and still count as behind a drawer's front side
-_DEEPER = 3.0  # a shallow drawer before a case so many times as deep is a front with its pull, not a container
-_TRAVEL = 0.77  # of the depth: what rails over 0.9 of a body travel with a lap of 15 %
 
 
 @final
@@ -85,15 +83,15 @@ class DrawerSearch:
         container = body_region(self.mesh, self.frame, self.config.body_tolerance)
         if container is not None and not is_shallow(self.frame):
             return container
-        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent)
-        if container is None or (behind is not None and behind.length > _DEEPER * container.length):
+        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent, self.config.rail.common)
+        if container is None or (behind is not None and behind.length > self.config.rail.deeper * container.length):
             return behind
         return container
 
     @property
     def reach(self) -> float:
         """The travel that rails could give, metres: over the container's depth, or the depth behind a mere front."""
-        return _TRAVEL * max(self.frame.depth, self.region.length if self.region else 0.0)
+        return self.config.rail.travel * max(self.frame.depth, self.region.length if self.region else 0.0)
 
     @property
     def wanted(self) -> float:

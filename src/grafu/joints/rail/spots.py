@@ -10,15 +10,11 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.raycast import RayCaster
+from grafu.joints.config import RailConfig
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.templates.template import RailModel, RailSize
 from grafu.vocabulary import MechanismClass
 
-_THINNEST = 0.0025  # thinner rails are let into the flank and the wall by what is missing
-_LOWEST = 0.004
-_COMMON_RAIL = 0.0127  # the thickness of most ball-bearing slides
-_DYNAMIC_REACH = 0.86  # fraction of a rail's thickness that its moving member takes, from the drawer's side
-_MOST_INSET = 0.5  # a rail inset deeper than this fraction would have its static member cut into the drawer
 _GRID = (12, 5)
 _STEPS = 61  # places behind it at which a board above it is felt for
 _LEVELS = 7  # heights at which the room behind a mere front is felt for
@@ -80,7 +76,9 @@ def _gaps(
     return distances[distances <= reach + inside] - inside
 
 
-def rail_spots(model: RailModel, body: BodyRegion, gaps: FlankGaps, ratio: float) -> Iterator[RailSpot]:
+def rail_spots(
+    model: RailModel, body: BodyRegion, gaps: FlankGaps, ratio: float, config: RailConfig
+) -> Iterator[RailSpot]:
     """Yields spots for one model, best first: at full thickness and inset, at the middle of the flank, then elsewhere.
 
     `ratio` is the rail's length over the body's (supplement, Scaling).
@@ -88,10 +86,10 @@ def rail_spots(model: RailModel, body: BodyRegion, gaps: FlankGaps, ratio: float
     flank = body.top - body.bottom
     length = ratio * body.length
     y = body.front + length / 2 if body.is_bare else body.back - length / 2
-    for thickness in _thicknesses(model, gaps):
+    for thickness in _thicknesses(model, gaps, config):
         tight = (thickness - min(max(gaps.nearer, 0.0), thickness)) / 2
-        inset = min(max(tight, _DYNAMIC_REACH * thickness - gaps.passage, 0.0), _MOST_INSET * thickness)
-        height = max(min(model.natural.height, 0.6 * flank, 4.0 * thickness + 0.01), min(_LOWEST, flank))
+        inset = min(max(tight, config.dynamic_reach * thickness - gaps.passage, 0.0), config.most_inset * thickness)
+        height = max(min(model.natural.height, 0.6 * flank, 4.0 * thickness + 0.01), min(config.lowest, flank))
         for z in _heights_on(model, body, height):
             size = RailSize(length, height, thickness)
             yield RailSpot(size, body.left - thickness + inset, y, z)
@@ -109,27 +107,27 @@ def _heights_on(model: RailModel, body: BodyRegion, height: float) -> list[float
     return [min(max(body.bottom + level * flank, lowest), highest) for level in (0.5, 0.3, 0.7, 0.15, 0.85)]
 
 
-def _thicknesses(model: RailModel, gaps: FlankGaps) -> list[float]:
+def _thicknesses(model: RailModel, gaps: FlankGaps, config: RailConfig) -> list[float]:
     """Returns the thicknesses to try: what gap and passage hold, then thinner ones that are inset."""
     full = min(model.natural.thickness, gaps.nearer)
-    through = min(full, gaps.passage / (_DYNAMIC_REACH - _MOST_INSET))
-    fitting = [t for t in (full, min(full, gaps.passage), through, through / 2) if t > _THINNEST]
-    return [*dict.fromkeys(fitting), _THINNEST, *((0.0018, 0.001) if through <= _THINNEST else ())]
+    through = min(full, gaps.passage / (config.dynamic_reach - config.most_inset))
+    fitting = [t for t in (full, min(full, gaps.passage), through, through / 2) if t > config.thinnest]
+    return [*dict.fromkeys(fitting), config.thinnest, *((0.0018, 0.001) if through <= config.thinnest else ())]
 
 
-def front_only_region(frame: DrawerFrame, static: RayCaster, reach: float) -> BodyRegion | None:
+def front_only_region(frame: DrawerFrame, static: RayCaster, reach: float, rail: float) -> BodyRegion | None:
     """Returns the region behind a front without a container, where rails can run along the walls; None if too shallow.
 
-    Its flanks stand one rail's thickness inside the walls, but never outside the front.
+    Its flanks stand one rail's thickness (`rail`, metres) inside the walls, but never outside the front.
     """
-    front_depth, thickness = frame.depth, _COMMON_RAIL
+    front_depth = frame.depth
     inset = 0.02 * frame.width
     z, depth = _free_behind(frame, static, front_depth + 1e-3, reach)
     if depth < 0.5 * frame.height:
         return None
     deep = (front_depth + np.array([0.005, 0.015, 0.4 * depth])).tolist()  # a face frame leaves the narrowest passage
     sides = [_reach_along(frame, static, (0.0, y), z, 0, reach, sign) for y in deep for sign in (-1.0, 1.0)]
-    half = min(*sides, frame.width / 2 - inset) - thickness
+    half = min(*sides, frame.width / 2 - inset) - rail
     if half <= 0.1 * frame.width:
         return None
     start = front_depth - 2e-4
