@@ -63,7 +63,7 @@ def evaluation() -> Iterator[Sentence]:
             TOLERANT.tolerance,
         ),
     )
-    yield page, "never more than {} from what stands still", (ConnectivityConfig().tolerance,)
+    yield page, "never more than {} from the static parts", (ConnectivityConfig().tolerance,)
     yield (
         page,
         "this at most {:g}° or {:g} % of the part's depth",
@@ -85,7 +85,7 @@ def evaluation() -> Iterator[Sentence]:
     yield page, "what stands still are within {}", (plausible.NEAR,)
     yield page, "opens to {:g} % of the reference", (per_cent(plausible.OPENS),)
     yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, methods.LEVELS))
-    yield page, "less the mean of {} made models of seed {}", (distribution.TRAINING_COUNT, distribution.TRAINING_SEED)
+    yield page, "less the mean of {} synthetic models of seed {}", (distribution.TRAINING_COUNT, distribution.TRAINING_SEED)
     yield "metrics.md", "the body cuts deeper than {} of the largest side", (TOLERANT.tolerance,)
     yield "metrics.md", "compares it with {} of the largest side", (ConnectivityConfig().tolerance,)
 
@@ -111,7 +111,7 @@ def learning() -> Iterator[Sentence]:
     yield "training.md", "{} points on each part", (SMALL.features.points,)
     yield "training.md", "{} models of a seed that no training may use ({})", (BASE.validation.models, VALIDATION_SEED)
     yield "training.md", "Seed {} is kept for reporting", (TEST_SEED,)
-    yield "training.md", "on the first {} made models of the seed", (FOLD_MODELS,)
+    yield "training.md", "on the first {} synthetic models of the seed", (FOLD_MODELS,)
     yield "training.md", "each of {} models as it was found", (SMALL.validation.models,)
     yield "dataset.md", "masked with a chance of {:g} %", (per_cent(CORRUPTION.label_masking),)
     yield "dataset.md", "a grid of {} steps", (STEPS,)

@@ -100,7 +100,7 @@ def additions() -> Iterator[Sentence]:
     yield page, "In {} poses it must be clear", (HANDLE.poses,)
     yield (
         page,
-        "a wall of {} mm behind it; at most {} % of the thickness goes",
+        "a wall of {} mm behind it; at most {} % of the thickness is removed",
         (mm(GRIP.wall), per_cent(GRIP.depth_ratio)),
     )
     yield page, "keep {} mm from the others", (mm(GRIP.margin),)
