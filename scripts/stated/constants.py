@@ -85,7 +85,11 @@ def evaluation() -> Iterator[Sentence]:
     yield page, "what stands still are within {}", (plausible.NEAR,)
     yield page, "opens to {:g} % of the reference", (per_cent(plausible.OPENS),)
     yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, methods.LEVELS))
-    yield page, "less the mean of {} synthetic models of seed {}", (distribution.TRAINING_COUNT, distribution.TRAINING_SEED)
+    yield (
+        page,
+        "less the mean of {} synthetic models of seed {}",
+        (distribution.TRAINING_COUNT, distribution.TRAINING_SEED),
+    )
     yield "metrics.md", "the body cuts deeper than {} of the largest side", (TOLERANT.tolerance,)
     yield "metrics.md", "compares it with {} of the largest side", (ConnectivityConfig().tolerance,)
 
