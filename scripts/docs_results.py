@@ -21,7 +21,7 @@ LEAD = """\
 
 On the 17 development models of PartNet-Mobility that the project is measured on (12 pieces of storage furniture, 5
 tables, 50 parts that count). They are not part of the project, nothing was trained on them, but the generator and the
-realization were made with an eye on them, so that figures flatter it. What each number means:
+realization were developed on them, so the figures are optimistic. What each number means:
 [evaluation](evaluation.md). The command:
 
     {command}

@@ -39,7 +39,7 @@ STYLE_HEAD = f"""\
 A hinge is drawn first and the handle follows it, so that a handle tells about its hinge as often as it does in real
 furniture ([style]({SYNTH}/sampling/style.py), [carpentry]({SYNTH}/sampling/carpentry.py)). A piece carries them all
 alike. Reach: on the free edge, as near to the hand as the door allows; middle and corner: of the free edge; top line:
-lying in the middle of the upper or lower edge, which says nothing about the hinge; middle line: in the middle of the
+lying in the middle of the upper or lower edge, which does not depend on the hinge; middle line: in the middle of the
 door.
 """
 MODELLING_HEAD = f"""\
@@ -51,7 +51,7 @@ which are few, widened towards what other sources are known for. Chances are per
 of panels, that of loose objects for each kind, both times the factors below.
 """
 MISSING_HEAD = """\
-## What is not there
+## Missing parts
 
 Of the parts that a whole piece has, these are not in the model as it was modelled. What carries a door, a drawer or a
 handle stays, and so does a top that something stands on. Cases under a common worktop and fronts that are pushed lack
@@ -60,8 +60,8 @@ theirs in any case; the whole holds what a completion would add.
 WORDING_HEAD = f"""\
 ## Words, faces, cuts
 
-What one data set calls a divider is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such wording holds for
-the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
+A part that is a divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such
+wording holds for the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
 drawn in [habits]({SYNTH}/noise/modelling_styles.py).
 """
 

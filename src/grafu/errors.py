@@ -22,7 +22,7 @@ _LONGEST = 2000  # characters of a message
 
 
 class FunctionalizationError(Exception):
-    """Base of all errors that grafu raises on purpose; a message of very many characters lacks its middle."""
+    """Base of all errors that grafu raises on purpose; the middle of a very long message is cut out."""
 
     def __str__(self) -> str:
         text = super().__str__()
@@ -74,4 +74,4 @@ class ExportError(FunctionalizationError):
 
 
 class TooComplex(FunctionalizationError):
-    """Work on a part, or on the whole, would take more time or room than its budget holds."""
+    """Work on a part, or on the whole, would take more time or memory than its budget allows."""

@@ -126,7 +126,7 @@ class JointRecord(ReportRecord):
     mechanism: MechanismClass = Field(description="the class of mechanism")
     template: str = Field(description="the template that was installed")
     count: int = Field(description="how many hinges or rails")
-    motion_source: str = Field(description="who stated the motion")
+    motion_source: str = Field(description="what stated the motion")
     initial_axis: AxisRecord = Field(description="the axis as it was stated")
     rectified_axis: AxisRecord = Field(description="the axis as it was built")
     opening: float = Field(description="the range of the joint")
@@ -139,7 +139,7 @@ class JointRecord(ReportRecord):
     collision_share: Ratio = Field(description="fraction of poses in which it still cuts into something")
     largest_gap: float = Field(description="the widest gap between the link and what carries it, over the motion")
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
-    parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not said")
+    parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not stated")
     follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
     grasp: Grasp = Field(description="how it can be grasped")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
@@ -184,7 +184,7 @@ class MotionRecord(ReportRecord):
     source: MotionSource = Field(description="annotation, network, rule, particulate, singapo, grafu-pred or urdf")
     stated_joints: int = Field(default=0, ge=0, description="how many joints the input itself states")
     unused_joints: int = Field(
-        default=0, ge=0, description="how many of these no one read: another source stated the motions"
+        default=0, ge=0, description="how many of these were not read: another source stated the motions"
     )
 
 
@@ -242,7 +242,7 @@ class Report(ReportRecord):
     added: tuple[AddedRecord, ...] = Field(description="parts that were added")
     skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
     notes: tuple[str, ...] = Field(
-        default=(), description="what was done in a simpler way, or left out, because the budget did not hold it"
+        default=(), description="what was done in a simpler way, or left out, because the budget was too small"
     )
     guesses: tuple[GuessRecord, ...] = Field(default=(), description="decisions that motions rest on")
     moves: dict[str, tuple[str, ...]] = Field(
