@@ -60,7 +60,7 @@ theirs in any case; the whole holds what a completion would add.
 WORDING_HEAD = f"""\
 ## Words, faces, cuts
 
-A part that is a divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such
+A divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such
 wording holds for the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
 drawn in [habits]({SYNTH}/noise/modelling_styles.py).
 """
