@@ -61,8 +61,8 @@ WORDING_HEAD = f"""\
 ## Words, faces, cuts
 
 A divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such
-wording holds for the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
-drawn in [habits]({SYNTH}/noise/modelling_styles.py).
+wording holds for the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how
+finely faces are drawn in [habits]({SYNTH}/noise/modelling_styles.py).
 """
 
 # A tradition's tables of weights, in the order of the page, and what each decides.
