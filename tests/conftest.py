@@ -1,6 +1,7 @@
 """Settings for all tests; it also makes tests/ importable, so that every test can use `strategies` and `sweeping`."""
 
 import os
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -19,6 +20,9 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 def pytest_configure(config: pytest.Config) -> None:
     # The shape checks sample long tuples with `random`, also inside strategies; Hypothesis seeds it, so tests repeat
     config.addinivalue_line("filterwarnings", "ignore:Do not use the `random` module inside strategies")
+    # Started in the background of a script, tests ignore SIGINT, and so would the programs that they start to interrupt
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 # The fixtures import what they need when they are asked for: what is imported earlier escapes the shape checks
