@@ -11,9 +11,9 @@ from grafu.additions.interior.request import (
     PREDICTED,
     InteriorKind,
     InteriorRequest,
-    PanelHint,
     parse_interior,
 )
+from grafu.additions.step import PanelHint
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
