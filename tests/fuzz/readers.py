@@ -97,7 +97,10 @@ def read_result(entry: Path, rng: Random) -> Any:
 
 def resume_result(entry: Path, out: Path, rng: Random) -> list[str]:
     """The command goes on where it finds results that were changed."""
-    shutil.copytree(entry, out / "cabinet", symlinks=True, ignore=_no_plain_file)
+    if entry.is_symlink():
+        (out / "cabinet").symlink_to(os.readlink(entry))
+    else:
+        shutil.copytree(entry, out / "cabinet", symlinks=True, ignore=_no_plain_file)
     return ["functionalize", str(entry.parent / "cabinet.obj"), "--out", str(out), "--no-page", "--resume", *_TIME]
 
 
