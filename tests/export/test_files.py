@@ -266,13 +266,17 @@ def test_added_files_are_ours_and_replace_no_other(tmp_path):
     assert contents(out) == {**FILES.contents, "notes.txt": b"mine"}
 
 
-def test_a_disk_without_hard_links_keeps_what_is_not_ours(tmp_path, monkeypatch):
+@pytest.mark.parametrize("hard_links", [True, False], ids=["hard links", "a disk without them"])
+def test_what_is_not_ours_is_kept_and_links_stay_links(tmp_path, monkeypatch, hard_links):
     def refused(*_: object, **__: object) -> None:
         raise OSError(errno.EPERM, "Operation not permitted")
 
-    monkeypatch.setattr(os, "link", refused)
+    if not hard_links:
+        monkeypatch.setattr(os, "link", refused)
     write_files(FILES, tmp_path / "out")
     (tmp_path / "out" / "notes.txt").write_bytes(b"mine")
+    (tmp_path / "out" / "link").symlink_to("notes.txt")
 
     write_files(FILES, tmp_path / "out", overwrite=True)
-    assert contents(tmp_path / "out") == {**FILES.contents, "notes.txt": b"mine"}
+    assert (tmp_path / "out" / "link").readlink().name == "notes.txt"
+    assert contents(tmp_path / "out") == {**FILES.contents, "notes.txt": b"mine", "link": b"mine"}

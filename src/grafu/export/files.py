@@ -198,10 +198,16 @@ def _carry(kept: Iterable[str], folder: Path, fresh: Path) -> None:
             target.mkdir(parents=True, exist_ok=True)
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            os.link(source, target, follow_symlinks=False)
-        except (OSError, NotImplementedError):  # a disk, or a system, without such links
-            shutil.copy2(source, target, follow_symlinks=False)
+        _link_or_copy(source, target)
+
+
+def _link_or_copy(source: Path, target: Path) -> None:
+    """Makes `target` the same file as `source`, or its copy where the disk has no hard links; a symlink is copied."""
+    if not source.is_symlink():
+        with suppress(OSError):
+            os.link(source, target)
+            return
+    shutil.copy2(source, target, follow_symlinks=False)
 
 
 def _write_all(files: ExportFiles, fresh: Path) -> None:
