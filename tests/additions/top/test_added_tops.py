@@ -58,7 +58,7 @@ def test_slabs_are_closed_and_keep_to_their_outline(
     star = Polygon([(r * np.cos(a), r * np.sin(a)) for (r, _), a in zip(points, turns, strict=True)])
     if not star.is_valid or star.area < 1e-3:
         return
-    mesh = slab_mesh(star, 0.7, 0.7 + thickness, shape)
+    mesh = slab_mesh(star, 0.7, 0.7 + thickness, shape, TopConfig().edge)
     assert mesh.is_closed
     assert mesh.box.low[2] == pytest.approx(0.7)
     assert mesh.box.size[2] == pytest.approx(thickness)
@@ -68,7 +68,7 @@ def test_slabs_are_closed_and_keep_to_their_outline(
 
 def test_slabs_have_holes_and_grooves() -> None:
     plate = box(-0.5, -0.3, 0.5, 0.3).difference(box(-0.2, -0.1, 0.2, 0.1))
-    mesh = slab_mesh(plate, 0.0, 0.03, "chamfered")
+    mesh = slab_mesh(plate, 0.0, 0.03, "chamfered", TopConfig().edge)
     assert mesh.is_closed
     grooved = without_block(mesh, box(-0.6, -0.4, 0.6, -0.25), -0.01, 0.005)
     assert grooved.is_closed
@@ -78,12 +78,12 @@ def test_slabs_have_holes_and_grooves() -> None:
 @pytest.mark.parametrize(("outline", "low", "high"), [(Polygon(), 0.0, 1.0), (box(0, 0, 1, 1), 1.0, 1.0)])
 def test_no_slab_without_an_outline_or_a_thickness(outline: Polygon, low: float, high: float) -> None:
     with pytest.raises(ValueError, match="a slab needs"):
-        slab_mesh(outline, low, high, "rectangle")
+        slab_mesh(outline, low, high)
 
 
 @pytest.mark.parametrize(("shape", "corners"), [("rectangle", 4), ("chamfered", 8), ("rounded", 20)])
 def test_shapes_break_the_corners(shape: TopShape, corners: int) -> None:
-    outline = with_corners(box(-0.5, -0.3, 0.5, 0.3), shape, 1.0)
+    outline = with_corners(box(-0.5, -0.3, 0.5, 0.3), shape, TopConfig().corner)
     assert len(outline.exterior.coords) - 1 == corners
     assert outline.bounds == pytest.approx((-0.5, -0.3, 0.5, 0.3))
 
@@ -142,7 +142,7 @@ def test_an_l_shaped_outline_stays_one() -> None:
 def test_a_cut_off_corner_stays_cut_off() -> None:
     corners = [(0.0, 0.0), (0.55, 0.0), (0.9, 0.35), (0.9, 0.9), (0.0, 0.9)]
     ring = Polygon(corners)
-    shell = slab_mesh(ring.difference(ring.buffer(-0.02, join_style="mitre")), 0.0, H, "rectangle")
+    shell = slab_mesh(ring.difference(ring.buffer(-0.02, join_style="mitre")), 0.0, H)
     body = replace(board("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(shell),))
     top = added([body], config=TopConfig(front=0.0, side=0.0))
     assert volume(top.mesh) == pytest.approx(0.025 * ring.area, rel=0.01)

@@ -13,7 +13,7 @@ from shapely.geometry.base import BaseGeometry
 
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.likeness import surface_like
-from grafu.additions.top.config import DEFAULT_TOP, TopConfig
+from grafu.additions.top.config import TopConfig
 from grafu.additions.top.coverage import Coverage, coverage_of
 from grafu.additions.top.cutouts import cutouts_of, thick_enough
 from grafu.additions.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
@@ -45,12 +45,6 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.plan import JointRequest
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
-
-_BELOW_FLANGE = 0.015  # metres below a basin's rim: there it is as wide as its cut-out
-_CLEAN = 0.001  # metres beyond a slab's edges, so that grooves run out of it
-_MOST = 3  # tops of one piece: a desk, its pedestal, its hutch
-_STEP = 0.05  # of a top's height
-_CALLED = 0.5  # of what covers at the rim: bars around so much that is called a top are its frame
 
 
 @final
@@ -85,7 +79,7 @@ class TopVerdict:
 def missing_tops(
     parts: Sequence[Part],
     moving_bodies: Iterable[JointRequest] = (),
-    config: TopConfig = DEFAULT_TOP,
+    config: TopConfig = TopConfig(),
     hint: Box | None = None,
 ) -> TopVerdict:
     """Returns what `missing_top` does, and further tops: of a desk below its hutch, of a base beside a tower.
@@ -95,25 +89,25 @@ def missing_tops(
     moving_bodies, parts = tuple(moving_bodies), list(parts)
     first = missing_top(parts, moving_bodies, config, hint)
     found = list(first.additions)
-    while 0 < len(found) < _MOST:
+    while 0 < len(found) < config.most_tops:
         parts.append(found[-1].part)
         further = missing_top(parts, moving_bodies, config)
-        if further.addition is None or not _is_apart(further.addition, found):
+        if further.addition is None or not _is_apart(further.addition, found, config.apart):
             break
         found.append(further.addition)
     return replace(first, others=tuple(found[1:]))
 
 
-def _is_apart(top: Addition, others: Sequence[Addition]) -> bool:
-    """Whether a top lies higher or lower than others by more than steps within one surface."""
+def _is_apart(top: Addition, others: Sequence[Addition], ratio: float) -> bool:
+    """Whether a top lies higher or lower than others by more than this fraction of its height."""
     box = top.part.box
-    return all(abs(float(box.high[2] - o.part.box.high[2])) > _STEP * float(box.high[2]) for o in others)
+    return all(abs(float(box.high[2] - o.part.box.high[2])) > ratio * float(box.high[2]) for o in others)
 
 
 def missing_top(
     parts: Sequence[Part],
     moving_bodies: Iterable[JointRequest] = (),
-    config: TopConfig = DEFAULT_TOP,
+    config: TopConfig = TopConfig(),
     hint: Box | None = None,
 ) -> TopVerdict:
     """Returns whether parts lack a top, and the slab for them.
@@ -121,7 +115,7 @@ def missing_top(
     `moving_bodies` are the joints asked for: lids cover, drawers do not, and the slab lets all of them move. `hint` is
     the box of a top that a network predicts, in the object frame; it settles close calls and nothing else.
     """
-    roles = roles_of(parts, moving_bodies)
+    roles = roles_of(parts, moving_bodies, config.upright)
     if roles is None:
         return TopVerdict(True, 1.0, "nothing has a surface")
     metre = metre_on(float(Box.enclosing(p.box for p in parts).size.max()))
@@ -134,21 +128,21 @@ def missing_top(
         return replace(verdict, why=f"{verdict.why}; nothing carries a slab there")
     mesh, outline = made
     (part_id,) = free_ids("top_panel", 1, {p.id for p in parts})
-    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles))])
+    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles, config))])
     style = config.shape if _is_rectangle(outline) else f"outline, {config.shape}"
     return replace(verdict, addition=Addition(part, verdict.why, style))
 
 
 def _seen(roles: Roles, config: TopConfig, metre: float) -> tuple[Views, Coverage, tuple[Part, ...]]:
     """Returns furniture from above, its two maps, and the basins in it: their rims are none that a top closes."""
-    bowls = bowls_of(roles, metre)
+    bowls = bowls_of(roles, config.evidence, metre)
     if 0 < len(bowls) < len(roles.still):  # what is all bowl is no piece with a basin in it
-        views = views_of(_without(bowls, roles), metre)
-        basins = basins_of(bowls, views, coverage_of(views, config, metre), metre)
+        views = views_of(_without(bowls, roles), config.openings.front * metre)
+        basins = basins_of(bowls, views, coverage_of(views, config, metre), config.evidence, metre)
         if basins:
-            views = views_of(_without(basins, roles), metre)
+            views = views_of(_without(basins, roles), config.openings.front * metre)
             return views, coverage_of(views, config, metre, cells_of(basins, views)), basins
-    views = views_of(roles, metre)
+    views = views_of(roles, config.openings.front * metre)
     return views, coverage_of(views, config, metre), ()
 
 
@@ -163,7 +157,7 @@ def _judged(
     level = coverage.level
     if level is None:
         return TopVerdict(True, coverage.ratio, "nothing is open at the top", coverage)
-    named = named_cells(roles, views, coverage, metre)
+    named = named_cells(roles, views, coverage, config.evidence, metre)
     near_top = coverage.near_top | (named & coverage.everything)
     coverage = replace(coverage, near_top=near_top)
     ratio = coverage.ratio
@@ -175,7 +169,7 @@ def _judged(
         covered, told = True, f", `{plate.id}` is a top with a cut-out"
     elif hint is not None and abs(float(hint.high[2]) - level) <= 0.1 * metre:
         covered, told = False, ", and a top was predicted there"
-    elif named.sum() < _CALLED * near_top.sum() and speaks_for_bars(roles, coverage, config, metre):
+    elif named.sum() < config.evidence.named * near_top.sum() and speaks_for_bars(roles, coverage, config, metre):
         covered, told = False, " by bars"
     return TopVerdict(covered, ratio, seen + told, coverage, close_call=True)
 
@@ -184,38 +178,40 @@ def _slab(
     roles: Roles, views: Views, coverage: Coverage, basins: tuple[Part, ...], config: TopConfig, metre: float
 ) -> tuple[TriangleMesh, Polygon] | None:
     """Returns the slab and its outline from above; None where nothing carries one."""
-    rim = rim_of(_without(basins, roles), views, coverage, metre)
+    own = config.outline
+    rim = rim_of(_without(basins, roles), views, coverage, own, metre)
     if rim is None:
         return None
     extent = float(views.grid.cell) * max(views.grid.shape)
     thickness = min(config.thickness * metre, 0.2 * (rim.seat - views.floor))
     if thickness <= 0:
         return None
-    gap = config.gap * metre
-    thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, gap, metre)
-    thickness = under_what_stands(roles, rim, thickness, gap, metre)
-    plan = with_fronts(rim, roles.moving, metre)
+    seat, clean = config.seat * extent, config.overrun * metre
+    thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, config, metre)
+    thickness = under_what_stands(roles, rim, thickness, config, metre)
+    plan = with_fronts(rim, roles.moving, own, metre)
     plan = overhanging(plan, *over_the_base(plan, roles, rim.seat, config, metre))
-    plan = with_corners(plan, config.shape, metre)
-    free = cutouts_of(roles.moving, plan, rim.seat, thickness, gap, metre)
-    standing = what_pierces(roles, rim, thickness, config.seat * extent, metre)
-    left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, metre))
-    outline = one_piece(left, coverage, metre)
+    plan = with_corners(plan, config.shape, config.corner * metre)
+    free = cutouts_of(roles.moving, plan, rim.seat, thickness, config, metre)
+    standing = what_pierces(roles, rim, thickness, seat, own, metre)
+    left = plan.difference(free.cut).difference(standing).difference(_cut_outs(basins, config, metre))
+    outline = one_piece(left, coverage, own, metre)
     if outline is None:
         return None
-    mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape)
+    mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape, config.edge)
     for region, height in free.grooves:
-        below = region.intersection(offset(outline, _CLEAN * metre)).difference(rim.walls)
-        groove = shapely.simplify(without_slivers(below, 3 * _CLEAN * metre), 0.2 * _CLEAN * metre)
+        below = region.intersection(offset(outline, clean)).difference(rim.walls)
+        groove = shapely.simplify(without_slivers(below, 3 * config.overrun * metre), 0.2 * config.overrun * metre)
         mesh = without_block(mesh, groove, rim.seat - thickness, height)
-    for region, height in inset_regions(roles, rim, config.seat * extent, metre):
+    for region, height in inset_regions(roles, rim, seat, own, metre):
         mesh = without_block(mesh, region, rim.seat - thickness, height)
     return mesh, outline
 
 
-def _cut_outs(basins: tuple[Part, ...], metre: float) -> BaseGeometry:
+def _cut_outs(basins: tuple[Part, ...], config: TopConfig, metre: float) -> BaseGeometry:
     """Returns the plans of basins below their flanges."""
-    walls = (section(p.mesh.triangles, [float(p.box.high[2]) - _BELOW_FLANGE * metre], metre) for p in basins)
+    below, line = config.evidence.flange * metre, config.outline.line * metre
+    walls = (section(p.mesh.triangles, [float(p.box.high[2]) - below], line, metre) for p in basins)
     cut = [closed_up(wall, 0.03 * metre) for wall in walls]
     return shapely.union_all(cut) if cut else EMPTY
 

@@ -13,20 +13,11 @@ import numpy as np
 from jaxtyping import Float
 from scipy import ndimage
 
-from grafu.additions.top.config import TopConfig
+from grafu.additions.top.config import OpeningConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, Heights
 from grafu.additions.top.supports import levels_of, spanned_at
 from grafu.additions.top.views import Views
 from grafu.geometry.arrays import ArrayValue, frozen_array
-
-_CRACK = 0.02  # metres: what one looks through between boards and behind handles is no opening
-_STEP = 0.03  # metres between the rims of two openings that one top closes
-_ABOVE = 0.06  # metres above a rim at which things still stand at it
-_NICHE = 0.45  # of the height: lower down, what is open in front is a niche or an open drawer, no place for a top
-_NARROW = (0.12, 0.25)  # metres, fraction of the plan's smaller side: splayed legs stand so far beyond a table's top
-_SLANTS = (0.1, 3.0)  # rise per length: a rim that slants is a flap's or a lid's, no flat top lies on it
-_OVER = 0.5  # of an opening
-_LEAST = 0.15  # of the footprint: smaller holes are sinks, cable outlets and gaps
 
 Opening = tuple[float, CellMask]
 """The height of a rim, metres, and the cells that one looks into past it."""
@@ -71,18 +62,20 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     `spared` are cells that count in neither map: a basin is neither a top nor the lack of one.
     """
     depth = metre * np.array([config.recess, config.gallery])
-    narrow = min(_NARROW[0] * metre, _NARROW[1] * views.grid.cell * min(views.grid.shape))
-    rim, opened = _openings(views, min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views)), narrow)
+    openings = config.openings
+    narrow = min(openings.narrow * metre, openings.narrow_ratio * views.grid.cell * min(views.grid.shape))
+    deep = min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views))
+    rim, opened = _openings(views, *deep, narrow, openings)
     free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
-    opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(_CRACK * metre) // 2))
-    groups = _by_level(opened, rim, _STEP * metre)
-    least = _LEAST * float(views.region.sum())
+    opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(openings.crack * metre) // 2))
+    groups = _by_level(opened, rim, openings.rim_step * metre)
+    least = openings.least * float(views.region.sum())
     spans = [(level, spanned_at(views, level, hole, config, metre) & free) for level, hole in groups]
-    best = _higher(_largest(spans, least), _bare(views, config, metre, least))
+    best = _higher(_largest(spans, least), _bare(views, config, metre, least), openings.over)
     if best is None:
         return Coverage(views.grid, views.region & free, views.region & free)
     level, hole = best
-    near = (views.wall >= level - depth[0]) & (views.wall <= level + _ABOVE * metre) & views.region
+    near = (views.wall >= level - depth[0]) & (views.wall <= level + openings.above_rim * metre) & views.region
     unit = _touching(near | hole, hole) & free
     return Coverage(views.grid, unit, unit & ~hole, level)
 
@@ -91,7 +84,9 @@ def _height(views: Views) -> float:
     return float(views.wall[np.isfinite(views.wall)].max(initial=views.floor)) - views.floor
 
 
-def _openings(views: Views, recess: float, gallery: float, narrow: float) -> tuple[Heights, CellMask]:
+def _openings(
+    views: Views, recess: float, gallery: float, narrow: float, config: OpeningConfig
+) -> tuple[Heights, CellMask]:
     """Returns for each cell the height of its rim, and whether what covers it lies too far below that.
 
     What is open in front, too, must be wider than `narrow` metres.
@@ -100,11 +95,11 @@ def _openings(views: Views, recess: float, gallery: float, narrow: float) -> tup
     covered = np.where(np.isfinite(views.cover), views.cover, views.floor)
     hidden = np.where(_closed_in_front(views.wall, around[1] - recess), recess, gallery)
     enclosed, niche = around[0] - covered > recess, around[1] - covered > hidden
-    niche &= around[1] - views.floor >= _NICHE * _height(views)
+    niche &= around[1] - views.floor >= config.niche * _height(views)
     niche &= ndimage.binary_opening(niche | enclosed, iterations=max(1, views.grid.cells(narrow) // 2))
     rim = np.where(niche, around[1], around[0])
     held = fixed[2] >= rim - recess  # by two sides at least: the four walls of an open drawer are no rim
-    return rim, views.region & (enclosed | niche) & held & ~_slants(rim, views.grid)
+    return rim, views.region & (enclosed | niche) & held & ~_slants(rim, views.grid, config)
 
 
 def _closed_in_front(wall: Heights, rim: Heights) -> CellMask:
@@ -112,9 +107,9 @@ def _closed_in_front(wall: Heights, rim: Heights) -> CellMask:
     return np.asarray(np.maximum.accumulate(wall, axis=1) >= rim)
 
 
-def _slants(rim: Heights, grid: Grid) -> CellMask:
+def _slants(rim: Heights, grid: Grid, config: OpeningConfig) -> CellMask:
     """Whether a rim rises steadily at a cell, along X or along Y."""
-    low, high = (slant * grid.cell for slant in _SLANTS)
+    low, high = config.least_slant * grid.cell, config.most_slant * grid.cell
     found = np.zeros(rim.shape, dtype=bool)
     for axis in (0, 1):
         for way in (1.0, -1.0):
@@ -157,19 +152,19 @@ def _largest(groups: list[Opening], least: float) -> Opening | None:
 def _bare(views: Views, config: TopConfig, metre: float, least: float) -> Opening | None:
     """Returns what the highest supports that enclose nothing span, legs without an apron for one, and their height."""
     nothing = np.zeros(views.grid.shape, dtype=bool)
-    for level in levels_of(views, metre):
+    for level in levels_of(views, config.supports, metre):
         spanned = spanned_at(views, level, nothing, config, metre)
         if spanned.sum() >= max(least, 1.0):
             return level, spanned
     return None
 
 
-def _higher(opening: Opening | None, bare: Opening | None) -> Opening | None:
-    """Returns what supports span where it lies over most of the opening: that one is a ring of stretchers."""
+def _higher(opening: Opening | None, bare: Opening | None, ratio: float) -> Opening | None:
+    """Returns what supports span where it lies over this fraction of the opening: that one is a ring of stretchers."""
     if opening is None or bare is None:
         return opening or bare
     over = float((opening[1] & bare[1]).sum())
-    return bare if bare[0] > opening[0] and over >= _OVER * float(opening[1].sum()) else opening
+    return bare if bare[0] > opening[0] and over >= ratio * float(opening[1].sum()) else opening
 
 
 def _touching(cells: CellMask, seed: CellMask) -> CellMask:

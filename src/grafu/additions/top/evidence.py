@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from grafu.additions.top.config import TopConfig
+from grafu.additions.top.config import EvidenceConfig, TopConfig
 from grafu.additions.top.coverage import Coverage
 from grafu.additions.top.height_map import CellMask, heights_of
 from grafu.additions.top.roles import Roles
@@ -16,28 +16,21 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
-_NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
-_STRIPS = (PartLabel.BAR, PartLabel.FACE_FRAME, PartLabel.LEG, PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL)
-_BASIN_DEPTH = (0.06, 0.4)  # metres: of sinks and wash basins
-_BASIN_RIM = (0.03, 0.12)  # metres that a basin's rim may lie below the cabinet's, or stand above it
-_MARGIN = 0.008  # metres of cabinet around a basin
-_BASIN_AREA = 0.05  # of what stands at the rim
-_INSET = 0.2  # metres below a rim at which a part that is called top panel still is one
-_FLAT = 0.09  # metres: thicker than a worktop
-_SPANS = 0.85  # of what stands at the rim
-_PLATE = 0.5  # of its own box: a frame of bars covers less, a plate with a sink's hole more
-_NAMED_PLATE = 0.35
+NAMELESS_LABELS = (PartLabel.MISC, PartLabel.UNKNOWN)
+STRIP_LABELS = (PartLabel.BAR, PartLabel.FACE_FRAME, PartLabel.LEG, PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL)
 
 
-def bowls_of(roles: Roles, metre: float) -> tuple[Part, ...]:
+def bowls_of(roles: Roles, config: EvidenceConfig, metre: float) -> tuple[Part, ...]:
     """Returns the still, nameless parts that are as deep as basins."""
-    low, high = (depth * metre for depth in _BASIN_DEPTH)
-    return tuple(p for p in roles.still if p.label in _NAMELESS and low <= p.box.size[2] <= high)
+    low, high = config.shallowest_basin * metre, config.deepest_basin * metre
+    return tuple(p for p in roles.still if p.label in NAMELESS_LABELS and low <= p.box.size[2] <= high)
 
 
-def basins_of(bowls: Iterable[Part], views: Views, coverage: Coverage, metre: float) -> tuple[Part, ...]:
+def basins_of(
+    bowls: Iterable[Part], views: Views, coverage: Coverage, config: EvidenceConfig, metre: float
+) -> tuple[Part, ...]:
     """Returns the bowls that hang at a rim, well within what stands there; views and coverage are without them."""
-    return tuple(p for p in bowls if _is_basin(p, views, coverage, metre))
+    return tuple(p for p in bowls if _is_basin(p, views, coverage, config, metre))
 
 
 def cells_of(parts: Iterable[Part], views: Views) -> CellMask:
@@ -48,10 +41,10 @@ def cells_of(parts: Iterable[Part], views: Views) -> CellMask:
     return mask
 
 
-def named_cells(roles: Roles, views: Views, coverage: Coverage, metre: float) -> CellMask:
+def named_cells(roles: Roles, views: Views, coverage: Coverage, config: EvidenceConfig, metre: float) -> CellMask:
     """Returns the cells covered by parts that are called top panels and lie not too far below the rim."""
     assert coverage.level is not None
-    high = coverage.level - _INSET * metre
+    high = coverage.level - config.inset * metre
     named = [p for p in roles.still if p.label is PartLabel.TOP_PANEL and p.box.high[2] >= high]
     mask = np.zeros(views.grid.shape, dtype=bool)
     for part in named:
@@ -62,15 +55,16 @@ def named_cells(roles: Roles, views: Views, coverage: Coverage, metre: float) ->
 def plate_in(roles: Roles, views: Views, coverage: Coverage, config: TopConfig, metre: float) -> Part | None:
     """Returns a still, flat part that spans what stands at the rim, holes or not; None where only bars do."""
     assert coverage.level is not None
-    low, high = coverage.level - config.recess * metre, coverage.level + _FLAT * metre
+    own, flat = config.evidence, config.evidence.flat * metre
+    low, high = coverage.level - config.recess * metre, coverage.level + flat
     for part in roles.still:
-        if part.label in _STRIPS or not low <= part.box.high[2] <= high or part.box.size[2] > _FLAT * metre:
+        if part.label in STRIP_LABELS or not low <= part.box.high[2] <= high or part.box.size[2] > flat:
             continue
-        own = np.isfinite(heights_of(part.mesh.triangles, views.grid))
+        held = np.isfinite(heights_of(part.mesh.triangles, views.grid))
         spanned = _within(part.box, views)
-        ratio = float(own.sum()) / max(int(spanned.sum()), 1)
-        least = _NAMED_PLATE if part.label is PartLabel.TOP_PANEL else _PLATE
-        if ratio >= least and (spanned & coverage.everything).sum() >= _SPANS * coverage.everything.sum():
+        ratio = float(held.sum()) / max(int(spanned.sum()), 1)
+        least = own.named_plate if part.label is PartLabel.TOP_PANEL else own.plate
+        if ratio >= least and (spanned & coverage.everything).sum() >= own.spans * coverage.everything.sum():
             return part
     return None
 
@@ -78,23 +72,26 @@ def plate_in(roles: Roles, views: Views, coverage: Coverage, config: TopConfig, 
 def speaks_for_bars(roles: Roles, coverage: Coverage, config: TopConfig, metre: float) -> bool:
     """Whether most flat parts at the rim are bars by name."""
     assert coverage.level is not None
-    low, high = coverage.level - config.recess * metre, coverage.level + _FLAT * metre
-    flat = [p for p in roles.still if low <= p.box.high[2] <= high and p.box.size[2] <= _FLAT * metre]
+    most = config.evidence.flat * metre
+    low, high = coverage.level - config.recess * metre, coverage.level + most
+    flat = [p for p in roles.still if low <= p.box.high[2] <= high and p.box.size[2] <= most]
     bars = sum(p.label in (PartLabel.BAR, PartLabel.FACE_FRAME) for p in flat)
     return len(flat) > 0 and 2 * bars > len(flat)
 
 
-def _is_basin(part: Part, views: Views, coverage: Coverage, metre: float) -> bool:
+def _is_basin(part: Part, views: Views, coverage: Coverage, config: EvidenceConfig, metre: float) -> bool:
     box, level = part.box, coverage.level
-    if level is None or not level - _BASIN_RIM[0] * metre <= box.high[2] <= level + _BASIN_RIM[1] * metre:
+    if level is None:
+        return False
+    if not level - config.basin_below * metre <= box.high[2] <= level + config.basin_above * metre:
         return False
     at = coverage.grid.centers(coverage.everything)
-    around = Box.around(np.column_stack([at, np.zeros(len(at))])).grown(-_MARGIN * metre)
+    around = Box.around(np.column_stack([at, np.zeros(len(at))])).grown(-config.basin_margin * metre)
     inside = bool(np.all(box.low[:2] >= around.low[:2]) and np.all(box.high[:2] <= around.high[:2]))
     own = heights_of(part.mesh.triangles, views.grid)
     held = np.isfinite(own)
-    hollow = held & (own <= box.high[2] - _BASIN_DEPTH[0] * metre)
-    large = held.sum() >= _BASIN_AREA * coverage.everything.sum()
+    hollow = held & (own <= box.high[2] - config.shallowest_basin * metre)
+    large = held.sum() >= config.basin_area * coverage.everything.sum()
     full = held.sum() >= 0.7 * _within(box, views).sum()
     return inside and bool(large and full and hollow.sum() >= 0.4 * held.sum())
 

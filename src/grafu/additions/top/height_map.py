@@ -18,8 +18,10 @@ Rises = Float[np.ndarray, "t 3"]
 Numbers = Int[np.ndarray, " s"]
 CellMask = Bool[np.ndarray, "x y"]
 
-_STEEP = 0.02  # of a normal's upright part: what is steeper counts as upright
-_SHRINK = 1e-6  # of a cell: what ends on a cell's border does not reach into the next
+LEAST_UPRIGHT_PART = 0.02
+"""Upright part of a triangle's unit normal below which its height over a point is not solved for (ratio)."""
+BORDER_TOLERANCE = 1e-6
+"""Cells: what ends on a cell's border does not reach into the next."""
 
 
 @final
@@ -42,7 +44,7 @@ class Grid(ArrayValue):
         """Returns a grid with `resolution` cells along the longer side of a box, and a free cell around."""
         sides = box.size[:2]
         cell = max(float(sides.max()) / resolution, 1e-9)
-        columns, rows = (int(n) for n in np.ceil(sides / cell - _SHRINK).astype(np.int64) + 2)
+        columns, rows = (int(n) for n in np.ceil(sides / cell - BORDER_TOLERANCE).astype(np.int64) + 2)
         return cls(box.center[:2] - 0.5 * cell * np.array([columns, rows], dtype=np.float64), cell, columns, rows)
 
     @property
@@ -91,7 +93,7 @@ def _least(corners: Float[np.ndarray, "n 3 ..."]) -> Float[np.ndarray, "n ..."]:
 
 def _mark_tiny(field: Scalars, flat: Corners, z: Rises, grid: Grid) -> None:
     """Raises a field to triangles smaller than a cell, in the cells of their corners."""
-    at = np.clip(np.floor(flat - _SHRINK).astype(np.int64), 0, np.array(grid.shape) - 1)
+    at = np.clip(np.floor(flat - BORDER_TOLERANCE).astype(np.int64), 0, np.array(grid.shape) - 1)
     np.maximum.at(field, (at[..., 0] * grid.rows + at[..., 1]).ravel(), z.ravel())
 
 
@@ -109,8 +111,8 @@ def _mark_large(field: Scalars, flat: Corners, z: Rises, grid: Grid, turned: boo
 
 def _span(low: Scalars, high: Scalars, count: int) -> tuple[Indices, Indices]:
     """Returns the first and last cell from `low` to `high`, of `count`."""
-    first = np.clip(np.floor(low + _SHRINK), 0, count - 1).astype(np.int64)
-    last = np.clip(np.floor(high - _SHRINK), 0, count - 1).astype(np.int64)
+    first = np.clip(np.floor(low + BORDER_TOLERANCE), 0, count - 1).astype(np.int64)
+    last = np.clip(np.floor(high - BORDER_TOLERANCE), 0, count - 1).astype(np.int64)
     return first, np.maximum(last, first)
 
 
@@ -132,7 +134,9 @@ def _reach(flat: Float[np.ndarray, "n 3 2"], row: Scalars) -> tuple[Scalars, Sca
         enters, leaves = (row - a[:, 1]) / steep, (row + 1 - a[:, 1]) / steep
         begin = np.where(level, 0.0, np.maximum(np.minimum(enters, leaves), 0.0))
         end = np.where(level, 1.0, np.minimum(np.maximum(enters, leaves), 1.0))
-        met = np.where(level, (a[:, 1] >= row - _SHRINK) & (a[:, 1] <= row + 1 + _SHRINK), begin <= end)
+        met = np.where(
+            level, (a[:, 1] >= row - BORDER_TOLERANCE) & (a[:, 1] <= row + 1 + BORDER_TOLERANCE), begin <= end
+        )
         x0, x1 = a[:, 0] + begin * (b[:, 0] - a[:, 0]), a[:, 0] + end * (b[:, 0] - a[:, 0])
         low = np.minimum(low, np.where(met, np.minimum(x0, x1), np.inf))
         high = np.maximum(high, np.where(met, np.maximum(x0, x1), -np.inf))
@@ -145,7 +149,7 @@ def _height_at(flat: Corners, z: Rises, which: Indices, x: Scalars, y: Scalars) 
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     p, q = z[:, 1] - z[:, 0], z[:, 2] - z[:, 0]
     twice = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-    upright = np.abs(twice) <= _STEEP * (np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1) + 1e-12)
+    upright = np.abs(twice) <= LEAST_UPRIGHT_PART * (np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1) + 1e-12)
     area = np.where(upright, 1.0, twice)
     along_x = np.where(upright, 0.0, (p * v[:, 1] - q * u[:, 1]) / area)
     along_y = np.where(upright, 0.0, (q * u[:, 0] - p * v[:, 0]) / area)

@@ -14,7 +14,7 @@ from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from grafu.additions.top.config import TopConfig
+from grafu.additions.top.config import OutlineConfig, TopConfig
 from grafu.additions.top.coverage import Coverage
 from grafu.additions.top.height_map import CellMask, heights_of
 from grafu.additions.top.roles import Closed, Roles, triangles_of
@@ -26,33 +26,12 @@ from grafu.additions.top.section import (
     polygons_in,
     section,
     solid,
-    thinned,
     without_slivers,
 )
 from grafu.additions.top.views import Views
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-
-_NEAR_RIM = (0.03, 0.06)  # metres below and above a rim's height in which what carries the top is looked for
-_EVEN = 0.001  # metres: what differs by less carries together
-_LOW_POINT = 0.002  # metres that single points may stand above the rest and lift the top rather than pierce it
-_POSTS = 0.006  # metres that posts may stand above the rest and carry the top alone, far enough apart
-_APART = 0.7  # of the rim's extent
-_CARRIES = 0.15  # of the rim: what is enough to carry a top
-_RIM = 0.12  # metres around an opening that belong to its rim: a face frame, a post and a panel
-_SKIN = (0.0015, 0.02)  # metres under the rim: a top board's edge may be rounded, a back may end lower
-_SPAN = 0.25  # metres: gaps beside an opening that a top spans
-_BOARD = 0.04  # metres: as thick as a board may be, of which a section shows both faces
-_KNEEHOLE = 1.3  # metres between two pedestals that one top spans
-_SQUARE = 0.04  # metres between a rectangle's and an outline's corners up to which it was meant as a rectangle
-_FRONT = 0.08  # metres before the body in which a front belongs under the top
-_REACH = 0.06  # metres that a front may end below the rim
-_BELOW = 0.08  # metres that base mouldings and pedestals may jut out, and the top with them
-_INSET = 0.01  # metres above the rest to which an end panel still carries the top
-_TRAY = 0.15  # metres before the body that a tray under a top may reach, and the top with it
-_SLOT = (0.008, 0.06)  # metres above a seat at which what stands on a top begins: as thick as tops are
-_TONGUE = 0.012  # metres: narrower pieces of a top are no top
 
 
 @final
@@ -65,36 +44,38 @@ class Rim:
     outline: BaseGeometry
 
 
-def rim_of(roles: Roles, views: Views, coverage: Coverage, metre: float) -> Rim | None:
+def rim_of(roles: Roles, views: Views, coverage: Coverage, config: OutlineConfig, metre: float) -> Rim | None:
     """Returns the rim around an opening, in roles without basins; None where nothing still carries a top."""
-    seat = _seat(roles, views, coverage, metre)
+    seat = _seat(roles, views, coverage, config, metre)
     if seat is None:
         return None
-    triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, metre)
-    walls = section(triangles, (seat - s * metre for s in _SKIN), metre)
+    line = config.line * metre
+    triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, config.front * metre)
+    heights = [seat - skin * metre for skin in (config.skin, config.deep_skin)]
+    walls = section(triangles, heights, line, metre)
     hollow = shapely.union_all(shapely.box(*coverage.grid.boxes(coverage.opened).T))
-    held = shapely.union_all([walls, hollow, *(_plan_box(p.box) for p in _standing_on(roles, seat, metre))])
+    held = shapely.union_all([walls, hollow, *(_plan_box(p.box) for p in _standing_on(roles, seat, config, metre))])
     held = held.intersection(shapely.convex_hull(walls.union(hollow)))
-    body = thinned(closed_up(held, _SPAN * metre), metre)
-    body = _joined(body, coverage, metre)
-    body = _of_openings(_squared(body, _SQUARE * metre), coverage)
-    return Rim(seat, thinned(solid(walls, _BOARD * metre), metre), body) if body.area > 0 else None
+    body = offset(closed_up(held, config.span * metre), -line)
+    body = _joined(body, coverage, config.kneehole * metre)
+    body = _of_openings(_squared(body, config.square * metre), coverage)
+    return Rim(seat, offset(solid(walls, config.board * metre), -line), body) if body.area > 0 else None
 
 
-def with_fronts(rim: Rim, moving_bodies: tuple[Closed, ...], metre: float) -> BaseGeometry:
+def with_fronts(rim: Rim, moving_bodies: tuple[Closed, ...], config: OutlineConfig, metre: float) -> BaseGeometry:
     """Returns a rim's outline with the doors and drawers before it whose upper ends come near it."""
-    near = offset(rim.outline, _FRONT * metre)
+    near, line = offset(rim.outline, config.front * metre), config.line * metre
     found = [rim.outline]
     for moving in moving_bodies:
         top = float(moving.mesh.box.high[2])
-        if top < rim.seat - _REACH * metre or not _plan_box(moving.mesh.box).intersects(near):
+        if top < rim.seat - config.reach * metre or not _plan_box(moving.mesh.box).intersects(near):
             continue
         height = min(top, rim.seat) - 0.005 * metre
-        front = thinned(filled(section(moving.mesh.triangles, [height], metre)), metre)
+        front = offset(filled(section(moving.mesh.triangles, [height], line, metre)), -line)
         found.append(front.intersection(near))
     if len(found) == 1:
         return rim.outline
-    return _squared(closed_up(shapely.union_all(found), 2 * _FRONT * metre), _SQUARE * metre)
+    return _squared(closed_up(shapely.union_all(found), 2 * config.front * metre), config.square * metre)
 
 
 def over_the_base(
@@ -108,15 +89,19 @@ def over_the_base(
     beyond = (low_y - low[1], min(low_x - low[0], high[0] - high_x), high[1] - high_y)
     asked = (config.front * metre, config.side * metre, config.back * metre)
     front, side, back = (
-        max(own, float(base)) if base <= _BELOW * metre else own for own, base in zip(asked, beyond, strict=True)
+        max(own, float(base)) if base <= config.outline.base * metre else own
+        for own, base in zip(asked, beyond, strict=True)
     )
-    trays = [float(low_y - m.mesh.box.low[1]) for m in roles.sliding if _is_tray(m.mesh.box, seat, metre)]
-    return max([front, *(t for t in trays if t <= _TRAY * metre)]), side, back
+    trays = [
+        float(low_y - m.mesh.box.low[1]) for m in roles.sliding if _is_tray(m.mesh.box, seat, config.outline, metre)
+    ]
+    return max([front, *(t for t in trays if t <= config.outline.tray * metre)]), side, back
 
 
-def _is_tray(body: Box, seat: float, metre: float) -> bool:
+def _is_tray(body: Box, seat: float, config: OutlineConfig, metre: float) -> bool:
     """Whether what slides lies in a top's thickness: closed, a keyboard's tray ends with the top that hides it."""
-    return bool(body.low[2] >= seat - _INSET * metre and body.high[2] <= seat + _SLOT[1] * metre)
+    low, high = seat - config.inset * metre, seat + config.high_slot * metre
+    return bool(body.low[2] >= low and body.high[2] <= high)
 
 
 def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -> BaseGeometry:
@@ -130,50 +115,65 @@ def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -
     return filled(shapely.union_all([outline, *swept]))
 
 
-def under_what_stands(roles: Roles, rim: Rim, thickness: float, gap: float, metre: float) -> float:
+def under_what_stands(roles: Roles, rim: Rim, thickness: float, config: TopConfig, metre: float) -> float:
     """Returns how thick a slab may be under what was built to stand on it: as thick as the slot that is left there.
 
-    What moves above it keeps `gap` metres of air.
+    What moves above it keeps `config.gap` of air.
     """
-    slot = [rim.seat + length * metre for length in _SLOT]
-    above = [p for p in _standing_on(roles, rim.seat, metre) if _plan_box(p.box).intersects(rim.outline)]
+    gap, own = config.gap * metre, config.outline
+    slot = _slot(rim.seat, own, metre)
+    above = [p for p in _standing_on(roles, rim.seat, own, metre) if _plan_box(p.box).intersects(rim.outline)]
     found = min((float(p.box.low[2]) for p in above), default=rim.seat + thickness)
     bodies = [m.mesh.box for m in roles.moving if m.mesh.box.high[2] > slot[1] and m.mesh.box.low[2] >= slot[0]]
     free = min((float(b.low[2]) - gap for b in bodies if _plan_box(b).intersects(rim.outline)), default=np.inf)
     return min(found, free) - rim.seat
 
 
-def _standing_on(roles: Roles, seat: float, metre: float) -> list[Part]:
+def _slot(seat: float, config: OutlineConfig, metre: float) -> tuple[float, float]:
+    """Returns between which heights what stands on a top begins."""
+    return seat + config.slot * metre, seat + config.high_slot * metre
+
+
+def _standing_on(roles: Roles, seat: float, config: OutlineConfig, metre: float) -> list[Part]:
     """Returns what stands still on a top that was there: it begins as high above a seat as tops are thick."""
-    low, high = (seat + length * metre for length in _SLOT)
+    low, high = _slot(seat, config, metre)
     return [p for p in roles.still if low <= p.box.low[2] <= high]
 
 
-def what_pierces(roles: Roles, rim: Rim, thickness: float, seat: float, metre: float) -> BaseGeometry:
+def what_pierces(
+    roles: Roles, rim: Rim, thickness: float, seat: float, config: OutlineConfig, metre: float
+) -> BaseGeometry:
     """Returns what stands up through a slab on the rim, hollow things filled: no top goes there."""
-    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + max(seat, _INSET * metre)]
-    return _standing(tall, (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness - seat), metre)
+    tall = [p.mesh for p in roles.still if p.box.high[2] > rim.seat + max(seat, config.inset * metre)]
+    heights = (rim.seat + seat, rim.seat + 0.5 * thickness, rim.seat + thickness - seat)
+    return _standing(tall, heights, config, metre)
 
 
-def inset_regions(roles: Roles, rim: Rim, seat: float, metre: float) -> list[tuple[BaseGeometry, float]]:
+def inset_regions(
+    roles: Roles, rim: Rim, seat: float, config: OutlineConfig, metre: float
+) -> list[tuple[BaseGeometry, float]]:
     """Returns what stands a little above the rest of the rim and how high: there a slab's underside gives way."""
     found = []
     for part in roles.still:
         top = float(part.box.high[2])
-        if rim.seat + seat < top <= rim.seat + max(seat, _INSET * metre):
-            found.append((_standing([part.mesh], (rim.seat + 0.5 * seat, 0.5 * (rim.seat + top)), metre), top))
+        if rim.seat + seat < top <= rim.seat + max(seat, config.inset * metre):
+            heights = (rim.seat + 0.5 * seat, 0.5 * (rim.seat + top))
+            found.append((_standing([part.mesh], heights, config, metre), top))
     return found
 
 
-def _standing(meshes: list[TriangleMesh], heights: tuple[float, ...], metre: float) -> BaseGeometry:
+def _standing(
+    meshes: list[TriangleMesh], heights: tuple[float, ...], config: OutlineConfig, metre: float
+) -> BaseGeometry:
     if not meshes:
         return EMPTY
-    return filled(closed_up(section(triangles_of(meshes), heights, metre), 0.03 * metre))
+    lines = section(triangles_of(meshes), heights, config.line * metre, metre)
+    return filled(closed_up(lines, 0.03 * metre))
 
 
-def one_piece(shape: BaseGeometry, coverage: Coverage, metre: float) -> Polygon | None:
+def one_piece(shape: BaseGeometry, coverage: Coverage, config: OutlineConfig, metre: float) -> Polygon | None:
     """Returns the piece of a slab's outline that covers most of the opening, without tongues; None if none does."""
-    pieces = [p for p in polygons_in(without_slivers(shape, _TONGUE * metre)) if p.area > 0]
+    pieces = [p for p in polygons_in(without_slivers(shape, config.tongue * metre)) if p.area > 0]
     x, y = coverage.grid.centers(coverage.opened).T
     best = max(pieces, key=lambda p: int(shapely.contains_xy(p, x, y).sum()), default=None)
     if best is None:
@@ -182,51 +182,52 @@ def one_piece(shape: BaseGeometry, coverage: Coverage, metre: float) -> Polygon 
     return plain if isinstance(plain, Polygon) and plain.is_valid and plain.area > 0 else best
 
 
-def _seat(roles: Roles, views: Views, coverage: Coverage, metre: float) -> float | None:
+def _seat(roles: Roles, views: Views, coverage: Coverage, config: OutlineConfig, metre: float) -> float | None:
     """Returns the greatest height at which enough of the rim ends; single points a little higher lift it.
 
     What begins above the rim stood on the top and carries none.
     """
     if coverage.level is None:
         return None
-    carriers = [p for p in roles.still if p.box.low[2] < coverage.level + _SLOT[0] * metre]
+    carriers = [p for p in roles.still if p.box.low[2] < coverage.level + config.slot * metre]
     if len(carriers) < len(roles.still):
         views = replace(views, still=heights_of(triangles_of(p.mesh for p in carriers), views.grid))
-    around = ndimage.binary_dilation(coverage.opened, iterations=coverage.grid.cells(_RIM * metre))
-    low, high = coverage.level - _NEAR_RIM[0] * metre, coverage.level + _NEAR_RIM[1] * metre
+    around = ndimage.binary_dilation(coverage.opened, iterations=coverage.grid.cells(config.rim * metre))
+    low, high = coverage.level - config.below_rim * metre, coverage.level + config.above_rim * metre
     rim = around & (views.still >= low) & (views.still <= high)
     heights = np.sort(views.still[rim])
     if not len(heights):
         return None
-    ends = np.searchsorted(heights, heights - _EVEN * metre), np.searchsorted(heights, heights, "right")
+    ends = np.searchsorted(heights, heights - config.even * metre), np.searchsorted(heights, heights, "right")
     carried = ends[1] - ends[0]
-    for high in np.unique(heights[carried >= _CARRIES * len(heights)])[::-1]:
-        level = rim & (views.still <= high) & (views.still >= high - _EVEN * metre)
-        if _is_spread(level, rim):
-            return _lifted(float(high), rim, views, metre)
-    return _lifted(float(heights[carried.argmax()]), rim, views, metre)
+    for high in np.unique(heights[carried >= config.carries * len(heights)])[::-1]:
+        level = rim & (views.still <= high) & (views.still >= high - config.even * metre)
+        if _is_spread(level, rim, config.apart):
+            return _lifted(float(high), rim, views, config, metre)
+    return _lifted(float(heights[carried.argmax()]), rim, views, config, metre)
 
 
-def _lifted(seat: float, rim: CellMask, views: Views, metre: float) -> float:
+def _lifted(seat: float, rim: CellMask, views: Views, config: OutlineConfig, metre: float) -> float:
     """Returns the seat of a top, lifted by single points a little higher, or by posts that carry it alone."""
-    points = rim & (views.still > seat) & (views.still <= seat + _LOW_POINT * metre)
-    posts = rim & (views.still > seat + _LOW_POINT * metre) & (views.still <= seat + _POSTS * metre)
-    if _is_spread(posts, rim):
+    low, high = seat + config.low_point * metre, seat + config.posts * metre
+    points = rim & (views.still > seat) & (views.still <= low)
+    posts = rim & (views.still > low) & (views.still <= high)
+    if _is_spread(posts, rim, config.apart):
         points |= posts
     return float(views.still[points].max(initial=seat))
 
 
-def _is_spread(some: CellMask, rim: CellMask) -> bool:
-    """Whether some cells of a rim lie far enough apart on it to carry a top without it tilting."""
+def _is_spread(some: CellMask, rim: CellMask, ratio: float) -> bool:
+    """Whether some cells of a rim span this fraction of it, and carry a top without it tilting."""
     if not some.any():
         return False
-    return bool(np.all(np.ptp(np.argwhere(some), axis=0) >= _APART * np.ptp(np.argwhere(rim), axis=0)))
+    return bool(np.all(np.ptp(np.argwhere(some), axis=0) >= ratio * np.ptp(np.argwhere(rim), axis=0)))
 
 
-def _near(triangles: Float[np.ndarray, "n 3 3"], coverage: Coverage, metre: float) -> Float[np.ndarray, "m 3 3"]:
-    """Returns the triangles within the region of an opening and its rim, seen from above."""
+def _near(triangles: Float[np.ndarray, "n 3 3"], coverage: Coverage, around: float) -> Float[np.ndarray, "m 3 3"]:
+    """Returns the triangles within the region of an opening and `around` metres of it, seen from above."""
     points = coverage.grid.centers(coverage.everything)
-    low, high = points.min(axis=0) - _FRONT * metre, points.max(axis=0) + _FRONT * metre
+    low, high = points.min(axis=0) - around, points.max(axis=0) + around
     flat = triangles[:, :, :2]
     return triangles[np.all((flat.max(axis=1) >= low) & (flat.min(axis=1) <= high), axis=1)]
 
@@ -245,10 +246,10 @@ def _squared(shape: BaseGeometry, tolerance: float) -> BaseGeometry:
     return shapely.union_all(made) if made else EMPTY
 
 
-def _joined(body: BaseGeometry, coverage: Coverage, metre: float) -> BaseGeometry:
-    """Returns the outlines of several openings as one where a kneehole lies between them."""
+def _joined(body: BaseGeometry, coverage: Coverage, kneehole: float) -> BaseGeometry:
+    """Returns the outlines of several openings as one where up to `kneehole` metres lie between them."""
     held = _of_openings(body, coverage)
-    return closed_up(held, _KNEEHOLE * metre) if len(polygons_in(held)) > 1 else body
+    return closed_up(held, kneehole) if len(polygons_in(held)) > 1 else body
 
 
 def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:

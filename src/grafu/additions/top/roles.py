@@ -17,8 +17,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.plan import JointRequest
 from grafu.vocabulary import PartLabel
 
-_UPRIGHT = 0.7  # of a unit direction: what moves mostly up and down
-_COVERS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them
+COVERING_LABELS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them
 
 
 @final
@@ -61,12 +60,15 @@ class Roles:
         return Box.enclosing(mesh.box for mesh in meshes)
 
 
-def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest] = ()) -> Roles | None:
-    """Returns the parts by role, moving bodies closed; None where nothing but handles has a face."""
+def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest], upright: float) -> Roles | None:
+    """Returns the parts by role, moving bodies closed; None where nothing but handles has a face.
+
+    What slides in a direction whose upright part is at least `upright` (ratio) covers what is below it.
+    """
     known = {part.id: part for part in parts if len(part.mesh.faces)}
     asked = {joint.moving: joint for joint in joints if joint.moving in known}
     carried = {part for joint in asked.values() for part in joint.attached} - asked.keys()
-    moving_bodies = [_closed(joint, known) for joint in asked.values()]
+    moving_bodies = [_closed(joint, known, upright) for joint in asked.values()]
     rest = [p for p in known.values() if p.id not in asked and p.id not in carried and p.rides_on is None]
     moving_bodies += [_labelled(p) for p in rest if p.label.is_movable]
     still = tuple(p for p in rest if not p.label.is_movable and p.label is not PartLabel.HANDLE)
@@ -84,14 +86,14 @@ def _labelled(part: Part) -> Closed:
     return Closed(part.id, (part.mesh,), part.label is PartLabel.DRAWER)
 
 
-def _closed(joint: JointRequest, known: dict[str, Part]) -> Closed:
+def _closed(joint: JointRequest, known: dict[str, Part], upright: float) -> Closed:
     """Returns what a joint moves, moved back to where it is closed."""
     members = [known[m] for m in (joint.moving, *joint.attached) if m in known]
     bodies = [p.mesh for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
     if joint.drawn_at:
         T = joint.kind.transform(joint.axis, -joint.drawn_at)
         bodies = [mesh.transformed(T) for mesh in bodies]
-    level = abs(float(joint.axis.direction[2])) < _UPRIGHT
-    covers = any(p.label in _COVERS for p in members)
+    level = abs(float(joint.axis.direction[2])) < upright
+    covers = any(p.label in COVERING_LABELS for p in members)
     slides = joint.kind.slides and level and not covers
     return Closed(joint.moving, tuple(bodies), slides, joint)

@@ -22,11 +22,18 @@ from grafu.geometry.mesh import TriangleMesh
 Segments = Float[np.ndarray, "k 2 2"]
 Fewer = Float[np.ndarray, "f 2 2"]
 
-_HAIR = 5e-4  # metres: half the width of a section's lines
-_SHORTEST = 1e-7  # metres
-_MANY = 700  # lines: more take longer than a tenth of a second to join
-_SHARPEST = 2.0  # how much farther a corner may move than its edges: 60 degrees; a slip of a hair would grow a spike
-_STEPS = (1e-5, 1e-4, 5e-4, 1e-3, 2e-3)  # metres
+SHORTEST_LINE = 1e-7
+"""Length below which a line of a section is a point, metres."""
+MOST_LINES = 700
+"""Lines of a section: more take longer than a tenth of a second to join."""
+MITRE_LIMIT = 2.0
+"""How much farther a corner may move than its edges: 60 degrees; a slip of a line's width would grow a spike."""
+ROUNDINGS = (1e-5, 1e-4, 5e-4, 1e-3, 2e-3)
+"""To which the ends of lines are rounded, in turn, until there are not too many lines, metres."""
+SHORTEST_EDGE = 1e-5
+"""Fraction of a slab's length: shorter edges that a cut leaves are joined."""
+ARC_EDGES = 4
+"""Straight edges of a quarter round."""
 EMPTY = Polygon()
 
 
@@ -39,15 +46,15 @@ def section_lines(triangles: Float[np.ndarray, "n 3 3"], height: float) -> Segme
     rows = np.arange(len(corners))
     tip, one, other = corners[rows, lone], corners[rows, (lone + 1) % 3], corners[rows, (lone + 2) % 3]
     found = np.stack([_at_level(tip, one, height), _at_level(tip, other, height)], axis=1)
-    return found[np.linalg.norm(found[:, 1] - found[:, 0], axis=1) > _SHORTEST]
+    return found[np.linalg.norm(found[:, 1] - found[:, 0], axis=1) > SHORTEST_LINE]
 
 
-def section(triangles: Float[np.ndarray, "n 3 3"], heights: Iterable[float], metre: float) -> BaseGeometry:
-    """Returns what triangles cross at some levels: their lines widened to a hair, loops filled by `filled` alone."""
+def section(triangles: Float[np.ndarray, "n 3 3"], heights: Iterable[float], line: float, metre: float) -> BaseGeometry:
+    """Returns what triangles cross at some levels: lines with `line` metres around; `filled` alone fills loops."""
     lines = np.concatenate([section_lines(triangles, z) for z in heights])
     if not len(lines):
         return EMPTY
-    return shapely.union_all(shapely.polygons(_widened(_few(lines, metre), _HAIR * metre)))
+    return shapely.union_all(shapely.polygons(_widened(_few(lines, metre), line)))
 
 
 def _widened(lines: Fewer, half: float) -> Float[np.ndarray, "f 4 2"]:
@@ -61,14 +68,14 @@ def _widened(lines: Fewer, half: float) -> Float[np.ndarray, "f 4 2"]:
 
 def _few(lines: Segments, metre: float) -> Fewer:
     """Returns distinct lines, their ends as exact as not too many allow: shorter ones vanish in their neighbours."""
-    for step in _STEPS:
+    for step in ROUNDINGS:
         ends = np.round(lines / (step * metre)).astype(np.int64)
         swapped = (ends[:, 0, 0] > ends[:, 1, 0]) | ((ends[:, 0, 0] == ends[:, 1, 0]) & (ends[:, 0, 1] > ends[:, 1, 1]))
         ends[swapped] = ends[swapped][:, ::-1]
         rows = np.unique(ends.reshape(-1, 4), axis=0)
         rows = rows[(rows[:, :2] != rows[:, 2:]).any(axis=1)]
         found = rows.reshape(-1, 2, 2) * (step * metre)
-        if len(found) <= _MANY:
+        if len(found) <= MOST_LINES:
             break
     return found
 
@@ -88,7 +95,7 @@ def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
 def offset(shape: BaseGeometry, distance: float) -> BaseGeometry:
     """Returns a shape with its edges moved outwards by a distance, corners of 60 degrees on sharp."""
     with np.errstate(invalid="ignore", divide="ignore"):  # of edges that meet at no angle, which come out right
-        moved = shape.buffer(distance, join_style="mitre", mitre_limit=_SHARPEST)
+        moved = shape.buffer(distance, join_style="mitre", mitre_limit=MITRE_LIMIT)
     return moved if moved.is_valid else shapely.union_all(polygons_in(shapely.make_valid(moved)))
 
 
@@ -108,11 +115,6 @@ def without_slivers(shape: BaseGeometry, width: float) -> BaseGeometry:
     return offset(offset(shape, -0.5 * width), 0.5 * width).intersection(shape)
 
 
-def thinned(shape: BaseGeometry, metre: float) -> BaseGeometry:
-    """Returns a shape less the hair's width that `section` gave it."""
-    return offset(shape, -_HAIR * metre)
-
-
 def polygons_in(shape: BaseGeometry) -> list[Polygon]:
     """Returns the polygons of a shape that have an area."""
     if isinstance(shape, Polygon):
@@ -127,26 +129,25 @@ def _at_level(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"], height: 
 
 Ring = Float[np.ndarray, "n 2"]
 
-_ARRIS = 0.35  # of the thickness: how far the upper edge is broken
-_FINE = 1e-5  # of a slab's length: edges shorter than that are no edges
-_EDGE_STEPS = 4  # of a quarter round
-_CORNER = 0.02  # metres: how far the corners are broken, seen from above
 
-
-def with_corners(outline: BaseGeometry, shape: TopShape, metre: float) -> BaseGeometry:
-    """Returns an outline with its outer corners as the shape wants them."""
+def with_corners(outline: BaseGeometry, shape: TopShape, radius: float) -> BaseGeometry:
+    """Returns an outline with its outer corners as the shape wants them, broken by up to `radius` metres."""
     if shape == "rectangle":
         return outline
     least = min((min(p.minimum_rotated_rectangle.exterior.length / 8, 1e9) for p in polygons_in(outline)), default=0.0)
-    radius = min(_CORNER * metre, 0.2 * least)
+    radius = min(radius, 0.2 * least)
     inner = offset(outline, -radius)
     if shape == "rounded":
-        return inner.buffer(radius, join_style="round", quad_segs=_EDGE_STEPS)
+        return inner.buffer(radius, join_style="round", quad_segs=ARC_EDGES)
     return inner.buffer(radius, join_style="bevel")
 
 
-def slab_mesh(outline: Polygon, low: float, high: float, shape: TopShape) -> TriangleMesh:
+def slab_mesh(
+    outline: Polygon, low: float, high: float, shape: TopShape = "rectangle", edge: float = 0.0
+) -> TriangleMesh:
     """Returns the closed mesh of a slab from `low` to `high`; where its edge leaves no room to break it stays sharp.
+
+    `edge` is how far the upper edge is broken, as a fraction of the thickness; a rectangle's never is.
 
     Raises:
         ValueError: if the outline has no area or the heights are no height apart.
@@ -156,7 +157,7 @@ def slab_mesh(outline: Polygon, low: float, high: float, shape: TopShape) -> Tri
         raise ValueError(f"a slab needs an outline with an area and heights apart: got {found}")
     plan = orient(outline)
     rings = [np.asarray(ring.coords)[:-1, :2] for ring in (plan.exterior, *plan.interiors)]
-    for profile in (_profile(shape, high - low), _profile("rectangle", high - low)):
+    for profile in (_profile(shape, high - low, edge), _profile("rectangle", high - low, edge)):
         layers = [[_inset(ring, depth) for ring in rings] for depth, _ in profile]
         if all(_is_sound(layer, outline.area) for layer in layers):
             break
@@ -167,8 +168,8 @@ def without_block(mesh: TriangleMesh, region: BaseGeometry, low: float, high: fl
     """Returns a closed mesh less what stands over a region from `low` to `high`; as it was where that is nothing."""
     body = _manifold(mesh)
     for polygon in polygons_in(region):
-        body = body - _manifold(slab_mesh(polygon, low, high, "rectangle"))
-    cut = body.simplify(_FINE * float(mesh.box.size.max())).to_mesh()
+        body = body - _manifold(slab_mesh(polygon, low, high))
+    cut = body.simplify(SHORTEST_EDGE * float(mesh.box.size.max())).to_mesh()
     found = TriangleMesh(np.asarray(cut.vert_properties, np.float64)[:, :3], np.asarray(cut.tri_verts, np.int64))
     return found if len(found.faces) else mesh
 
@@ -177,13 +178,13 @@ def _manifold(mesh: TriangleMesh) -> manifold3d.Manifold:
     return manifold3d.Manifold(manifold3d.Mesh(mesh.vertices.astype(np.float32), mesh.faces.astype(np.uint32)))
 
 
-def _profile(shape: TopShape, thickness: float) -> list[tuple[float, float]]:
+def _profile(shape: TopShape, thickness: float, edge: float) -> list[tuple[float, float]]:
     """Returns how far the edge lies inwards at heights over the underside, from below."""
-    arris = _ARRIS * thickness
+    arris = edge * thickness
     if shape == "chamfered":
         return [(0.0, 0.0), (0.0, thickness - arris), (arris, thickness)]
     if shape == "rounded":
-        turns = np.linspace(0.0, np.pi / 2, _EDGE_STEPS + 1)
+        turns = np.linspace(0.0, np.pi / 2, ARC_EDGES + 1)
         arc = [(float(arris * (1 - np.cos(a))), float(thickness - arris * (1 - np.sin(a)))) for a in turns]
         return [(0.0, 0.0), *arc]
     return [(0.0, 0.0), (0.0, thickness)]

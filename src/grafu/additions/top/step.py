@@ -11,7 +11,7 @@ from typing import Final, final
 from grafu.additions.addition import free_ids
 from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult
 from grafu.additions.top.complete import TopVerdict, missing_tops
-from grafu.additions.top.config import DEFAULT_TOP, TopConfig
+from grafu.additions.top.config import TopConfig
 from grafu.asset.languages import word_set
 from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
@@ -32,7 +32,7 @@ TOPLESS: Final = word_set(
 class TopChoice:
     """Which top is added (None: none), and whether it takes the place of one that is there."""
 
-    config: TopConfig | None = DEFAULT_TOP
+    config: TopConfig | None = TopConfig()
     replaces: bool = False
 
 
@@ -68,7 +68,7 @@ def _chosen(scene: Scene, request: Request, choice: TopChoice) -> ReplacedTop:
     parts, joints = tuple(scene.parts.values()), request.plan.joints
     if choice.config is not None and choice.replaces:
         return replace_top(parts, joints, request.tops, choice.config, request.top)
-    top = missing_tops(parts, joints, choice.config or DEFAULT_TOP, request.top)
+    top = missing_tops(parts, joints, choice.config or TopConfig(), request.top)
     unwanted = _unwanted(request) if top.additions else ""
     if unwanted:
         return ReplacedTop(replace(top, covered=True, why=unwanted, addition=None, others=()))
@@ -105,7 +105,7 @@ def replace_top(
     parts: Sequence[Part],
     moving_bodies: Iterable[JointRequest],
     tops: Collection[str],
-    config: TopConfig = DEFAULT_TOP,
+    config: TopConfig = TopConfig(),
     hint: Box | None = None,
 ) -> ReplacedTop:
     """Returns the top that takes the place of the parts `tops`; where a top is missing anyway, that one.

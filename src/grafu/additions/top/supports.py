@@ -14,26 +14,12 @@ from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from grafu.additions.top.config import TopConfig
+from grafu.additions.top.config import SupportConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid
 from grafu.additions.top.views import Views
 
-_EVEN = 0.01  # metres by which supports of one top differ in height
-_HEIGHTS = (0.25, 1.25)  # metres: of benches and bar tables; higher posts belong to racks and beds
-_LEVELS = 10  # heights looked at, from above: furniture with more visible ends has no bare supports
-_WIDEST = 0.12  # metres: of posts and walls; what is wider both ways is a surface
-_NARROWEST = 0.25  # metres: of a top
-_BELOW = 0.6  # of the supports' height: a surface above that between them is what they stand around
-_ABOVE = 0.06  # metres: what stands higher than that belongs to something else
-_FILLED = 0.25  # of what lies between supports: less is a mirror, an apron, a cable tray
-_FOOTPRINT = 0.6  # of all that stands no higher
-_FULL = 0.7  # of its bounding rectangle: an outline that takes less is none, but a triangle or a diamond
-_DIVIDER = 0.06  # metres: thicker is no board
-_PARTS = 0.6  # of the depth: so far a divider reaches
-_INNER = 0.99  # of a cell: farther inside of an outline a cell is next to its supports and does not reach beyond them
-_NOTCH = 0.25  # metres: both sides of the free corner of an L
-_ARM = 0.3  # metres: the width of either arm of an L
-_CORNER = 0.2  # of the bounding rectangle: a free corner of less is a recess
+CELL_INSET = 0.99
+"""Cells by which an outline is drawn in: a cell farther inside is next to its supports, none reaches beyond them."""
 
 
 @final
@@ -45,6 +31,7 @@ class _Supports:
     level: float
     ends: CellMask
     opened: CellMask
+    config: TopConfig
     metre: float
 
     @property
@@ -53,14 +40,14 @@ class _Supports:
         return self.ends | self.opened
 
 
-def levels_of(views: Views, metre: float) -> list[float]:
+def levels_of(views: Views, config: SupportConfig, metre: float) -> list[float]:
     """Returns the heights at which supports may end, metres, the highest first."""
     rises = views.still[np.isfinite(views.still)]
     above = (rises - views.floor) / metre
-    rises = np.sort(rises[(above >= _HEIGHTS[0]) & (above <= _HEIGHTS[1])])[::-1]
+    rises = np.sort(rises[(above >= config.lowest) & (above <= config.highest)])[::-1]
     found: list[float] = []
-    while len(rises) and len(found) < _LEVELS:
-        together = rises >= rises[0] - _EVEN * metre
+    while len(rises) and len(found) < config.most_levels:
+        together = rises >= rises[0] - config.even * metre
         found.append(float(np.median(rises[together])))
         rises = rises[~together]
     return found
@@ -72,22 +59,23 @@ def spanned_at(views: Views, level: float, opened: CellMask, config: TopConfig, 
     Openings enclosed by one piece of walls need no more than themselves.
     """
     nothing = np.asarray(opened)
-    if not _HEIGHTS[0] * metre <= level - views.floor <= _HEIGHTS[1] * metre:
+    if not config.supports.lowest * metre <= level - views.floor <= config.supports.highest * metre:
         return nothing
-    supports = _Supports(views, level, _ends_at(views, level, metre), opened, metre)
+    ends = _ends_at(views, level, config.supports.even * metre)
+    supports = _Supports(views, level, ends, opened, config, metre)
     if not _stand_apart(supports):
         return nothing
     outline = _outline(supports)
     if outline is None or not _is_whole(outline, supports):
         return nothing
     inside = _cells_in(outline, views.grid) & ~supports.ends
-    return nothing | inside if _is_free(inside & ~opened, supports, config) else nothing
+    return nothing | inside if _is_free(inside & ~opened, supports) else nothing
 
 
-def _ends_at(views: Views, level: float, metre: float) -> CellMask:
+def _ends_at(views: Views, level: float, even: float) -> CellMask:
     """Returns the cells in which something ends at a level: splayed legs and slopes that go on beside them do not."""
-    higher = ndimage.binary_dilation(views.still > level + _EVEN * metre, structure=np.ones((3, 3)))
-    return (np.abs(views.still - level) <= _EVEN * metre) & ~higher
+    higher = ndimage.binary_dilation(views.still > level + even, structure=np.ones((3, 3)))
+    return (np.abs(views.still - level) <= even) & ~higher
 
 
 def _stand_apart(supports: _Supports) -> bool:
@@ -95,7 +83,7 @@ def _stand_apart(supports: _Supports) -> bool:
     labels, count = ndimage.label(supports.held, structure=np.ones((3, 3)))
     if count == 0 or (count == 1 and supports.opened.any()):
         return False
-    wide = max(1, round(0.5 * _WIDEST * supports.metre / supports.views.grid.cell))
+    wide = max(1, round(0.5 * supports.config.supports.widest * supports.metre / supports.views.grid.cell))
     surfaces = ndimage.binary_opening(supports.ends, structure=np.ones((3, 3)), iterations=wide)
     covered = set(np.unique(labels[surfaces & ~supports.opened]).tolist())
     covered -= set(np.unique(labels[supports.opened]).tolist())
@@ -112,28 +100,28 @@ def _outline(supports: _Supports) -> Polygon | None:
     around = upright if upright.area <= 1.05 * turned.area else turned
     corners = np.asarray(around.exterior.coords)
     sides = np.linalg.norm(np.diff(corners[:3], axis=0), axis=1)
-    if sides.min() < _NARROWEST * supports.metre:
+    if sides.min() < supports.config.supports.narrowest_top * supports.metre:
         return None
     notch = _free_corner(upright, supports)
     if notch is not None:
         cut = upright.difference(notch)
         return cut if isinstance(cut, Polygon) else hull
-    return around if hull.area >= _FULL * around.area else hull
+    return around if hull.area >= supports.config.supports.full * around.area else hull
 
 
 def _free_corner(around: Polygon, supports: _Supports) -> Polygon | None:
     """Returns the largest corner of a rectangle in which nothing stands, where what is left is an L."""
-    grid = supports.views.grid
+    grid, config = supports.views.grid, supports.config.supports
     inside = _cells_in(around, grid) | supports.held
     x, y = (np.flatnonzero(inside.any(axis=a)) for a in (1, 0))
     taken = np.isfinite(supports.views.wall) | supports.opened
     taken = taken[x[0] : x[-1] + 1, y[0] : y[-1] + 1]
     sides = np.indices(taken.shape) + 1.0
-    notch, arm = _NOTCH * supports.metre / grid.cell, _ARM * supports.metre / grid.cell
+    notch, arm = config.notch * supports.metre / grid.cell, config.arm * supports.metre / grid.cell
     fits = np.ones(taken.shape, dtype=bool)
     for side, count in zip(sides, taken.shape, strict=True):
         fits &= (side >= notch) & (side <= count - arm)
-    best, found = _CORNER * taken.size, None
+    best, found = config.corner * taken.size, None
     low_x, low_y, high_x, high_y = around.bounds
     for flips in ((), (0,), (1,), (0, 1)):
         seen = np.flip(taken, flips)
@@ -150,36 +138,38 @@ def _free_corner(around: Polygon, supports: _Supports) -> Polygon | None:
 
 def _is_whole(outline: Polygon, supports: _Supports) -> bool:
     """Whether an outline holds most of what stands no higher than its supports."""
-    still = supports.views.still
-    lower = np.isfinite(still) & (still <= supports.level + _ABOVE * supports.metre)
+    still, config = supports.views.still, supports.config.supports
+    lower = np.isfinite(still) & (still <= supports.level + config.above * supports.metre)
     footprint = shapely.convex_hull(shapely.multipoints(supports.views.grid.centers(lower)))
-    return bool(outline.area >= _FOOTPRINT * footprint.area)
+    return bool(outline.area >= config.footprint * footprint.area)
 
 
-def _is_free(between: CellMask, supports: _Supports, config: TopConfig) -> bool:
+def _is_free(between: CellMask, supports: _Supports) -> bool:
     """Whether what lies between supports is open far down, and nothing of another height stands there.
 
     Between dividers that reach the level a top belongs, however near below it a shelf lies.
     """
-    area = int(between.sum())
+    area, config = int(between.sum()), supports.config
     cover, floor = supports.views.cover, supports.views.floor
-    parted = _is_parted(between | supports.ends, supports, config)
-    surface = supports.level - config.recess * supports.metre if parted else floor + _BELOW * (supports.level - floor)
+    below = floor + config.supports.open_below * (supports.level - floor)
+    parted = _is_parted(between | supports.ends, supports)
+    surface = supports.level - config.recess * supports.metre if parted else below
     high = between & (cover > surface)
     around = area + int(supports.ends.sum()) + int(supports.opened.sum())
-    return area > 0 and int(high.sum()) <= _FILLED * area and int(supports.ends.sum()) < config.coverage * around
+    is_open = area > 0 and int(high.sum()) <= config.supports.filled * area
+    return is_open and int(supports.ends.sum()) < config.coverage * around
 
 
-def _is_parted(around: CellMask, supports: _Supports, config: TopConfig) -> bool:
+def _is_parted(around: CellMask, supports: _Supports) -> bool:
     """Whether a divider ends near a level well within an outline: what lies beside it is a bay, not a tray or rack."""
     grid, level, metre = supports.views.grid, supports.level, supports.metre
-    still = supports.views.still
-    walls = around & (still >= level - config.recess * metre) & (still <= level + _EVEN * metre)
-    width, inset = grid.cells(_DIVIDER * metre), grid.cells(_WIDEST * metre)
+    still, config = supports.views.still, supports.config
+    walls = around & (still >= level - config.recess * metre) & (still <= level + config.supports.even * metre)
+    width, inset = (grid.cells(length * metre) for length in (config.supports.divider, config.supports.widest))
     for axis in (0, 1):
         deep = np.flatnonzero(around.any(axis=axis))
         along = np.flatnonzero(around.any(axis=1 - axis))
-        full = walls.sum(axis=1 - axis) >= _PARTS * len(deep)
+        full = walls.sum(axis=1 - axis) >= config.supports.divider_depth * len(deep)
         inner = full[along[0] + inset : along[-1] + 1 - inset] if len(along) else full[:0]
         _, count = ndimage.label(inner)
         if count and inner.sum() <= count * width:
@@ -191,4 +181,4 @@ def _cells_in(outline: BaseGeometry, grid: Grid) -> CellMask:
     """Returns the cells whose middles lie well within an outline: what ends on it does not reach beyond it."""
     every = np.ones(grid.shape, dtype=bool)
     x, y = grid.centers(every).T
-    return np.asarray(shapely.contains_xy(outline.buffer(-_INNER * grid.cell), x, y)).reshape(grid.shape)
+    return np.asarray(shapely.contains_xy(outline.buffer(-CELL_INSET * grid.cell), x, y)).reshape(grid.shape)

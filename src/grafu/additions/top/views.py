@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy import ndimage
 
+from grafu.additions.top.config import TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, Heights, heights_of
 from grafu.additions.top.roles import Roles, triangles_of
 from grafu.asset.part import Part
@@ -21,42 +22,40 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
-_CELLS = 96  # along the longer side of each view
-_DEEP = 0.012  # of the largest side: what lies less far behind the foremost face is seen
-_FACING = 0.3  # of a unit normal: what looks further away from the eye is an edge
-_BODY = 0.25  # of all that is seen: a still body that shows less is a runner, a rail, a cable tray
-_LEGS = 0.15  # of all that is seen: legs that show less are fittings
-_EYES = ((0, 1.0), (0, -1.0), (1, -1.0))  # along X to the right and to the left, and along Y in front
-_METAL = 0.5  # metallic fraction of a material, from which on it is metal
-_NO_BODY = (PartLabel.HANDLE, PartLabel.LEG)  # their look is the body's only where there is no other
+VIEW_CELLS = 96
+"""Cells along the longer side of each view from in front or from a side."""
+PLAN_CELLS = 160
+"""Cells along the longer side of the view from above: a panel of 18 mm is two cells of a sideboard wide."""
+VIEWING_DIRECTIONS = ((0, 1.0), (0, -1.0), (1, -1.0))  # along X to the right and to the left, and along Y in front
+SPARE_LABELS = (PartLabel.HANDLE, PartLabel.LEG)  # their look is the body's only where there is no other
 
 Triangles = Float[np.ndarray, "n 3 3"]
 FaceMask = Bool[np.ndarray, " n"]
 
 
-def outer_body(parts: Sequence[Part], roles: Roles) -> tuple[Part, ...]:
+def outer_body(parts: Sequence[Part], roles: Roles, config: TopConfig) -> tuple[Part, ...]:
     """Returns the parts whose look a top takes on.
 
     They are what stands still but legs, as it is. Where this shows little, legs are what tops are painted with, unless
     they are metal or thin; else they are all parts but handles, and of them those faces alone that one sees.
     """
-    body = tuple(p for p in roles.still if p.label not in _NO_BODY)
+    body = tuple(p for p in roles.still if p.label not in SPARE_LABELS)
     others = tuple(p for p in parts if p.label is not PartLabel.HANDLE and len(p.mesh.faces))
-    seen = _seen(others)
+    seen = _seen(others, config)
     shown = {part.id: sum(s.mesh.area for s in part.surfaces) for part in seen}
-    if sum(shown[p.id] for p in body) > _BODY * sum(shown.values()):
+    if sum(shown[p.id] for p in body) > config.seen_body * sum(shown.values()):
         return body
-    legs = tuple(p for p in seen if p.label is PartLabel.LEG and not _is_metal(p))
-    if sum(shown[p.id] for p in legs) > _LEGS * sum(shown.values()):
+    legs = tuple(p for p in seen if p.label is PartLabel.LEG and not _is_metal(p, config.metal))
+    if sum(shown[p.id] for p in legs) > config.seen_legs * sum(shown.values()):
         return (*legs, *(p for p in seen if p in body))
     return seen if sum(shown.values()) > 0 else others
 
 
-def _seen(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+def _seen(parts: tuple[Part, ...], config: TopConfig) -> tuple[Part, ...]:
     """Returns parts with those faces alone that one sees from in front or from a side."""
     box = Box.enclosing(p.box for p in parts)
-    deep = _DEEP * float(box.size.max())
-    turned = [_View(axis, sign, parts, box) for axis, sign in _EYES]
+    deep = config.seen_depth * float(box.size.max())
+    turned = [_View(axis, sign, parts, box, config.seen_facing) for axis, sign in VIEWING_DIRECTIONS]
     return tuple(
         replace(part, surfaces=tuple(_with_faces(s, _any_sees(turned, s.mesh.triangles, deep)) for s in part.surfaces))
         for part in parts
@@ -66,10 +65,11 @@ def _seen(parts: tuple[Part, ...]) -> tuple[Part, ...]:
 class _View:
     """The foremost surface in each cell, as one sees parts along an axis from its end with this sign."""
 
-    def __init__(self, axis: int, sign: float, parts: tuple[Part, ...], box: Box) -> None:
+    def __init__(self, axis: int, sign: float, parts: tuple[Part, ...], box: Box, facing: float) -> None:
+        self.facing = facing
         self.axes, self.sign = [a for a in range(3) if a != axis] + [axis], sign
         corners = self.turned(box.corners())
-        self.grid = Grid.over(Box(corners.min(axis=0), corners.max(axis=0)), _CELLS)
+        self.grid = Grid.over(Box(corners.min(axis=0), corners.max(axis=0)), VIEW_CELLS)
         self.front: Heights = heights_of(self.turned(triangles_of(p.mesh for p in parts)), self.grid)
 
     def turned(self, points: Float[np.ndarray, "... 3"]) -> Float[np.ndarray, "... 3"]:
@@ -81,7 +81,7 @@ class _View:
         flat = self.turned(triangles)
         normals = np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0])
         length = np.maximum(np.linalg.norm(normals, axis=1), 1e-12)
-        facing = np.abs(normals[:, 2]) >= _FACING * length
+        facing = np.abs(normals[:, 2]) >= self.facing * length
         middle = flat.mean(axis=1, keepdims=True)
         points = np.concatenate([middle, 0.5 * (middle + flat)], axis=1)
         at = np.floor((points[..., :2] - self.grid.low) / self.grid.cell).astype(np.int64)
@@ -94,19 +94,15 @@ def _any_sees(views: list[_View], triangles: Triangles, deep: float) -> FaceMask
     return np.logical_or.reduce([view.sees(triangles, deep) for view in views])
 
 
-def _is_metal(part: Part) -> bool:
-    """Whether most of a part is metal."""
+def _is_metal(part: Part, metal: float) -> bool:
+    """Whether most of a part is metal, as materials of at least this metallic fraction are."""
     area = sum(s.mesh.area for s in part.surfaces)
-    return sum(s.mesh.area for s in part.surfaces if s.material.metallic >= _METAL) > 0.5 * area
+    return sum(s.mesh.area for s in part.surfaces if s.material.metallic >= metal) > 0.5 * area
 
 
 def _with_faces(surface: Surface, seen: FaceMask) -> Surface:
     """Returns a surface with some faces alone; its vertices stay, as what is laid on them does."""
     return replace(surface, mesh=replace(surface.mesh, faces=surface.mesh.faces[seen]))
-
-
-RESOLUTION = 160  # cells along the longer side: a panel of 18 mm is two cells of a sideboard wide
-_FRONTS = 0.06  # metres before the still parts up to which a closed front belongs to the footprint
 
 
 @final
@@ -122,16 +118,19 @@ class Views:
     floor: float
 
 
-def views_of(roles: Roles, metre: float, resolution: int = RESOLUTION) -> Views:
-    """Returns the heights of furniture from above, and the region that it stands on, kneeholes counted in."""
-    grid = Grid.over(roles.box.grown(_FRONTS * metre), resolution)
+def views_of(roles: Roles, front: float) -> Views:
+    """Returns the heights of furniture from above, and the region that it stands on, kneeholes counted in.
+
+    Closed fronts up to `front` metres before the still parts belong to it.
+    """
+    grid = Grid.over(roles.box.grown(front), PLAN_CELLS)
     still = heights_of(triangles_of(p.mesh for p in roles.still), grid)
     turning = heights_of(triangles_of(m.mesh for m in roles.turning), grid)
     sliding = heights_of(triangles_of(m.mesh for m in roles.sliding), grid)
     cover = np.maximum(still, turning)
     wall = np.maximum(cover, sliding)
     stands = np.isfinite(still if roles.still else wall)
-    near = ndimage.binary_dilation(_between(stands), iterations=grid.cells(_FRONTS * metre))
+    near = ndimage.binary_dilation(_between(stands), iterations=grid.cells(front))
     return Views(grid, still, cover, wall, _between(stands) | (near & np.isfinite(wall)), float(roles.box.low[2]))
 
 
