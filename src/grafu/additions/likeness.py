@@ -11,12 +11,14 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.mesh import TriangleMesh
 from grafu.templates.solids import finished
 
-_OPAQUE = 0.95  # of a colour: glass makes no shelf that the rest of a cabinet resembles
-_PLAIN = Material()
-_DENSITY = 1.0  # texture widths per metre, where the parts' own cannot be measured
+OPAQUE_ALPHA = 0.95
+"""Alpha of a colour from which on a material is opaque: what is clearer is glass (ratio)."""
+PLAIN_MATERIAL = Material()
+DEFAULT_TEXTURE_DENSITY = 1.0
+"""Texture widths per metre, where the parts' own cannot be measured."""
 
 
-def surface_like(mesh: TriangleMesh, parts: Iterable[Part], fallback: Material = _PLAIN) -> Surface:
+def surface_like(mesh: TriangleMesh, parts: Iterable[Part], fallback: Material = PLAIN_MATERIAL) -> Surface:
     """Returns a mesh in the opaque material that covers most of some parts (`fallback`: of none).
 
     Where that material has a texture, it is laid on from the six sides, as large as it is on those parts.
@@ -37,7 +39,7 @@ def _commonest(surfaces: list[Surface]) -> list[Surface]:
     """Returns the surfaces of the opaque material that covers most."""
     found: dict[Material, list[Surface]] = defaultdict(list)
     for surface in surfaces:
-        if surface.material.base_color[3] >= _OPAQUE and surface.material.alpha_mode == "OPAQUE":
+        if surface.material.base_color[3] >= OPAQUE_ALPHA and surface.material.alpha_mode == "OPAQUE":
             found[surface.material].append(surface)
     return max(found.values(), key=lambda group: sum(s.mesh.area for s in group), default=[])
 
@@ -51,7 +53,7 @@ def _texture_density(surfaces: list[Surface]) -> float:
             a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
             laid += 0.5 * float(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
             covered += surface.mesh.area
-    return float(np.sqrt(laid / covered)) if laid > 0 and covered > 0 else _DENSITY
+    return float(np.sqrt(laid / covered)) if laid > 0 and covered > 0 else DEFAULT_TEXTURE_DENSITY
 
 
 def _projected(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:

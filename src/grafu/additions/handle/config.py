@@ -13,11 +13,66 @@ ANY_GRIP = "grip"
 
 @final
 @dataclass(frozen=True)
+class ReliefConfig:
+    """The depth map of a front that grasps are looked for on.
+
+    Raises:
+        ValueError: if a length is not above 0, or `plane` is no fraction.
+    """
+
+    cell: float = 0.005
+    """Least side of a cell: a fingertip covers two, metres."""
+    coarse_cell: float = 0.009
+    """Greatest side of a cell where a large front has many, metres."""
+    margin: float = 0.036
+    """Width around the front that is looked at: three fingers' thickness, metres."""
+    lead: float = 0.09
+    """Distance before the front at which rays start: beyond any grip, metres."""
+    behind: float = 0.1
+    """Depth behind the front's plane up to which anything matters to fingers, metres."""
+    plane: float = 0.15
+    """Fraction of the area that lies no deeper than the front's plane: a grip that stands out covers less."""
+    before: float = 0.002
+    """Depth behind a front's foremost plane up to which what ends there stands before it, metres."""
+    body: float = 0.04
+    """Depth behind the plane within which the front's outline is taken, metres."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "plane")
+
+
+@final
+@dataclass(frozen=True)
+class FingerRoomConfig:
+    """How edges and hollows are looked for on the depth map of a front.
+
+    Raises:
+        ValueError: if a length is not above 0.
+    """
+
+    level: float = 0.004
+    """Distance between the depths at which a finger is tried, metres."""
+    edge: float = 0.001
+    """Distance before an edge at which it counts as met, metres."""
+    through: float = 0.06
+    """Depth behind the front's plane: what is seen beyond it is seen through a hole, metres."""
+    steep: float = 0.014
+    """Width within which the wall of a hollow rises, metres."""
+    flat: float = 0.003
+    """Difference in depth over the floor of a hollow, metres."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True)
 class GraspConfig:
     """What counts as room for fingers; see `at_scale` for models of another size.
 
     Raises:
-        ValueError: if a length is not above 0, or `lever` or `small` is no fraction.
+        ValueError: if a number is not above 0, a fraction is not between 0 and 1, or a confidence is above 1.
     """
 
     gap: float = 0.012
@@ -56,10 +111,71 @@ class GraspConfig:
     """Fraction of the front's two sides multiplied: an unlabelled part that is larger is no handle."""
     sits: float = 0.006
     """How far a handle that is not attached may be from the front that it sits on, metres."""
+    stands_out: float = 0.008
+    """Distance before the front's plane from which on something is a grip of its own, metres."""
+    long_ratio: float = 0.6
+    """Fraction of a front's side: an edge as long as this is long enough, however small the front."""
+    local_ratio: float = 0.5
+    """Fraction of a front's side: what is longer is a profile, a moulding or a rebate, made for looks."""
+    smallest_hole: float = 0.007
+    """Width of the smallest hole that was drawn for a finger: screws and shelf pins are no holes, metres."""
+    held: float = 0.02
+    """Depth behind the front's plane at which fingers hold what is seen through, metres."""
+    most_holes: int = 2
+    """Most small holes of a front: more are a lattice or louvres."""
+    labelled: float = 1.0
+    """Confidence of a handle that is labelled as one and attached."""
+    unlabelled: float = 0.8
+    """Confidence of a small part without a category that sticks out of a front."""
+    unattached: float = 0.6
+    """Confidence of a handle that sits on a front and is not attached to it."""
+    relief: ReliefConfig = ReliefConfig()
+    """The depth map that grips are looked for on."""
+    fingers: FingerRoomConfig = FingerRoomConfig()
+    """How edges and hollows are looked for on it."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "lever", "small")
+        require_positive(self, *(name for name in self.__dataclass_fields__ if name not in ("relief", "fingers")))
+        require_ratios(self, "lever", "small", "long_ratio", "local_ratio")
+        for name in ("labelled", "unlabelled", "unattached"):
+            if getattr(self, name) > 1:
+                raise ValueError(f"`GraspConfig.{name}` must be at most 1: got {getattr(self, name)}")
+
+
+@final
+@dataclass(frozen=True)
+class HandleTrials:
+    """Which sizes and places are tried in turn where a handle does not fit, the usual one first.
+
+    Raises:
+        ValueError: if a size is not above 0, or fewer than one place is looked at.
+    """
+
+    lengths: tuple[float, ...] = (1.0, 0.65, 0.4)
+    """Lengths, as fractions of the wanted one."""
+    protrusions: tuple[float, ...] = (1.0, 0.7)
+    """Protrusions, as fractions of the wanted one: between a drawer and the door before it there is little room."""
+    spare: tuple[tuple[str, float, float], ...] = (
+        ("knob-round", 1.0, 1.0),
+        ("bar-strip", 0.6, 0.75),
+        ("knob-flat", 0.75, 0.7),
+        ("cup-slim", 0.7, 0.8),
+    )
+    """Templates that are tried last, each with its length and protrusion as fractions of its natural ones."""
+    insets: tuple[float, ...] = (1.0, 0.7, 1.4, 0.5, 1.9)
+    """Distances from the free edge, as fractions of the usual one."""
+    shifts: tuple[float, ...] = (0.0, 0.12, -0.12, 0.25, -0.25)
+    """Distances along the edge from the usual place, as fractions of the front's side."""
+    most_spots: int = 60
+    """Places for one size before the next size is tried."""
+    most_blocked: int = 150
+    """Places in which something was in the way before a front is refused."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "most_spots", "most_blocked")
+        sizes = (*self.lengths, *self.protrusions, *self.insets, *(size for _, *own in self.spare for size in own))
+        if not all(size > 0 for size in sizes):
+            raise ValueError(f"sizes and insets in `HandleTrials` must be above 0: got {sizes}")
 
 
 @final
@@ -109,6 +225,10 @@ class HandleConfig:
     """How much the surface under a foot may differ from a plane, metres."""
     steepest: float = 0.35
     """Most that the surface under a foot may slope, metres per metre: about 20 degrees."""
+    foot_depth: float = 0.0006
+    """Distance from the foot plane within which vertices belong to a foot, metres."""
+    touch: float = 0.0002
+    """How deep a handle may touch something, as a fraction of the object's largest side."""
     both: float = 0.65
     """Fraction of a drawer's width that two handles take at most."""
     inset_ratio: float = 0.2
@@ -125,13 +245,16 @@ class HandleConfig:
     """... but no shorter than this, metres ..."""
     longest_bar: float = 0.32
     """... and no longer than this, metres."""
+    lid: float = 0.7
+    """Upright part of a front's up direction below which the front is a lid (ratio)."""
+    trials: HandleTrials = HandleTrials()
+    """Which sizes and places are tried in turn."""
 
     def __post_init__(self) -> None:
         require_positive(self, "inset", "reach_height", "tall", "short", "wide", "high", "most")
-        require_positive(
-            self, "least", "uneven", "steepest", "from_end", "knob", "knob_ratio", "shortest_bar", "longest_bar"
-        )
-        require_ratios(self, "both", "inset_ratio", "bar_ratio")
+        require_positive(self, "least", "uneven", "steepest", "foot_depth", "touch", "from_end")
+        require_positive(self, "knob", "knob_ratio", "shortest_bar", "longest_bar")
+        require_ratios(self, "both", "inset_ratio", "bar_ratio", "lid")
         require_not_negative(self, "length", "margin", "weak")
         if not 0 <= self.count <= 4:
             raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")

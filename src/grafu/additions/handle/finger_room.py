@@ -9,21 +9,17 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.additions.handle.config import GraspConfig
+from grafu.additions.handle.config import FingerRoomConfig, GraspConfig
 from grafu.additions.handle.relief import Grid, Relief
 from grafu.geometry.arrays import Mask, Points, Vec3, vec3
 
 Cells = Bool[np.ndarray, "n m"]
 Step = tuple[int, int]
 
-_WAYS: tuple[tuple[Step, Step], ...] = (((-1, 0), (1, 0)), ((0, -1), (0, 1)))
+OPPOSITE_STEPS: tuple[tuple[Step, Step], ...] = (((-1, 0), (1, 0)), ((0, -1), (0, 1)))
 STEPS: tuple[Step, ...] = ((1, 0), (-1, 0), (0, 1), (0, -1))
-_LEVEL = 0.004  # metres between the depths at which a finger is tried
-_EDGE = 0.001  # metres before an edge at which it counts as met
-_THROUGH = 0.06  # metres behind the front's plane: what sees farther looks through a hole
-_STEEP = 0.014  # metres across within which the wall of a hollow rises
-_FLAT = 0.003  # metres by which the floor of a hollow varies
-_NEAR = 1.7  # cells within which an edge lies before the cell that looks at it
+EDGE_CELLS = 1.7
+"""Cells within which an edge lies before the cell that looks at it."""
 
 
 @final
@@ -46,7 +42,7 @@ def find_hooks(relief: Relief, config: GraspConfig, where: Cells) -> list[Hooks]
 
 
 def _hooks_towards(relief: Relief, config: GraspConfig, where: Cells, step: Step) -> Hooks:
-    s = relief.factor
+    s, fingers = relief.factor, config.fingers
     lip = _shifted(relief.face, step)
     seen = lip <= _shifted(relief.first, step) + 1e-6
     able = where & np.isfinite(lip) & seen & (relief.first - lip >= s * config.reach)
@@ -55,14 +51,15 @@ def _hooks_towards(relief: Relief, config: GraspConfig, where: Cells, step: Step
     if not len(cells):
         return Hooks(step, cells, lip, lip)
     direction = vec3(float(step[0]), 0.0, float(step[1]))
-    depths = lip[:, None] + s * (_EDGE + _LEVEL * np.arange(int((config.thickest + config.gap) / _LEVEL) + 2))
+    levels = np.arange(int((config.thickest + config.gap) / fingers.level) + 2)
+    depths = lip[:, None] + s * (fingers.edge + fingers.level * levels)
     reached = _reaches(relief, cells, depths, direction)
-    reached[depths > relief.first[able][:, None] - s * _EDGE] = 0.0
-    edge = np.where(reached < _NEAR * relief.cell, reached, np.inf)
+    reached[depths > relief.first[able][:, None] - s * fingers.edge] = 0.0
+    edge = np.where(reached < EDGE_CELLS * relief.cell, reached, np.inf)
     edge[depths - lip[:, None] > s * config.thickest] = np.inf
     edge = np.where(reached <= 0, np.inf, edge).min(axis=1)
     free = reached >= edge[:, None] + s * config.hook
-    first, found = _first_run(free, int(np.ceil(config.gap / _LEVEL)) + 1)
+    first, found = _first_run(free, int(np.ceil(config.gap / fingers.level)) + 1)
     rows = np.flatnonzero(found & np.isfinite(edge))
     start = depths[rows, first[rows]]
     good = _pulls(relief, cells[rows], start, edge[rows], direction, s * config.hook, lip[rows])
@@ -118,29 +115,35 @@ def _shifted(grid: Grid, step: Step, fill: float = np.inf) -> Grid:
     return out
 
 
-def find_hollows(relief: Relief, deep: float, narrow: float, wide: float, where: Cells) -> Cells:
+def find_hollows(
+    relief: Relief, deep: float, narrow: float, wide: float, where: Cells, config: FingerRoomConfig
+) -> Cells:
     """Returns the cells of hollows in the face between steep walls, at least `deep` metres deep.
 
     They are between `narrow` and `wide` metres across.
     """
-    return _walled(relief, (deep, narrow, wide), where, at_border=False)
+    return _walled(relief, (deep, narrow, wide), where, config, at_border=False)
 
 
-def find_channels(relief: Relief, deep: float, narrow: float, wide: float, where: Cells) -> Cells:
+def find_channels(
+    relief: Relief, deep: float, narrow: float, wide: float, where: Cells, config: FingerRoomConfig
+) -> Cells:
     """Returns the cells of hollows between one steep wall and the border of the outline; see `find_hollows`."""
-    return _walled(relief, (deep, narrow, wide), where, at_border=True)
+    return _walled(relief, (deep, narrow, wide), where, config, at_border=True)
 
 
-def _walled(relief: Relief, sizes: tuple[float, float, float], where: Cells, at_border: bool) -> Cells:
+def _walled(
+    relief: Relief, sizes: tuple[float, float, float], where: Cells, config: FingerRoomConfig, *, at_border: bool
+) -> Cells:
     inside, found = _inside(relief), np.zeros(relief.face.shape, bool)
     shown = (relief.face <= relief.first + 1e-6) & np.isfinite(relief.face)
     seen = np.where(shown & inside, relief.face, np.nan)
     # What is seen through a hole or past a cut-out is its floor; beyond a finger's reach all is equally deep.
     past = inside & (relief.first >= relief.plane + sizes[0])
-    seen = np.where(past, np.minimum(relief.first, relief.plane + _THROUGH * relief.factor), seen)
+    seen = np.where(past, np.minimum(relief.first, relief.plane + config.through * relief.factor), seen)
     deep, least, most = sizes[0], *(max(round(width / relief.cell), 1) for width in sizes[1:])
-    for ways in _WAYS:
-        wall = [_distance_to_wall(relief, seen, way, most, deep) for way in ways]
+    for ways in OPPOSITE_STEPS:
+        wall = [_distance_to_wall(relief, seen, way, most, deep, config) for way in ways]
         pairs = [(wall[0], wall[1])]
         if at_border:
             border = [_distance_to_border(inside, way, most) for way in ways]
@@ -156,16 +159,18 @@ def _inside(relief: Relief) -> Cells:
     return across[:, None] & ((relief.v > box.low[2]) & (relief.v < box.high[2]))[None, :]
 
 
-def _distance_to_wall(relief: Relief, seen: Grid, way: Step, most: int, rise: float) -> Int[np.ndarray, "n m"]:
+def _distance_to_wall(
+    relief: Relief, seen: Grid, way: Step, most: int, rise: float, config: FingerRoomConfig
+) -> Int[np.ndarray, "n m"]:
     """Returns for each cell how many cells on a steep wall rises from its level; `most` + 1: none within reach."""
     s = relief.factor
-    run = max(round(s * _STEEP / relief.cell), 1)
+    run = max(round(s * config.steep / relief.cell), 1)
     steep = seen - _shifted(seen, (run * way[0], run * way[1]), np.nan) >= rise
     foot = np.where(steep, seen, np.nan)
     distance = np.full(seen.shape, most + 1)
     for k in range(most, -1, -1):
         level = _shifted(foot, (k * way[0], k * way[1]), np.nan)
-        distance[np.abs(seen - level) <= s * _FLAT] = max(k, 1)
+        distance[np.abs(seen - level) <= s * config.flat] = max(k, 1)
     return distance
 
 
@@ -185,7 +190,7 @@ def find_ridges(relief: Relief, drop: float, wide: float, gap: float, where: Cel
     """
     seen = np.where(relief.face <= relief.first + 1e-6, relief.face, np.inf)
     counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
-    for ways in _WAYS:
+    for ways in OPPOSITE_STEPS:
         ends = [_distance_to_drop(relief.first, seen, way, counts, drop) for way in ways]
         found |= ends[0] + ends[1] - 1 <= counts[0]
     return found & where & np.isfinite(seen)
@@ -197,7 +202,7 @@ def find_lips(relief: Relief, drop: float, wide: float, gap: float, where: Cells
     seen = np.where((relief.face <= relief.first + 1e-6) & inside, relief.face, np.inf)
     beside = np.where(np.isfinite(seen), seen, -np.inf)
     counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
-    for ways in _WAYS:
+    for ways in OPPOSITE_STEPS:
         free = [_distance_to_drop(beside, seen, way, counts, drop) for way in ways]
         border = [_distance_to_border(inside, way, counts[0]) for way in ways]
         found |= (free[0] + border[1] - 1 <= counts[0]) | (border[0] + free[1] - 1 <= counts[0])

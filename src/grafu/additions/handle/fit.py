@@ -15,6 +15,7 @@ import numpy as np
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.relief import Relief
 from grafu.additions.handle.spots import Spot
+from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.articulation.kinematics import all_before
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Points
@@ -25,7 +26,10 @@ from grafu.geometry.transform import from_rotation
 from grafu.joints.limits import PoseFunction, in_the_way, opening_values, swept_box
 from grafu.scene.scene import Obstacle, Scene
 
-_TOUCH = 0.0002  # of the object's largest side: how deep a handle may touch something
+SAME_SURFACE = 1e-4
+"""Distance between two hits of rays on one surface, metres."""
+MOST_FOOT_POINTS = 400
+"""Points under a foot that are looked at."""
 
 
 @final
@@ -42,13 +46,13 @@ class HandleObstacles:
         grown = (*self.moving[moving_id], Obstacle(moving_id, MeshCollider(handle)))
         return replace(self, moving={**self.moving, moving_id: grown})
 
-    def blocker(self, moving_id: str, handle: TriangleMesh, poses: int) -> str:
+    def blocker(self, moving_id: str, handle: TriangleMesh, config: HandleConfig) -> str:
         """Returns the id of something that a handle on a moving body hits, or that hits the handle; empty: nothing.
 
         At rest it is clear of everything; along its path, what opens before it (a door before a drawer) stands wide
         open.
         """
-        body = SweptBody(handle, _TOUCH * self.scene.extent)
+        body, poses = SweptBody(handle, config.touch * self.scene.extent), config.poses
         others = [other for other in self.moving if other != moving_id]
         at_rest = [*self.still, *self._own_hardware(moving_id), *(o for other in others for o in self.moving[other])]
         found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)
@@ -124,12 +128,6 @@ def _met(body: SweptBody, motion: PoseFunction, upper: float, near: Sequence[Obs
     return ""
 
 
-_FOOT = 0.0006  # metres from the foot plane within which vertices belong to a foot
-_PANE = 0.95  # of a colour's alpha: what is clearer is glass
-_TRUST = 1e-4  # metres: where two casts see the same surface
-_MOST_FEET = 400  # points under a foot that are looked at
-
-
 @final
 @dataclass(frozen=True, eq=False)
 class Ground:
@@ -144,7 +142,7 @@ class Ground:
         lead[:, 1] = -0.05 * self.relief.factor
         origins, inwards = self.relief.front.to_object(lead), self.relief.front.inwards
         seen, solid = self.relief.moving.along(origins, inwards), self.solid.along(origins, inwards)
-        good = np.isfinite(seen) & (solid <= seen + _TRUST)
+        good = np.isfinite(seen) & (solid <= seen + SAME_SURFACE)
         found = lead.copy()
         found[:, 1] = np.where(good, lead[:, 1] + np.where(good, seen, 0.0), np.nan)
         return found
@@ -160,15 +158,19 @@ def ground_of(scene: Scene, moving_id: str, relief: Relief) -> Ground:
 
 def _is_pane(surface: Surface) -> bool:
     material = surface.material
-    return material.base_color[3] < _PANE or material.alpha_mode == "BLEND"
+    return material.base_color[3] < OPAQUE_ALPHA or material.alpha_mode == "BLEND"
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """A handle at one size in its own frame, see `grafu.templates.template`."""
+    """A handle at one size in its own frame, see `grafu.templates.template`.
+
+    Its feet are what lies within `foot_depth` metres of the foot plane.
+    """
 
     meshes: tuple[TriangleMesh, ...]
+    foot_depth: float
 
     @cached_property
     def mesh(self) -> TriangleMesh:
@@ -179,9 +181,9 @@ class Shape:
     def foot(self) -> Points:
         """Points of the foot plane under the handle's feet."""
         points = self.mesh.vertices
-        near = points[points[:, 1] > -_FOOT]
+        near = points[points[:, 1] > -self.foot_depth]
         near = near if len(near) else points[points[:, 1] >= points[:, 1].max() - 1e-9]
-        return near[:: max(len(near) // _MOST_FEET, 1)] * (1.0, 0.0, 1.0)
+        return near[:: max(len(near) // MOST_FOOT_POINTS, 1)] * (1.0, 0.0, 1.0)
 
 
 def fitted(ground: Ground, shape: Shape, spot: Spot, place: tuple[float, float], config: HandleConfig) -> Mat4 | None:

@@ -1,15 +1,14 @@
 """How a door or drawer can be grasped as it is: by a handle, a recess, an edge, or not at all. It adds nothing."""
 
 from grafu.additions.handle.config import GraspConfig
-from grafu.additions.handle.grips import STANDS_OUT, grips_on
+from grafu.additions.handle.grips import grips_on
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.step import Grasp
 from grafu.asset.part import Part
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-_NAMELESS = (PartLabel.MISC, PartLabel.UNKNOWN)
-_LABELLED, _UNLABELLED, _UNATTACHED = 1.0, 0.8, 0.6
+NAMELESS_LABELS = (PartLabel.MISC, PartLabel.UNKNOWN)
 
 
 def find_grasp(
@@ -23,32 +22,33 @@ def find_grasp(
     Raises:
         KeyError: if the scene has no such moving body, or no motion for it.
     """
-    handle = held_by_label(scene, moving_id)
-    return handle or _without_label(scene, moving_id, (reliefs or Reliefs(scene)).of(moving_id), config)
+    handle = held_by_label(scene, moving_id, config)
+    reliefs = reliefs or Reliefs(scene, config.relief)
+    return handle or _without_label(scene, moving_id, reliefs.of(moving_id), config)
 
 
 def find_grasps(scene: Scene, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None) -> dict[str, Grasp]:
     """Returns the grasp of every moving body of the scene."""
-    reliefs = reliefs or Reliefs(scene)
+    reliefs = reliefs or Reliefs(scene, config.relief)
     return {moving: find_grasp(scene, moving, config, reliefs) for moving in scene.moving_bodies}
 
 
-def held_by_label(scene: Scene, moving_id: str) -> Grasp | None:
+def held_by_label(scene: Scene, moving_id: str, config: GraspConfig = GraspConfig()) -> Grasp | None:
     """Returns how a moving body is grasped by a part on it that is called a handle; None where there is none."""
     members = (scene.parts[m] for m in scene.moving_bodies[moving_id].members if m != moving_id)
     handle = next((part for part in members if part.label is PartLabel.HANDLE), None)
-    return None if handle is None else _held_by(handle, moving_id, _LABELLED, "a handle rides on it")
+    return None if handle is None else _held_by(handle, moving_id, config.labelled, "a handle rides on it")
 
 
 def _without_label(scene: Scene, moving_id: str, relief: Relief, config: GraspConfig) -> Grasp:
     """Returns how a moving body can be grasped on which no part rides that is called a handle."""
     for member in scene.moving_bodies[moving_id].members:
         part = scene.parts[member]
-        if member != moving_id and part.label in _NAMELESS and _sticks_out(part, relief, config.small):
-            return _held_by(part, moving_id, _UNLABELLED, "a small part sticks out of its front")
+        if member != moving_id and part.label in NAMELESS_LABELS and _sticks_out(part, relief, config):
+            return _held_by(part, moving_id, config.unlabelled, "a small part sticks out of its front")
     for part in scene.static_parts:
         if part.label is PartLabel.HANDLE and _sits_on(part, relief, config.sits):
-            return _held_by(part, moving_id, _UNATTACHED, "a handle sits on it that nothing attaches to it")
+            return _held_by(part, moving_id, config.unattached, "a handle sits on it that nothing attaches to it")
     best = max(grips_on(relief, config), key=lambda g: (g.confidence, g.length), default=None)
     if best is None:
         return Grasp(moving_id, "none", 1.0, "no handle, and no edge, hollow or gap with room for fingers")
@@ -60,13 +60,13 @@ def _held_by(part: Part, moving_id: str, confidence: float, why: str) -> Grasp:
     return Grasp(moving_id, "handle", confidence, why, part.box.center, length, part.id)
 
 
-def _sticks_out(part: Part, relief: Relief, ratio: float) -> bool:
+def _sticks_out(part: Part, relief: Relief, config: GraspConfig) -> bool:
     """Whether a part that rides on a moving body is small and stands out before its face."""
     if not len(part.mesh.faces):
         return False
     box, front = relief.front.box_of(part.mesh.vertices), relief.front
-    small = float(box.size[0] * box.size[2]) < ratio * front.width * front.height
-    out = relief.factor * STANDS_OUT
+    small = float(box.size[0] * box.size[2]) < config.small * front.width * front.height
+    out = relief.factor * config.stands_out
     return small and float(box.low[1]) <= relief.plane - out and float(box.size[1]) >= out
 
 

@@ -29,7 +29,8 @@ from grafu.scene.front import Side
 
 CellRows = Int[np.ndarray, "k 2"]
 
-_REACH = 2  # cells across which two count as together
+CLUSTER_CELLS = 2
+"""Cells across which two count as together."""
 
 
 @final
@@ -47,7 +48,7 @@ class Cluster:
     def longest_run(self, relief: Relief, axis: int) -> float:
         """Returns the metres of the longest gapless run of cells along u (0) or v (1), steps aside allowed."""
         at = np.unique(self.cells[:, axis])
-        runs = np.split(at, np.flatnonzero(np.diff(at) > _REACH) + 1)
+        runs = np.split(at, np.flatnonzero(np.diff(at) > CLUSTER_CELLS) + 1)
         return relief.cell * max((float(run[-1] - run[0]) + 1.0 for run in runs), default=0.0)
 
 
@@ -61,7 +62,11 @@ def clusters_of(cells: CellRows) -> list[Cluster]:
     while left:
         found = [left.pop()]
         for i, j in found:
-            near = [(a, b) for a in range(i - _REACH, i + _REACH + 1) for b in range(j - _REACH, j + _REACH + 1)]
+            near = [
+                (a, b)
+                for a in range(i - CLUSTER_CELLS, i + CLUSTER_CELLS + 1)
+                for b in range(j - CLUSTER_CELLS, j + CLUSTER_CELLS + 1)
+            ]
             found.extend(cell for cell in near if cell in left)
             left.difference_update(near)
         groups.append(found)
@@ -71,14 +76,6 @@ def clusters_of(cells: CellRows) -> list[Cluster]:
 def _cluster(cells: CellRows, numbers: dict[tuple[int, int], list[int]], group: Sequence[tuple[int, int]]) -> Cluster:
     rows = np.array(sorted(row for cell in group for row in numbers[cell]), dtype=np.int64)
     return Cluster(cells[rows], rows)
-
-
-STANDS_OUT = 0.008  # metres before the front's plane from which on something is a grip of its own
-_SHORT = 0.6  # of a front's side: an edge as long as this is long enough, however small the front
-_LOCAL = 0.5  # of a front's side: what is longer is a profile, a moulding or a rebate, made for looks
-_SMALLEST_HOLE = 0.007  # metres: a drawn finger hole; screws and shelf pins are not modelled as holes
-_HELD = 0.02  # metres behind the front's plane where fingers hold what they look through
-_MOST_HOLES = 2  # of a front: more small holes are a lattice or louvres
 
 
 @final
@@ -124,14 +121,14 @@ def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarra
     s, center = relief.factor, _center(relief, cluster, lip)
     runs = {int(way): _run_along(relief, cluster, ways == way, int(way)) for way in np.unique(ways)}
     way, length = max(runs.items(), key=lambda item: item[1])
-    if lip < relief.plane - s * STANDS_OUT:
+    if lip < relief.plane - s * config.stands_out:
         out = length + relief.cell >= s * config.knob
         return Grip("edge", 0.95, "a grip of its own mesh stands out of it", center, length) if out else None
     within = _ratio_within(relief, cluster)
     narrow = min(cluster.extent(relief, 0), cluster.extent(relief, 1)) + relief.cell
     if within > 0.9 and any(way ^ 1 in runs for way in runs) and narrow >= s * config.hole:
         return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
-    if length < min(s * config.length, _SHORT * relief.front.width, _SHORT * relief.front.height):
+    if length < min(s * config.length, config.long_ratio * relief.front.width, config.long_ratio * relief.front.height):
         return None
     if within > 0.5 and not _open_to_border(relief, cluster.cells[ways == way], STEPS[way], lip + s * config.hollow):
         return None  # behind slats or mouldings
@@ -160,18 +157,18 @@ def _standing_out(relief: Relief, config: GraspConfig, where: Cells) -> Iterator
     """Yields what fingers pinch, and lips along a border."""
     s, front = relief.factor, relief.front
     for cluster in _clusters(find_ridges(relief, s * config.stub, s * config.pinch, s * config.gap, where)):
-        depth, length = _depth(relief, cluster), _length(relief, cluster)
-        out = depth < relief.plane - s * STANDS_OUT
-        local = all(cluster.extent(relief, k) <= _LOCAL * (front.width, front.height)[k] for k in (0, 1))
+        depth, length = _depth(relief, cluster, config), _length(relief, cluster)
+        out = depth < relief.plane - s * config.stands_out
+        local = all(cluster.extent(relief, k) <= config.local_ratio * (front.width, front.height)[k] for k in (0, 1))
         if out and local and length + relief.cell >= s * config.knob:
             yield Grip("edge", 0.9, "a grip of its own mesh stands out of it", _center(relief, cluster, depth), length)
     for cluster in _clusters(find_ridges(relief, s * config.reach, s * config.pinch, s * config.gap, where)):
         if (length := _length(relief, cluster)) >= s * config.length:
-            center = _center(relief, cluster, _depth(relief, cluster))
+            center = _center(relief, cluster, _depth(relief, cluster, config))
             yield Grip("edge", 0.7, "it has a thin edge that is free on both sides", center, length)
     for cluster in _clusters(find_lips(relief, s * config.stub, s * config.lip, s * config.gap, where)):
         if (length := _length(relief, cluster)) >= s * config.length:
-            center = _center(relief, cluster, _depth(relief, cluster))
+            center = _center(relief, cluster, _depth(relief, cluster, config))
             yield Grip("edge", 0.7, "a lip stands out along its border", center, length)
 
 
@@ -180,26 +177,34 @@ def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
     s = relief.factor
     widest, length = s * config.widest_hollow, s * config.length
     small = []
-    for cluster in _clusters(find_hollows(relief, s * config.deep_hollow, s * _SMALLEST_HOLE, widest, where)):
+    for cluster in _clusters(
+        find_hollows(relief, s * config.deep_hollow, s * config.smallest_hole, widest, where, config.fingers)
+    ):
         u, v = cluster.extent(relief, 0), cluster.extent(relief, 1)
         narrow, wide = min(u, v) + relief.cell, max(u, v)
-        center = _center(relief, cluster, _depth(relief, cluster))
+        center = _center(relief, cluster, _depth(relief, cluster, config))
         if narrow >= s * config.hole and (wide >= length or wide <= widest):
             yield Grip("recess", 0.8, "a hollow takes fingers", center, wide)
         elif wide <= widest:
             small.append(Grip("recess", 0.5, "a hole drawn for a finger", center, wide))
-    yield from small if len(small) <= _MOST_HOLES else ()
-    for cluster in _clusters(find_channels(relief, s * config.hollow, s * config.gap, widest, where)):
+    yield from small if len(small) <= config.most_holes else ()
+    for cluster in _clusters(find_channels(relief, s * config.hollow, s * config.gap, widest, where, config.fingers)):
         if (wide := _length(relief, cluster)) >= length:
             yield Grip(
-                "recess", 0.7, "a channel takes fingers", _center(relief, cluster, _depth(relief, cluster)), wide
+                "recess",
+                0.7,
+                "a channel takes fingers",
+                _center(relief, cluster, _depth(relief, cluster, config)),
+                wide,
             )
-    for cluster in _clusters(find_channels(relief, s * config.notch, s * _SMALLEST_HOLE, widest, where)):
+    for cluster in _clusters(
+        find_channels(relief, s * config.notch, s * config.smallest_hole, widest, where, config.fingers)
+    ):
         u, v = cluster.extent(relief, 0), cluster.extent(relief, 1)
-        local = u <= _LOCAL * relief.front.width and v <= _LOCAL * relief.front.height
+        local = u <= config.local_ratio * relief.front.width and v <= config.local_ratio * relief.front.height
         wide = max(u, v)
         if local and 0.5 * length <= wide <= s * config.longest_notch and _meets_border(relief, cluster):
-            center = _center(relief, cluster, _depth(relief, cluster))
+            center = _center(relief, cluster, _depth(relief, cluster, config))
             yield Grip("recess", 0.5, "a notch drawn for fingers", center, wide)
 
 
@@ -211,10 +216,10 @@ def _length(relief: Relief, cluster: Cluster) -> float:
     return max(cluster.longest_run(relief, 0), cluster.longest_run(relief, 1))
 
 
-def _depth(relief: Relief, cluster: Cluster) -> float:
+def _depth(relief: Relief, cluster: Cluster, config: GraspConfig) -> float:
     """Returns how deep a cluster lies, a finger's reach behind the front's plane at most."""
     seen = relief.face[cluster.cells[:, 0], cluster.cells[:, 1]]
-    return float(np.median(np.minimum(seen, relief.plane + _HELD * relief.factor)))
+    return float(np.median(np.minimum(seen, relief.plane + config.held * relief.factor)))
 
 
 def _center(relief: Relief, cluster: Cluster, depth: float) -> Vec3:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.additions.addition import Addition, added_part, free_ids
-from grafu.additions.handle.config import HandleConfig
+from grafu.additions.handle.config import HandleConfig, ReliefConfig
 from grafu.additions.handle.fit import HandleObstacles, Shape, fitted, ground_of, handle_obstacles
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.handle.spots import Extent, Spot, spots_on
@@ -22,12 +22,6 @@ from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
-
-_SMALLER = (1.0, 0.65, 0.4)  # of the length: what is tried where a handle does not fit
-_FLATTER = (1.0, 0.7)  # of the protrusion: between a drawer and the door before it there is little room
-_SPARE = (("knob-round", 1.0, 1.0), ("bar-strip", 0.6, 0.75), ("knob-flat", 0.75, 0.7), ("cup-slim", 0.7, 0.8))
-_LOOKED_AT = 60  # spots for one size before the next size is tried
-_BLOCKED = 150  # places in which something was in the way, before a front is given up
 
 
 @final
@@ -65,7 +59,7 @@ def add_handles(
     if not wanting:
         return Handles((), (), scene)
     siblings = siblings_of(scene)
-    reliefs = reliefs or Reliefs(scene)
+    reliefs = reliefs or Reliefs(scene, ReliefConfig())
     style = choose_style([reliefs.of(m).front for m in wanting], siblings, scene.metre, config, own or {})
     task = _Task(style, siblings, config, hints or {}, reliefs)
     obstacles = handle_obstacles(scene)
@@ -109,20 +103,20 @@ def _handles_for(scene: Scene, moving: str, obstacles: HandleObstacles, task: _T
     ground = ground_of(scene, moving, relief)
     met, tried, blocked = "", False, 0
     for template, length, protrusion in _sizes(task.style, relief, task.config):
-        shape = Shape(template.build(length, protrusion))
+        shape = Shape(template.build(length, protrusion), task.config.foot_depth)
         spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(moving), task.config)
-        for spot in _few(spots):
+        for spot in _few(spots, task.config.trials.most_spots):
             tried = True
             poses = [fitted(ground, shape, spot, place, task.config) for place in spot.places]
             if any(pose is None for pose in poses):
                 continue
             placed = [shape.mesh.transformed(pose) for pose in poses if pose is not None]
-            met = next((b for mesh in placed if (b := obstacles.blocker(moving, mesh, task.config.poses))), "")
+            met = next((b for mesh in placed if (b := obstacles.blocker(moving, mesh, task.config))), "")
             if not met:
                 kept = [pose for pose in poses if pose is not None]
                 return _additions(scene, moving, template, shape, kept, spot, task)
             blocked += 1
-            if blocked >= _BLOCKED:
+            if blocked >= task.config.trials.most_blocked:
                 return _blocked(moving, met)
     if not tried:
         return Refusal(moving, Reason.TOO_SMALL, "its front is smaller than the smallest handle", Asked.GRASP)
@@ -135,13 +129,14 @@ def _blocked(moving: str, met: str) -> Refusal:
     return Refusal(moving, Reason.IN_THE_WAY, f"wherever a handle sits, {met} is in the way", Asked.GRASP)
 
 
-def _few(spots: Iterable[Spot]) -> Iterator[Spot]:
+def _few(spots: Iterable[Spot], most: int) -> Iterator[Spot]:
+    """Yields so many different spots at most."""
     seen: set[tuple[object, ...]] = set()
     for spot in spots:
         key = (spot.above, tuple((round(u, 4), round(v, 4)) for u, v in spot.places))
         if key in seen:
             continue
-        if len(seen) >= _LOOKED_AT:
+        if len(seen) >= most:
             return
         seen.add(key)
         yield spot
@@ -154,15 +149,15 @@ def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple
     side = float(box.size[2] if held in ("left", "right") and style.template.turns else box.size[0])
     most = config.most * side
     seen = set()
-    for flat in _FLATTER:
-        for ratio in _SMALLER:
+    for flat in config.trials.protrusions:
+        for ratio in config.trials.lengths:
             length = min(ratio * style.length, most)
             scale = length / style.length if style.template.family == "knob" else 1.0
             size = (style.template, length, flat * scale * style.protrusion)
             if length >= s * config.least and size[1:] not in seen:
                 seen.add(size[1:])
                 yield size
-    for name, ratio, out in _SPARE:
+    for name, ratio, out in config.trials.spare:
         template = named_template(name, {})
         length = min(ratio * s * template.natural.length, most)
         if length >= s * config.least:

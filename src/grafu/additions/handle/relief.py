@@ -13,6 +13,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
+from grafu.additions.handle.config import ReliefConfig
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -22,15 +23,10 @@ from grafu.scene.scene import Scene
 
 Grid = Float[np.ndarray, "n m"]
 
-_CELL = (0.005, 0.009)  # metres: a fingertip covers two; large fronts have wider cells
-_CELLS = 12_000
-_MARGIN = 0.036  # metres around the front that are looked at: three fingers' thickness
-_LEAD = 0.09  # metres before the front where rays set out: beyond any grip
-_BEHIND = 0.1  # metres behind the front's plane up to which anything matters to fingers
-_AREA = 0.15  # fraction of the area that lies no deeper than the front's plane: a grip that stands out covers less
-_FAR = 1e3  # metres: what sees nothing sees this far
-_BEFORE = 0.002  # metres: what ends this little behind a front's foremost plane stands before it
-_BODY = 0.04  # metres behind the plane within which the front's outline is taken
+MOST_CELLS = 12_000
+"""Cells of a relief that a front with cells of the least side may have."""
+UNSEEN = 1e3
+"""Depth of what no ray meets, metres."""
 
 
 @final
@@ -53,11 +49,12 @@ class Relief:
     plane: float
     moving: RayCaster
     others: RayCaster
+    config: ReliefConfig
 
     @cached_property
     def outline(self) -> Box:
         """The front's own rectangle, (u, b, v): without what lies far behind its plane, such as a drawer's box."""
-        body = self.face < self.plane + _BODY * self.factor
+        body = self.face < self.plane + self.config.body * self.factor
         if not body.any():
             return Box(np.zeros(3), np.array([self.front.width, self.front.depth, self.front.height]))
         half = self.cell / 2
@@ -77,8 +74,9 @@ class Relief:
 class Reliefs:
     """The reliefs of a scene's fronts, each made when first asked for; not a value."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, config: ReliefConfig) -> None:
         self.scene = scene
+        self.config = config
         self._found: dict[str, Relief] = {}
         self._extents: dict[int, tuple[TriangleMesh, Points, Points]] = {}
 
@@ -95,10 +93,11 @@ class Reliefs:
     def _made(self, moving_id: str) -> Relief:
         scene = self.scene
         front, factor = front_of(scene, moving_id), scene.metre
-        region = _around(front, factor)
+        region = _around(front, factor, self.config)
         bodies = [scene.parts[m].mesh for m in body_members(scene, moving_id)]
-        casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, _others(scene, moving_id, front))]
-        return _looked_at(front, factor, *casters)
+        others = _others(scene, moving_id, front, self.config.before)
+        casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, others)]
+        return _looked_at(front, factor, *casters, self.config)
 
     def _near(self, meshes: Sequence[TriangleMesh], region: Box) -> TriangleMesh:
         """Returns the triangles whose own boxes meet a box of the object frame."""
@@ -118,29 +117,24 @@ class Reliefs:
         return self._extents[id(mesh)][1:]
 
 
-def relief_of(scene: Scene, moving_id: str) -> Relief:
-    """Returns the relief of one moving body's front; see `Reliefs`."""
-    return Reliefs(scene).of(moving_id)
-
-
-def _looked_at(front: Front, factor: float, moving: RayCaster, others: RayCaster) -> Relief:
+def _looked_at(front: Front, factor: float, moving: RayCaster, others: RayCaster, config: ReliefConfig) -> Relief:
     area = front.width * front.height
-    cell = min(max(sqrt(area / _CELLS), factor * _CELL[0]), factor * _CELL[1])
-    cell = max(cell, sqrt(area / (4 * _CELLS)))
-    u, v = (_cells(side, cell, _MARGIN * factor) for side in (front.width, front.height))
-    lead = _LEAD * factor
+    cell = min(max(sqrt(area / MOST_CELLS), factor * config.cell), factor * config.coarse_cell)
+    cell = max(cell, sqrt(area / (4 * MOST_CELLS)))
+    u, v = (_cells(side, cell, config.margin * factor) for side in (front.width, front.height))
+    lead = config.lead * factor
     grid = np.stack(np.broadcast_arrays(u[:, None], -lead, v[None, :]), axis=-1)
     origins = front.to_object(grid.reshape(-1, 3))
     face = moving.along(origins, front.inwards).reshape(grid.shape[:2]) - lead
     first = np.minimum(others.along(origins, front.inwards).reshape(face.shape) - lead, face)
-    first = np.where(origins[:, 2].reshape(face.shape) < 0.0, -lead, np.minimum(first, _FAR))
-    return Relief(front, factor, cell, u, v, face, first, _plane(face), moving, others)
+    first = np.where(origins[:, 2].reshape(face.shape) < 0.0, -lead, np.minimum(first, UNSEEN))
+    return Relief(front, factor, cell, u, v, face, first, _plane(face, config.plane), moving, others, config)
 
 
-def _plane(face: Grid) -> float:
-    """Returns the depth that a fraction of the moving body's visible cells does not exceed; 0 where nothing is hit."""
+def _plane(face: Grid, ratio: float) -> float:
+    """Returns the depth that this fraction of the body's visible cells does not exceed; 0 where nothing is hit."""
     hits = face[np.isfinite(face)]
-    return float(np.quantile(hits, _AREA)) if len(hits) else 0.0
+    return float(np.quantile(hits, ratio)) if len(hits) else 0.0
 
 
 def _cells(side: float, cell: float, margin: float) -> Scalars:
@@ -149,28 +143,33 @@ def _cells(side: float, cell: float, margin: float) -> Scalars:
     return side / count * (np.arange(-more, count + more) + 0.5)
 
 
-def _around(front: Front, factor: float) -> Box:
+def _around(front: Front, factor: float, config: ReliefConfig) -> Box:
     """Returns the space around a front that matters to hands, in the object frame."""
-    margin, lead, behind = factor * _MARGIN, factor * _LEAD, factor * _BEHIND
+    margin, lead, behind = factor * config.margin, factor * config.lead, factor * config.behind
     low = np.array([-margin, -lead, -margin])
     high = np.array([front.width + margin, min(front.depth, behind) + behind, front.height + margin])
     return Box.around(front.to_object(Box(low, high).corners()))
 
 
-def _others(scene: Scene, moving_id: str, front: Front) -> list[TriangleMesh]:
+def _others(scene: Scene, moving_id: str, front: Front, depth: float) -> list[TriangleMesh]:
     """Returns what surrounds a front: all other parts at rest but closed doors before it, and all hardware."""
     own = scene.moving_bodies[moving_id].members
     carried = {member: moving.id for moving in scene.moving_bodies.values() for member in moving.members}
-    before = {other for other in scene.moving_bodies if other != moving_id and stands_before(scene, other, front)}
+    before = {
+        other for other in scene.moving_bodies if other != moving_id and stands_before(scene, other, front, depth)
+    }
     parts = [p.mesh for p in scene.parts.values() if p.id not in own and carried.get(p.id, "") not in before]
     return [*parts, *(visual.mesh for owner, visual in scene.hardware if owner not in before)]
 
 
-def stands_before(scene: Scene, other: str, front: Front) -> bool:
-    """Whether another moving body stands wholly before a front and hides some of it, as a closed door does a drawer."""
+def stands_before(scene: Scene, other: str, front: Front, depth: float) -> bool:
+    """Whether another moving body stands wholly before a front and hides some of it, as a closed door does a drawer.
+
+    It may end up to `depth` metres behind the front's foremost plane.
+    """
     boxes = [scene.parts[m].box.corners() for m in body_members(scene, other) if len(scene.parts[m].mesh.faces)]
     if not boxes:
         return False
     box = front.box_of(np.vstack(boxes))
     beside = box.low[0] > front.width or box.high[0] < 0.0 or box.low[2] > front.height or box.high[2] < 0.0
-    return not beside and float(box.high[1]) <= _BEFORE
+    return not beside and float(box.high[1]) <= depth

@@ -15,10 +15,7 @@ from grafu.additions.handle.style import Sibling
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.scene.front import Side
 
-_INSETS = (1.0, 0.7, 1.4, 0.5, 1.9)  # fractions of the usual inset that are tried
-_ALONG = (0.0, 0.12, -0.12, 0.25, -0.25)  # fractions of a side by which a handle is moved along its edge
-_LEVEL = 0.7  # cosine: fronts that look up more than this are lids
-_TURNS: dict[Side, Mat3] = {  # about b: where the template's upper side comes to lie
+TURNS: dict[Side, Mat3] = {  # about b: where the template's upper side comes to lie
     "top": np.eye(3),
     "bottom": np.diag([-1.0, 1.0, -1.0]),
     "left": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
@@ -38,7 +35,7 @@ class Spot:
     @property
     def turn(self) -> Mat3:
         """The turn about b, from the handle's frame to the front's."""
-        return _TURNS[self.above]
+        return TURNS[self.above]
 
 
 @final
@@ -160,7 +157,7 @@ def _on_door(
     for inset in _insets(relief, extent, alike, upright, config):
         u = float(box.low[0]) + inset if side == "left" else float(box.high[0]) - inset
         for height in dict.fromkeys(heights):
-            for aside in _ALONG:
+            for aside in config.trials.shifts:
                 v = height + aside * float(box.size[2])
                 yield from _fitting(relief, extent, [(u, v)], above, why, config)
 
@@ -177,7 +174,7 @@ def _insets(
     if not upright:
         usual = max(usual, wide / 2 + 0.4 * usual)
     found = [_sibling_inset(q) for q in alike]
-    return list(dict.fromkeys([*found[:1], *(ratio * usual for ratio in _INSETS)]))
+    return list(dict.fromkeys([*found[:1], *(ratio * usual for ratio in config.trials.insets)]))
 
 
 def _sibling_inset(sibling: Sibling) -> float:
@@ -206,7 +203,7 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
     s, box, front = relief.factor, relief.outline, relief.front
     low, high = float(box.low[2]), float(box.high[2])
     height = high - low
-    if float(front.up[2]) < _LEVEL or height <= s * config.short:
+    if float(front.up[2]) < config.lid or height <= s * config.short:
         return (low + high) / 2
     floor = float(front.origin[2]) + low  # the door's lower edge above the floor
     end = min(s * config.from_end, 0.15 * height) + tall / 2
@@ -221,10 +218,12 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
 def _on_flap(relief: Relief, extent: Extent, side: Side, config: HandleConfig) -> Iterator[Spot]:
     s, box = relief.factor, relief.outline
     usual = min(s * config.inset, config.inset_ratio * float(box.size[2]))
-    insets = [extent.across / 2 + s * config.margin] if extent.at_edge else [ratio * usual for ratio in _INSETS]
+    insets = (
+        [extent.across / 2 + s * config.margin] if extent.at_edge else [ratio * usual for ratio in config.trials.insets]
+    )
     for inset in insets:
         v = float(box.low[2]) + inset if side == "bottom" else float(box.high[2]) - inset
-        for aside in _ALONG:
+        for aside in config.trials.shifts:
             u = float(box.center[0]) + aside * float(box.size[0])
             above = _above(side, False, extent)
             yield from _fitting(relief, extent, [(u, v)], above, "at the free edge", config)

@@ -51,7 +51,7 @@ def add_grasps(scene: Scene, request: Request, config: FrontConfig) -> StepResul
     Raises:
         TemplateError: if the config names a handle that there is not.
     """
-    reliefs = Reliefs(scene)
+    reliefs = Reliefs(scene, config.grasp.relief)
     grasps = find_grasps(scene, config.grasp, reliefs)
     free = {moving: grasp for moving, grasp in grasps.items() if moving not in config.fronts}
     made = StepResult(scene, grasps=grasps)
@@ -105,7 +105,8 @@ def _fitted(scene: Scene, moving: str, choice: HandleChoice, request: Request, c
     sizes = replace(general, count=choice.count, offset=choice.offset, length=choice.length or general.length)
     wanted = replace(sizes, style=choice.style or general.style)
     missing = {moving: Grasp(moving, "none", 1.0, "a handle was chosen")}
-    found = add_handles(scene, missing, wanted, request.handles, request.own_handles)
+    reliefs = Reliefs(scene, config.grasp.relief)
+    found = add_handles(scene, missing, wanted, request.handles, request.own_handles, reliefs)
     chosen = tuple(replace(addition, why="it was chosen") for addition in found.additions)
     refusals = tuple(_not_chosen(refused) for refused in found.refused)
     others = sorted({addition.style for addition in chosen} - {choice.style})
