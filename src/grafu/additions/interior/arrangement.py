@@ -13,16 +13,11 @@ from typing import final
 import numpy as np
 
 from grafu.additions.interior.compartments import Compartment
-from grafu.additions.interior.config import Sizes
+from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.step import PanelHint
 from grafu.geometry.box import Box
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel
-
-_ALIKE = 0.7  # of the smaller side, by which two compartments of one column overlap: things in one make it narrower
-_BOARD = 3.5  # panel thicknesses that may lie between two compartments of one column
-_HANGING_DEPTH = 0.42  # metres: hangers are 0.42 to 0.45 wide
-_HAT = 0.3  # metres that a hat shelf leaves above itself at least
 
 
 @final
@@ -36,14 +31,14 @@ class Arrangement:
     divider_at: tuple[float, ...] = ()
 
 
-def stacked(compartments: Sequence[Compartment], sizes: Sizes) -> list[list[int]]:
+def stacked(compartments: Sequence[Compartment], sizes: Sizes, config: InteriorConfig) -> list[list[int]]:
     """Returns the compartments that only shelves part from one another, from below: the columns."""
-    return _grouped(compartments, lambda _: 2, sizes)
+    return _grouped(compartments, lambda _: 2, sizes, config)
 
 
-def rowed(compartments: Sequence[Compartment], sizes: Sizes) -> list[list[int]]:
+def rowed(compartments: Sequence[Compartment], sizes: Sizes, config: InteriorConfig) -> list[list[int]]:
     """Returns the compartments that only dividers part from one another: the rows."""
-    return _grouped(compartments, lambda c: c.side_axis, sizes)
+    return _grouped(compartments, lambda c: c.side_axis, sizes, config)
 
 
 def shared_out(lengths: Sequence[float], present: int, wanted: int, thickness: float, least: float) -> list[int]:
@@ -67,18 +62,22 @@ def shared_out(lengths: Sequence[float], present: int, wanted: int, thickness: f
     return counts
 
 
-def by_size(compartment: Compartment, sizes: Sizes, most: int) -> Arrangement:
+def by_size(compartment: Compartment, sizes: Sizes, config: InteriorConfig) -> Arrangement:
     """Returns the panels that suit a compartment's size (`auto`)."""
-    size = compartment.box.size
+    size, most = compartment.box.size, config.most_panels
     height, width = float(size[2]), float(size[compartment.side_axis])
     if compartment.is_chest:
         return Arrangement(dividers=min(max(round(width / sizes.divider_pitch) - 1, 0), 2))
     if width < 1.5 * sizes.least_side:
         return Arrangement()
-    if is_for_hanging(compartment, sizes):
+    if is_for_hanging(compartment, sizes, config):
         above = height - sizes.hanging_height - sizes.thickness
         hat = float(compartment.box.high[2]) - min(above, sizes.shelf_pitch) - sizes.thickness / 2
-        return Arrangement(shelf_at=(hat,)) if above >= _HAT * sizes.shelf_pitch / 0.34 else Arrangement()
+        return (
+            Arrangement(shelf_at=(hat,))
+            if above >= config.hat * sizes.shelf_pitch / config.shelf_pitch
+            else Arrangement()
+        )
     shelves = min(max(round(height / sizes.shelf_pitch) - 1, 0), most)
     pitch = sizes.divider_pitch * (1.0 if not compartment.behind else 1.5)  # doors are dividers enough for most
     is_low = shelves == 0 and width >= 2.5 * height
@@ -86,12 +85,12 @@ def by_size(compartment: Compartment, sizes: Sizes, most: int) -> Arrangement:
     return Arrangement(shelves, dividers)
 
 
-def is_for_hanging(compartment: Compartment, sizes: Sizes) -> bool:
+def is_for_hanging(compartment: Compartment, sizes: Sizes, config: InteriorConfig) -> bool:
     """Whether a compartment behind doors is as tall, wide and deep as a wardrobe's."""
     size = compartment.box.size
-    scale = sizes.hanging_height / 1.05
+    scale = sizes.hanging_height / config.hanging_height
     depth, width = float(size[compartment.depth_axis]), float(size[compartment.side_axis])
-    wide = min(depth, width) >= _HANGING_DEPTH * scale
+    wide = min(depth, width) >= config.hanging_depth * scale
     return bool(compartment.behind) and wide and float(size[2]) >= sizes.hanging_height
 
 
@@ -111,13 +110,16 @@ def _pitch(length: float, count: int, thickness: float) -> float:
 
 
 def _grouped(
-    compartments: Sequence[Compartment], axis_of: Callable[[Compartment], int], sizes: Sizes
+    compartments: Sequence[Compartment],
+    axis_of: Callable[[Compartment], int],
+    sizes: Sizes,
+    config: InteriorConfig,
 ) -> list[list[int]]:
     order = sorted(range(len(compartments)), key=lambda k: float(compartments[k].box.low[axis_of(compartments[k])]))
     groups: list[list[int]] = []
     for k in order:
         axis = axis_of(compartments[k])
-        home = next((g for g in groups if _follows(compartments[g[-1]], compartments[k], axis, sizes)), None)
+        home = next((g for g in groups if _follows(compartments[g[-1]], compartments[k], axis, sizes, config)), None)
         if home is None:
             groups.append([k])
         else:
@@ -125,31 +127,30 @@ def _grouped(
     return groups
 
 
-def _follows(one: Compartment, other: Compartment, axis: int, sizes: Sizes) -> bool:
+def _follows(one: Compartment, other: Compartment, axis: int, sizes: Sizes, config: InteriorConfig) -> bool:
     """Whether a compartment comes next to another along an axis, parted by a board alone, behind the same doors."""
     if (one.opening, one.behind) != (other.opening, other.behind):
         return False
     gap = float(other.box.low[axis] - one.box.high[axis])
     across = [k for k in range(3) if k not in (axis, one.depth_axis)]
-    alike = all(_overlap(one.box, other.box, k) >= _ALIKE * min(one.box.size[k], other.box.size[k]) for k in across)
-    return alike and -sizes.cell <= gap <= _BOARD * sizes.thickness
+    alike = all(
+        _overlap(one.box, other.box, k) >= config.alike * min(one.box.size[k], other.box.size[k]) for k in across
+    )
+    return alike and -sizes.cell <= gap <= config.between * sizes.thickness
 
 
 def _overlap(one: Box, other: Box, axis: int) -> float:
     return float(np.minimum(one.high, other.high)[axis] - np.maximum(one.low, other.low)[axis])
 
 
-_NEAR = 0.5  # of a compartment's own size, outside of which a hint means another one
-
-
 def placed_hints(
-    compartments: Sequence[Compartment], hints: Sequence[PanelHint], sizes: Sizes
+    compartments: Sequence[Compartment], hints: Sequence[PanelHint], sizes: Sizes, config: InteriorConfig
 ) -> tuple[list[Arrangement], list[Refusal]]:
     """Returns what each compartment gets, and the refusals of hints that have no place."""
     middles: list[dict[PartLabel, list[float]]] = [{PartLabel.SHELF: [], PartLabel.DIVIDER: []} for _ in compartments]
     lost: list[Refusal] = []
     for hint in hints:
-        number = _home(compartments, hint)
+        number = _home(compartments, hint, config.hint_reach)
         if number is None:
             lost.append(_lost(hint, Reason.NO_COMPARTMENT, "lies in no compartment"))
             continue
@@ -174,7 +175,7 @@ def _lost(hint: PanelHint, reason: Reason, why: str) -> Refusal:
     return Refusal(hint.label.value, reason, f"`{hint.id}` {why}", Asked.INTERIOR)
 
 
-def _home(compartments: Sequence[Compartment], hint: PanelHint) -> int | None:
+def _home(compartments: Sequence[Compartment], hint: PanelHint, reach: float) -> int | None:
     """Returns the compartment that a hint overlaps most, else the nearest if it is near; None: there is none."""
     if not compartments:
         return None
@@ -184,7 +185,7 @@ def _home(compartments: Sequence[Compartment], hint: PanelHint) -> int | None:
         return best
     gaps = [c.box.gap(hint.box) / float(c.box.size.min()) for c in compartments]
     nearest = int(np.argmin(gaps))
-    return nearest if gaps[nearest] <= _NEAR else None
+    return nearest if gaps[nearest] <= reach else None
 
 
 def _shared_part(one: Box, other: Box) -> float:

@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.interior.config import InteriorConfig, Sizes
+from grafu.additions.interior.config import InteriorConfig, RoomConfig, Sizes
 from grafu.additions.interior.occupied import is_drawer, taken_cells
 from grafu.additions.interior.rooms import FRONTS, LID, find_rooms
 from grafu.geometry.arrays import Points, Vec3
@@ -18,17 +18,14 @@ from grafu.geometry.mesh import mesh_near
 from grafu.geometry.raycast import RayCaster
 from grafu.scene.scene import Scene
 
-_DOOR_RATIO = 0.3  # of an opening that moving bodies must cover where floor or ceiling is missing
-_CLOSED = 0.6  # of a face that walls cover for it to be no opening
-_MOST = 60  # compartments of one object; a pigeonhole desk has fewer
-_RAYS = 9  # along each side of a face
-_MARGIN = 0.94  # of a face: rays keep off its rim, where neighbours meet
-_REACH = 1.05  # cells beyond a box of cells: what bounds it lies in the next one
-_NEAR = 10.0  # cells behind the nearest hit at which a wall still counts: brackets stand before it, or it runs askew
-_SKIN = 0.05  # cells around a part's box in which a hit is still on the part
-_MOSTLY = 0.5  # of a face that one drawer takes to close it
-_BEYOND = 3.0  # cells between a box of free cells and such a drawer: what a drawer takes is counted in whole cells
-_WALL = 0.1  # fraction of the hits on a face that makes a part one of its walls
+RAYS_PER_SIDE = 9
+"""Rays along each side of a face."""
+RAY_SPAN = 0.94
+"""Fraction of a face over which rays are spread: they keep off its rim, where neighbours meet."""
+FACE_CELLS = 1.05
+"""Cells beyond a box of cells: what bounds it lies in the next one."""
+PART_CELLS = 0.05
+"""Cells around a part's box in which a hit is still on the part."""
 
 
 @final
@@ -49,17 +46,19 @@ class FaceFinder:
     `cell` is the side of a cell, metres.
     """
 
-    def __init__(self, scene: Scene, near: Box, cell: float) -> None:
-        self._cell = cell
-        reach = near.grown((_NEAR + 2) * cell)
+    def __init__(self, scene: Scene, near: Box, cell: float, config: RoomConfig) -> None:
+        self._cell, self._config = cell, config
+        reach = near.grown((config.wall_cells + 2) * cell)
         self._still = RayCaster(mesh_near([part.mesh for part in scene.static_parts], reach))
         self._moving = RayCaster(mesh_near([scene.moving_mesh(moving) for moving in scene.moving_bodies], reach))
         own = [part for part in scene.static_parts if part.box.overlaps(reach)]
         self._names = np.array([part.id for part in own], dtype=object)
-        self._lows = np.array([part.box.low for part in own]).reshape(-1, 3) - _SKIN * cell
-        self._highs = np.array([part.box.high for part in own]).reshape(-1, 3) + _SKIN * cell
+        self._lows = np.array([part.box.low for part in own]).reshape(-1, 3) - PART_CELLS * cell
+        self._highs = np.array([part.box.high for part in own]).reshape(-1, 3) + PART_CELLS * cell
         self._moving_bodies = [(moving, scene.moving_mesh(moving).box) for moving in scene.moving_bodies]
-        self._drawers = [box for moving, box in self._moving_bodies if is_drawer(scene, scene.moving_bodies[moving])]
+        self._drawers = [
+            box for moving, box in self._moving_bodies if is_drawer(scene, scene.moving_bodies[moving], config.thin)
+        ]
 
     def faces_of(self, box: Box) -> tuple[Face, ...]:
         """Returns the six faces (-X, +X, -Y, +Y, -Z, +Z) where the meshes bound a box of free cells."""
@@ -74,9 +73,9 @@ class FaceFinder:
         half = float(box.half[axis])
         still, moving = (caster.along(origins, direction) for caster in (self._still, self._moving))
         nearest = np.minimum(still, moving)
-        hits = nearest <= half + _REACH * self._cell
+        hits = nearest <= half + FACE_CELLS * self._cell
         reach = max(float(nearest[hits].min()), half - self._cell) if hits.any() else half
-        near = max(reach, half) + _NEAR * self._cell
+        near = max(reach, half) + self._config.wall_cells * self._cell
         on_still = (still <= near) & (still <= moving)
         on_moving = (moving <= near) & (moving < still)
         points = origins[on_still] + still[on_still, None] * direction
@@ -90,7 +89,7 @@ class FaceFinder:
         inside = (points[:, None] >= self._lows).all(axis=2) & (points[:, None] <= self._highs).all(axis=2)
         counts = inside.sum(axis=0)
         order = np.argsort(-counts, kind="stable")
-        return tuple(self._names[k] for k in order if counts[k] >= _WALL * len(points))
+        return tuple(self._names[k] for k in order if counts[k] >= self._config.wall_part * len(points))
 
     def within_walls(self, box: Box, opening: int) -> Box:
         """Returns an open box drawn back, or let out by up to two cells, to where the walls beside it begin."""
@@ -124,8 +123,8 @@ class FaceFinder:
         for own in self._drawers:
             gap = own.low[axis] - box.high[axis] if is_high else box.low[axis] - own.high[axis]
             sides = np.minimum(own.high, box.high)[across] - np.maximum(own.low, box.low)[across]
-            is_most = (sides > 0).all() and np.prod(sides) >= _MOSTLY * np.prod(box.size[across])
-            if is_most and abs(float(gap)) <= _BEYOND * self._cell:
+            is_most = (sides > 0).all() and np.prod(sides) >= self._config.drawer * np.prod(box.size[across])
+            if is_most and abs(float(gap)) <= self._config.drawer_cells * self._cell:
                 return True
         return False
 
@@ -143,7 +142,7 @@ class FaceFinder:
 
 def _rays_from(box: Box, axis: int) -> Points:
     """Returns points in a grid on the middle plane of a box across an axis."""
-    steps = np.linspace(-_MARGIN, _MARGIN, _RAYS)
+    steps = np.linspace(-RAY_SPAN, RAY_SPAN, RAYS_PER_SIDE)
     grid = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
     across = [k for k in range(3) if k != axis]
     points: Vec3 = np.tile(box.center, (len(grid), 1))
@@ -196,13 +195,13 @@ def _found(scene: Scene, config: InteriorConfig) -> tuple[Compartment, ...]:
     if not scene.parts or scene.extent <= 0:
         return ()
     sizes = config.sizes(scene.extent)
-    rough = find_rooms(taken_cells(scene, sizes), sizes)
+    rough = find_rooms(taken_cells(scene, sizes, config.rooms), sizes, config.rooms)
     if not rough:
         return ()
     ends = np.array([(box.low, box.high) for _, box in rough])
-    finder = FaceFinder(scene, Box(ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)), sizes.cell)
+    finder = FaceFinder(scene, Box(ends[:, 0].min(axis=0), ends[:, 1].max(axis=0)), sizes.cell, config.rooms)
     made = (_compartment(box, opens, finder, sizes, config) for opens, box in rough)
-    return tuple(compartment for compartment in made if compartment is not None)[:_MOST]
+    return tuple(compartment for compartment in made if compartment is not None)[: config.rooms.most]
 
 
 def _compartment(
@@ -219,14 +218,14 @@ def _compartment(
     still = [face.still for face in faces]
     fronts = (LID,) if opens == "z" else (2, 3) if opens == "y" else (0, 1)
     doors = [faces[front].moving for front in fronts]
-    opening = fronts[int(np.argmax(doors))] if max(doors) >= _DOOR_RATIO else None
-    opening = next((f for f in fronts if still[f] < _CLOSED), None) if opening is None else opening
+    opening = fronts[int(np.argmax(doors))] if max(doors) >= config.rooms.door else None
+    opening = next((f for f in fronts if still[f] < config.rooms.closed), None) if opening is None else opening
     if opening is None:
         return None
     depth = opening // 2
     sides = [f for f in range(4) if f // 2 != depth]
     is_walled = all(still[f] >= config.wall_ratio for f in sides)
-    has_door = faces[opening].moving >= _DOOR_RATIO
+    has_door = faces[opening].moving >= config.rooms.door
     held = (still[f] >= config.wall_ratio or finder.meets_a_drawer(box, f) for f in (4, 5))
     is_held = has_door or all(held)  # a door's cells are held one by one
     if not (is_walled and is_held):

@@ -7,7 +7,49 @@ panels in its own scale.
 from dataclasses import dataclass
 from typing import final
 
-from grafu.scene.checks import require_not_negative, require_positive
+from grafu.joints.config import RealizationConfig
+from grafu.scene.checks import require_not_negative, require_positive, require_ratios
+
+
+@final
+@dataclass(frozen=True)
+class RoomConfig:
+    """What makes free space a compartment: walls, openings, doors and drawers around it.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction is not between 0 and 1.
+    """
+
+    thin: float = 0.15
+    """Fraction of its next longer side below which a part is thin: a board, a frame, a door leaf."""
+    frame: float = 0.35
+    """Fraction of its outline that a frame covers at least to count as a wall."""
+    wall_cells: int = 10
+    """Cells beyond a side within which its wall must be: brackets stand before it, or it runs askew."""
+    walled: float = 0.4
+    """Fraction of a side that cells of walls take at least: less than `wall_ratio` of rays, since cells see less."""
+    taken: float = 0.5
+    """Fraction of a face that is open to a room that was taken, from which on a space is no room of its own."""
+    closed_cells: float = 0.65
+    """Fraction of a face that cells of walls take at least for it to be no opening."""
+    closed: float = 0.6
+    """Fraction of a face that rays find walls on at least for it to be no opening."""
+    door: float = 0.3
+    """Fraction of an opening that moving bodies cover at least where floor or ceiling is missing."""
+    drawer: float = 0.5
+    """Fraction of a face that one drawer takes at least to close it."""
+    drawer_cells: float = 3.0
+    """Cells between a box of free cells and such a drawer: what a drawer takes is counted in whole cells."""
+    wall_part: float = 0.1
+    """Fraction of the hits on a face that makes a part one of its walls."""
+    most: int = 60
+    """Most compartments of one object; a pigeonhole desk has fewer."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(
+            self, "thin", "frame", "walled", "taken", "closed_cells", "closed", "door", "drawer", "wall_part"
+        )
 
 
 @final
@@ -45,10 +87,36 @@ class InteriorConfig:
     """Fraction of a compartment's side that must be wall (rails and posts of open frames are less)."""
     cells: int = 110
     """Cells along the object's longest side in which compartments are looked for."""
+    hanging_depth: float = 0.42
+    """Least depth and width of a compartment for clothes: hangers are 0.42 to 0.45 wide."""
+    hat: float = 0.3
+    """Least height that a shelf above hanging clothes leaves above itself."""
+    alike: float = 0.7
+    """Fraction of the smaller side by which two compartments of one column overlap: things in one make it narrower."""
+    between: float = 3.5
+    """Panel thicknesses that may lie between two compartments of one column."""
+    hint_reach: float = 0.5
+    """Fraction of a compartment's least side: a hint that is farther away means another compartment."""
+    insets: int = 5
+    """Depths at which a panel is tried."""
+    nudges: tuple[float, ...] = (0.0, 0.12, -0.12, 0.25, -0.25)
+    """Places at which a panel is tried, as fractions of the space to the next one: out of the way of a hinge."""
+    back_ratio: float = 0.3
+    """Fraction of the rays towards the back that make it a wall."""
+    askew_cells: float = 12.0
+    """Cells beyond a compartment's side up to which a panel's end follows a wall that runs askew."""
+    poses: int = 41
+    """Poses from closed to wide open in which a panel must be clear of what moves."""
+    depth: float = RealizationConfig().depth
+    """How deep a panel may touch something, as a fraction of the object's largest side: as in the sweeps of joints."""
+    rooms: RoomConfig = RoomConfig()
+    """What makes free space a compartment."""
 
     def __post_init__(self) -> None:
         lengths = ("thickness", "least_side", "least_pitch", "shelf_pitch", "divider_pitch", "hanging_height", "touch")
-        require_positive(self, *lengths, "most_panels", "cells")
+        require_positive(self, *lengths, "most_panels", "cells", "hanging_depth", "hat", "between", "hint_reach")
+        require_positive(self, "insets", "askew_cells", "poses", "depth")
+        require_ratios(self, "alike", "back_ratio")
         require_not_negative(self, "inset")
         for name in ("deepest_inset", "carried", "wall_ratio"):
             if not 0 <= getattr(self, name) <= 1:

@@ -23,7 +23,7 @@ from grafu.additions.interior.arrangement import (
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.occupied import is_drawer
-from grafu.additions.interior.panels import BEYOND, Clearing, Place, WallRays, clearing_of, cut_panel, moved_to
+from grafu.additions.interior.panels import Clearing, Place, WallRays, clearing_of, cut_panel, moved_to
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import PanelHint
@@ -33,9 +33,6 @@ from grafu.geometry.raycast import RayCaster
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
-
-_NUDGES = (0.0, 0.12, -0.12, 0.25, -0.25)  # of the space to the next panel: out of the way of a hinge
-_INSETS = 5  # depths at which a panel is tried
 
 
 @final
@@ -72,7 +69,7 @@ def furnish(
     if request.kind is InteriorKind.NONE and not chosen:
         return Furnished()
     if not compartments:
-        return Furnished((), (refused_panel(None, None, Reason.NO_COMPARTMENT, why_inapplicable(scene)),))
+        return Furnished((), (refused_panel(None, None, Reason.NO_COMPARTMENT, why_inapplicable(scene, config)),))
     sizes = config.sizes(scene.extent)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
     wanted = [_own(chosen.get(number), arrangement) for number, arrangement in enumerate(wanted)]
@@ -82,7 +79,7 @@ def furnish(
     chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
     if all(arrangement == Arrangement() for arrangement in wanted):
         return Furnished((), tuple(refused))
-    clearing, walls = clearing_of(scene), _walls(compartments, scene, sizes)
+    clearing, walls = clearing_of(scene, config), _walls(compartments, scene, config.askew_cells * sizes.cell)
     panels: list[_Panel] = []
     for number, arrangement in enumerate(wanted):
         own = _own_sizes(chosen.get(number), sizes)
@@ -126,10 +123,10 @@ def _own_sizes(choice: CompartmentChoice | None, sizes: Sizes) -> Sizes:
     return replace(sizes, thickness=thickness, inset=sizes.inset if choice.inset is None else choice.inset)
 
 
-def _walls(compartments: Sequence[Compartment], scene: Scene, sizes: Sizes) -> WallRays:
-    """Returns the still meshes in and around some compartments."""
+def _walls(compartments: Sequence[Compartment], scene: Scene, margin: float) -> WallRays:
+    """Returns the still meshes in some compartments and up to `margin` metres around them."""
     whole = Box.enclosing(compartment.box for compartment in compartments)
-    return WallRays((RayCaster(scene.static_mesh_near(whole, BEYOND * sizes.cell)),))
+    return WallRays((RayCaster(scene.static_mesh_near(whole, margin)),))
 
 
 def refused_panel(compartment: int | None, label: PartLabel | None, reason: Reason, why: str) -> Refusal:
@@ -142,9 +139,9 @@ def _named(compartment: int | None, label: PartLabel | None) -> str:
     return what if compartment is None else f"{what} of compartment {compartment + 1}"
 
 
-def why_inapplicable(scene: Scene) -> str:
+def why_inapplicable(scene: Scene, config: InteriorConfig) -> str:
     """Returns why a scene without compartments has none, in words."""
-    if any(is_drawer(scene, moving) for moving in scene.moving_bodies.values()):
+    if any(is_drawer(scene, moving, config.rooms.thin) for moving in scene.moving_bodies.values()):
         return "no compartment: drawers take all the room between walls"
     return "no compartment: no room large enough lies between walls"
 
@@ -160,20 +157,20 @@ def _arranged(
     if request.kind is InteriorKind.NONE:
         return [Arrangement()] * len(compartments), []
     if request.kind is InteriorKind.AUTO:
-        return [by_size(compartment, sizes, config.most_panels) for compartment in compartments], []
+        return [by_size(compartment, sizes, config) for compartment in compartments], []
     if request.kind is InteriorKind.PREDICTED:
-        return placed_hints(compartments, hints, sizes)
-    return _counted(compartments, request, sizes)
+        return placed_hints(compartments, hints, sizes, config)
+    return _counted(compartments, request, sizes, config)
 
 
 def _counted(
-    compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes
+    compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes, config: InteriorConfig
 ) -> tuple[list[Arrangement], list[Refusal]]:
     refused: list[Refusal] = []
     shelves, dividers = [0] * len(compartments), [0] * len(compartments)
     for label, groups, counts, wanted in (
-        (PartLabel.SHELF, stacked(compartments, sizes), shelves, request.shelves),
-        (PartLabel.DIVIDER, rowed(compartments, sizes), dividers, request.dividers),
+        (PartLabel.SHELF, stacked(compartments, sizes, config), shelves, request.shelves),
+        (PartLabel.DIVIDER, rowed(compartments, sizes, config), dividers, request.dividers),
     ):
         for group in groups:
             able = [k for k in group if label is PartLabel.DIVIDER or not compartments[k].is_chest]
@@ -248,8 +245,8 @@ class _Maker:
         depth = float(place.compartment.box.size[place.compartment.depth_axis])
         deepest = max(self._config.deepest_inset * depth, self._sizes.inset)
         first: Refusal | None = None
-        for inset in np.linspace(self._sizes.inset, deepest, _INSETS):
-            for nudge in _NUDGES:
+        for inset in np.linspace(self._sizes.inset, deepest, self._config.insets):
+            for nudge in self._config.nudges:
                 tried = moved_to(place, place.at + nudge * room, float(inset))
                 mesh = cut_panel(tried, self._walls, self._sizes, self._config)
                 if isinstance(mesh, Refusal):

@@ -10,7 +10,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.interior.config import Sizes
+from grafu.additions.interior.config import RoomConfig, Sizes
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
@@ -20,9 +20,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.scene.scene import MovingBody, Scene
 from grafu.vocabulary import PartLabel
 
-_SPACING = 0.9  # of a cell: a board along the axes has a point in each of its cells
-_THIN = 0.15  # of the next longer side: a board, a frame, a door leaf
-_SOLID = 0.35  # of its outline that a frame must cover to count as a wall
+POINT_SPACING = 0.9
+"""Cells between points on a surface: a board along the axes has a point in each of its cells."""
 
 
 @final
@@ -55,7 +54,7 @@ class Taken(ArrayValue):
         return ~(self.still | self.moving | self.drawers)
 
 
-def taken_cells(scene: Scene, sizes: Sizes) -> Taken:
+def taken_cells(scene: Scene, sizes: Sizes, config: RoomConfig) -> Taken:
     """Returns what is taken of an object's space, a layer of free cells around it."""
     box = Box.enclosing([part.box for part in scene.parts.values()])
     origin = box.low - sizes.cell
@@ -65,17 +64,20 @@ def taken_cells(scene: Scene, sizes: Sizes) -> Taken:
     moving = _cells([scene.moving_mesh(moving) for moving in scene.moving_bodies], origin, sizes.cell, shape)
     drawers = np.zeros(shape, dtype=bool)
     for body in scene.moving_bodies.values():
-        if is_drawer(scene, body):
+        if is_drawer(scene, body, config.thin):
             drawers[_zone(scene, body, still, origin, sizes.cell)] = True
     walls = still.copy()
     for part in scene.static_parts:
-        if _is_open_wall(part, still, origin, sizes.cell):
+        if _is_open_wall(part, still, origin, sizes.cell, config):
             walls[_slices(part.box, origin, sizes.cell)] = True
     return Taken(origin, sizes.cell, still, moving, drawers, walls)
 
 
-def is_drawer(scene: Scene, moving: MovingBody) -> bool:
-    """Whether a moving body slides out of the body: neither a hinged nor a sliding door."""
+def is_drawer(scene: Scene, moving: MovingBody, thin_ratio: float) -> bool:
+    """Whether a moving body slides out of the body: neither a hinged nor a sliding door.
+
+    What is thinner than `thin_ratio` of its next longer side is a leaf.
+    """
     joint_motion, part = scene.joint_motions.get(moving.id), scene.parts[moving.id]
     if joint_motion is None:
         return part.label is PartLabel.DRAWER
@@ -84,7 +86,7 @@ def is_drawer(scene: Scene, moving: MovingBody) -> bool:
     size = scene.moving_mesh(moving.id).box.size
     thin, middle = np.sort(size)[:2]
     along = int(np.abs(joint_motion.axis.direction).argmax())
-    is_leaf = thin < _THIN * middle and int(np.argmin(size)) != 2
+    is_leaf = thin < thin_ratio * middle and int(np.argmin(size)) != 2
     return part.label is PartLabel.DRAWER or not is_leaf or int(np.argmin(size)) == along
 
 
@@ -125,22 +127,22 @@ def _rails(scene: Scene, moving: MovingBody) -> list[Visual]:
     return [v for owner, v in scene.hardware if owner == moving.id or (not owner and f"_{moving.id}_" in v.name)]
 
 
-def _is_open_wall(part: Part, still: Grid, origin: Vec3, cell: float) -> bool:
+def _is_open_wall(part: Part, still: Grid, origin: Vec3, cell: float, config: RoomConfig) -> bool:
     """Whether a part is a thin upright frame that closes enough of its outline to be a wall with openings."""
     size = part.box.size
     axis = int(np.argmin(size))
     thin, middle = np.sort(size)[:2]
-    if axis == 2 or thin > _THIN * middle or part.label is PartLabel.FACE_FRAME:
+    if axis == 2 or thin > config.thin * middle or part.label is PartLabel.FACE_FRAME:
         return False
     seen = still[_slices(part.box, origin, cell)].any(axis=axis)
-    return bool(seen.size and seen.mean() >= _SOLID)
+    return bool(seen.size and seen.mean() >= config.frame)
 
 
 def _cells(meshes: list[TriangleMesh], origin: Vec3, cell: float, shape: tuple[int, ...]) -> Grid:
     triangles = [mesh.triangles for mesh in meshes if len(mesh.faces)]
     if not triangles:
         return np.zeros(shape, dtype=bool)
-    points = points_on(np.concatenate(triangles), _SPACING * cell)
+    points = points_on(np.concatenate(triangles), POINT_SPACING * cell)
     return cells_met(points, origin, cell, (shape[0], shape[1], shape[2]))
 
 

@@ -19,23 +19,26 @@ from grafu.geometry.free_space import SomePoints
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
-from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, opening_values, swept_box
 from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel
 
-_POSES = 41
+RAYS_ALONG_EDGE = 16
+"""Rays along an edge of a panel."""
+EDGE_LEVELS = (-0.98, 0.0, 0.98)
+"""Levels at which a panel's edges are looked for, as fractions of half its thickness."""
 
 
 @final
 class Clearing:
     """A scene prepared for trying panels in it; not a value."""
 
-    def __init__(self, scene: Scene, depth: float) -> None:
+    def __init__(self, scene: Scene, depth: float, poses: int) -> None:
         self._scene = scene
         self._depth = depth
+        self._poses = poses
         self._panels: list[Obstacle] = []
 
     def add(self, name: str, mesh: TriangleMesh) -> None:
@@ -69,7 +72,7 @@ class Clearing:
         """Whether a panel stands in the way of a moving body or of the hardware that it carries."""
         joint_motion = self._scene.joint_motions[moving]
         motion = joint_motion.kind.along(joint_motion.axis)
-        values = opening_values(joint_motion.upper, _POSES)
+        values = opening_values(joint_motion.upper, self._poses)
         mesh = self._scene.moving_mesh(moving)
         if swept_box(mesh.box, motion, joint_motion.upper).overlaps(panel.box):
             swept = self._scene.swept_body(moving, self._depth, part_axes(self._scene.parts[moving].mesh))
@@ -88,17 +91,9 @@ class Clearing:
         return False
 
 
-def clearing_of(scene: Scene) -> Clearing:
-    """Returns the scene prepared, with the depth of realization's own sweeps."""
-    return Clearing(scene, RealizationConfig().depth * scene.extent)
-
-
-_ALONG = 16  # rays along an edge
-_BACK = 0.3  # fraction of the rays towards the back that make it a wall
-BEYOND = (
-    12.0  # cells beyond a compartment's side at which its wall may be met: brackets stand before it, or it is askew
-)
-_LEVELS = (-0.98, 0.0, 0.98)  # of half a panel's thickness, at which its edges are looked for
+def clearing_of(scene: Scene, config: InteriorConfig) -> Clearing:
+    """Returns the scene prepared for panels."""
+    return Clearing(scene, config.depth * scene.extent, config.poses)
 
 
 @final
@@ -148,14 +143,14 @@ def cut_panel(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfi
     box, depth = place.compartment.box, place.compartment.depth_axis
     inward = -1.0 if place.compartment.opening % 2 else 1.0
     front = float(box.high[depth] if inward < 0 else box.low[depth]) + inward * place.inset
-    back = _back(place, walls, sizes, inward)
+    back = _back(place, walls, sizes, config, inward)
     if inward * (back - front) < sizes.least_side / 2:
         return Refusal("", Reason.NO_ROOM, "it is too shallow")
     margin = 0.02 * abs(back - front)
-    along = np.linspace(front + inward * margin, back - inward * margin, _ALONG)
+    along = np.linspace(front + inward * margin, back - inward * margin, RAYS_ALONG_EDGE)
     ends = []
     for sense in (-1.0, 1.0):
-        found = _distances(place, walls, sizes, along, sense)
+        found = _distances(place, walls, sizes, config, along, sense)
         edge = _edge(along, found, sizes, config)
         if edge is None:
             if np.isfinite(found).any():
@@ -167,34 +162,36 @@ def cut_panel(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfi
     return _prism(place, sizes.thickness, (front, back), ends[0], ends[1])
 
 
-def _back(place: Place, walls: WallRays, sizes: Sizes, inward: float) -> float:
+def _back(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig, inward: float) -> float:
     """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     end = float(box.low[depth] if inward < 0 else box.high[depth])
-    across = box.center[place.reach] + box.half[place.reach] * np.linspace(-0.96, 0.96, _ALONG)
+    across = box.center[place.reach] + box.half[place.reach] * np.linspace(-0.96, 0.96, RAYS_ALONG_EDGE)
     origins = _origins(place, sizes.thickness, place.reach, across)
     direction = np.zeros(3)
     direction[depth] = inward
     found = walls.along(origins, direction)
-    hit = found <= abs(end - origins[0, depth]) + BEYOND * sizes.cell
-    if hit.mean() < _BACK:
+    hit = found <= abs(end - origins[0, depth]) + config.askew_cells * sizes.cell
+    if hit.mean() < config.back_ratio:
         return end
     return float(origins[0, depth] + inward * found[hit].min())
 
 
-def _distances(place: Place, walls: WallRays, sizes: Sizes, along: Scalars, sense: float) -> Scalars:
+def _distances(
+    place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig, along: Scalars, sense: float
+) -> Scalars:
     """Returns how far the wall is from the compartment's middle along a panel's end; infinity where there is none."""
     origins = _origins(place, sizes.thickness, place.compartment.depth_axis, along)
     direction = np.zeros(3)
     direction[place.reach] = sense
-    found = walls.along(origins, direction).reshape(len(along), len(_LEVELS)).min(axis=1)
-    limit = place.compartment.box.half[place.reach] + BEYOND * sizes.cell
+    found = walls.along(origins, direction).reshape(len(along), len(EDGE_LEVELS)).min(axis=1)
+    limit = place.compartment.box.half[place.reach] + config.askew_cells * sizes.cell
     return np.where(found <= limit, found, np.inf)
 
 
 def _origins(place: Place, thickness: float, axis: int, values: Scalars) -> SomePoints:
     """Returns points in the middle of a compartment at a panel's levels, spread over values along an axis."""
-    levels = place.at + thickness / 2 * np.array(_LEVELS)
+    levels = place.at + thickness / 2 * np.array(EDGE_LEVELS)
     grid = np.stack(np.meshgrid(values, levels, indexing="ij"), axis=-1).reshape(-1, 2)
     points = np.tile(place.compartment.box.center, (len(grid), 1))
     points[:, axis], points[:, place.stack] = grid[:, 0], grid[:, 1]

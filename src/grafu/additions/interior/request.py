@@ -7,9 +7,12 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import final
 
-MOST = 20  # of one kind in one compartment; more is a slip of the finger
-_SPELLING = f"`none`, `auto`, `predicted`, `shelves=N`, `dividers=N` or `shelves=N,dividers=N` with N from 0 to {MOST}"
-_ITEM = re.compile(r"(shelves|dividers)=(\d{1,4})")
+MOST_PANELS = 20
+"""Most panels of one kind in one compartment; more is a typing error."""
+SPELLING = (
+    f"`none`, `auto`, `predicted`, `shelves=N`, `dividers=N` or `shelves=N,dividers=N` with N from 0 to {MOST_PANELS}"
+)
+ITEM = re.compile(r"(shelves|dividers)=(\d{1,4})")
 
 
 class InteriorKind(StrEnum):
@@ -35,8 +38,10 @@ class InteriorRequest:
     dividers: int = 0
 
     def __post_init__(self) -> None:
-        if not (0 <= self.shelves <= MOST and 0 <= self.dividers <= MOST):
-            raise ValueError(f"`InteriorRequest` must count 0 to {MOST} of each: got {self.shelves}, {self.dividers}")
+        if not (0 <= self.shelves <= MOST_PANELS and 0 <= self.dividers <= MOST_PANELS):
+            raise ValueError(
+                f"`InteriorRequest` must count 0 to {MOST_PANELS} of each: got {self.shelves}, {self.dividers}"
+            )
         if self.kind is not InteriorKind.COUNTED and (self.shelves or self.dividers):
             raise ValueError(f"only `counted` requests count shelves and dividers: got {self}")
 
@@ -68,8 +73,8 @@ class CompartmentChoice:
     inset: float | None = None
 
     def __post_init__(self) -> None:
-        if not (0 <= self.shelves <= MOST and 0 <= self.dividers <= MOST):
-            raise ValueError(f"`CompartmentChoice` must count 0 to {MOST}: got {self.shelves}, {self.dividers}")
+        if not (0 <= self.shelves <= MOST_PANELS and 0 <= self.dividers <= MOST_PANELS):
+            raise ValueError(f"`CompartmentChoice` must count 0 to {MOST_PANELS}: got {self.shelves}, {self.dividers}")
         if (self.thickness is not None and not self.thickness > 0) or not (self.inset or 0.0) >= 0:
             raise ValueError(f"`CompartmentChoice` needs sizes above 0: got {self.thickness}, {self.inset}")
 
@@ -83,8 +88,8 @@ def parse_interior(text: str) -> InteriorRequest:
     word = text.strip().lower().replace(" ", "")
     if word in (InteriorKind.NONE, InteriorKind.AUTO, InteriorKind.PREDICTED):
         return InteriorRequest(InteriorKind(word))
-    found = [_ITEM.fullmatch(item) for item in word.split(",")]
+    found = [ITEM.fullmatch(item) for item in word.split(",")]
     counts = {match[1]: int(match[2]) for match in found if match}
-    if None in found or len(counts) < len(found) or max(counts.values()) > MOST:
-        raise ValueError(f"`interior` must be {_SPELLING}: got {text!r}")
+    if None in found or len(counts) < len(found) or max(counts.values()) > MOST_PANELS:
+        raise ValueError(f"`interior` must be {SPELLING}: got {text!r}")
     return InteriorRequest(InteriorKind.COUNTED, counts.get("shelves", 0), counts.get("dividers", 0))

@@ -16,7 +16,7 @@ from typing import NamedTuple, final
 
 import numpy as np
 
-from grafu.additions.interior.config import Sizes
+from grafu.additions.interior.config import RoomConfig, Sizes
 from grafu.additions.interior.occupied import Taken
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import Bounds, Grid, OneBox, cell_boxes, maximal_empty_boxes, without
@@ -101,13 +101,9 @@ def _windows(cells: Grid, axis: int, length: int) -> np.ndarray:
     return later - np.take(total, np.arange(count), axis=axis)
 
 
-_NEAR = 10  # cells beyond a side within which its wall must be: brackets stand before it, or it runs askew
-_WALLED = 0.4  # of a side: less than what rays ask for later, since cells see less
-_OPEN = 0.5  # of a face open to a room that was taken: no room of its own
-_SIDES = {"z": (0, 1), "y": (0,), "x": (1,)}  # the axes along which walls must stand on both sides
+SIDE_AXES = {"z": (0, 1), "y": (0,), "x": (1,)}  # the axes along which walls must stand on both sides
 
-_FRONTS = {"z": ((2, True),), "y": ((1, False), (1, True)), "x": ((0, False), (0, True))}
-_CLOSED = 0.65  # of a face that walls cover for it to be no opening
+FRONT_FACES = {"z": ((2, True),), "y": ((1, False), (1, True)), "x": ((0, False), (0, True))}
 
 
 @final
@@ -117,15 +113,16 @@ class _Search:
 
     taken: Taken
     steps: int
+    config: RoomConfig
     used: Grid = field(init=False)
 
     def __post_init__(self) -> None:
         self.used = np.zeros_like(self.taken.still)
 
 
-def find_rooms(taken: Taken, sizes: Sizes) -> list[tuple[str, Box]]:
+def find_rooms(taken: Taken, sizes: Sizes, config: RoomConfig) -> list[tuple[str, Box]]:
     """Returns disjoint boxes of enclosed free cells (metres), each with the axis along which it opens."""
-    search = _Search(taken, max(int(sizes.least_side / sizes.cell), 2))
+    search = _Search(taken, max(int(sizes.least_side / sizes.cell), 2), config)
     found: list[tuple[str, Box]] = []
     for opens, cells in enclosed_cells(taken).items():
         for box in _rooms_in(cells & ~search.used, opens, search):
@@ -161,17 +158,20 @@ def _largest_room(empty: Bounds, start: np.ndarray, opens: str, search: _Search)
 
 
 def _is_room(box: OneBox, opens: str, search: _Search) -> bool:
-    walls = search.taken.walls
-    for axis in _SIDES[opens]:
+    walls, config = search.taken.walls, search.config
+    for axis in SIDE_AXES[opens]:
         for is_high in (False, True):
-            beyond = walls[_beyond(box, axis, is_high, _NEAR)]
-            if not beyond.size or beyond.any(axis=axis).mean() < _WALLED:
+            beyond = walls[_beyond(box, axis, is_high, config.wall_cells)]
+            if not beyond.size or beyond.any(axis=axis).mean() < config.walled:
                 return False
-    fronts = (search.taken.still[_beyond(box, axis, is_high, _NEAR)].any(axis=axis) for axis, is_high in _FRONTS[opens])
-    if all(front.size and front.mean() >= _CLOSED for front in fronts):
+    fronts = (
+        search.taken.still[_beyond(box, axis, is_high, config.wall_cells)].any(axis=axis)
+        for axis, is_high in FRONT_FACES[opens]
+    )
+    if all(front.size and front.mean() >= config.closed_cells for front in fronts):
         return False
     layers = (search.used[_beyond(box, axis, is_high, 1)] for axis in range(3) for is_high in (False, True))
-    return all(not layer.size or layer.mean() < _OPEN for layer in layers)
+    return all(not layer.size or layer.mean() < config.taken for layer in layers)
 
 
 def _beyond(box: OneBox, axis: int, is_high: bool, depth: int) -> tuple[slice, ...]:
