@@ -9,9 +9,7 @@ from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
 from grafu.additions.handle.config import GraspConfig, HandleConfig
-from grafu.additions.interior import arrangement
 from grafu.additions.interior.config import InteriorConfig
-from grafu.additions.top import complete, coverage, evidence, outline, supports
 from grafu.additions.top.config import TopConfig
 from grafu.articulation.physics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
@@ -43,13 +41,13 @@ def additions() -> Iterator[Sentence]:
     page = "additions.md"
     yield page, "do not hide it (up to {} m)", (TOP.gallery,)
     yield page, "an inset top (up to {} m)", (TOP.recess,)
-    yield page, "Openings under {} % of the footprint are sinks and gaps", (per_cent(coverage._LEAST),)
-    yield page, "{} to {} m above the floor)", supports._HEIGHTS
-    yield page, "they stand around {} % of the footprint", (per_cent(supports._FOOTPRINT),)
-    yield page, "open below {} % of their height", (per_cent(supports._BELOW),)
+    yield page, "Openings under {} % of the footprint are sinks and gaps", (per_cent(TOP.openings.least),)
+    yield page, "{} to {} m above the floor)", (TOP.supports.lowest, TOP.supports.highest)
+    yield page, "they stand around {} % of the footprint", (per_cent(TOP.supports.footprint),)
+    yield page, "open below {} % of their height", (per_cent(TOP.supports.open_below),)
     yield page, "A top counts as there from {} % on. Within {} % of that", (per_cent(TOP.coverage), per_cent(TOP.doubt))
-    yield page, "(by more than {} % of the top's height)", (per_cent(complete._STEP),)
-    yield page, "A kneehole of up to {} m between two pedestals", (outline._KNEEHOLE,)
+    yield page, "(by more than {} % of the top's height)", (per_cent(TOP.apart),)
+    yield page, "A kneehole of up to {} m between two pedestals", (TOP.outline.kneehole,)
     yield (
         page,
         "It is {} mm thick, ends {} mm before the fronts and {} mm beyond the sides",
@@ -59,7 +57,7 @@ def additions() -> Iterator[Sentence]:
             mm(TOP.side),
         ),
     )
-    yield page, "What begins {} to {} mm above the rim", tuple(map(mm, outline._SLOT))
+    yield page, "What begins {} to {} mm above the rim", (mm(TOP.outline.slot), mm(TOP.outline.high_slot))
     yield page, "over all that reaches to within {} % of the height below it", (per_cent(tops._NEAR),)
     yield page, "that plan lies more than {} % of the height below it", (per_cent(tops._OPEN),)
     yield page, "where one new top lies over {} % of it", (per_cent(COVERED),)
@@ -105,7 +103,7 @@ def additions() -> Iterator[Sentence]:
     )
     yield page, "keep {} mm from the others", (mm(GRIP.margin),)
     yield page, "shelves about {} m apart; dividers about {} m apart", (INTERIOR.shelf_pitch, INTERIOR.divider_pitch)
-    yield page, "(behind doors, {} m high, {} m deep and wide)", (INTERIOR.hanging_height, arrangement._HANGING_DEPTH)
+    yield page, "(behind doors, {} m high, {} m deep and wide)", (INTERIOR.hanging_height, INTERIOR.hanging_depth)
     yield page, "never more than {} of a kind", (INTERIOR.most_panels,)
     yield (
         page,
@@ -114,8 +112,8 @@ def additions() -> Iterator[Sentence]:
     )
     yield page, "(within {} mm, over {} % of each half)", (mm(INTERIOR.touch), per_cent(INTERIOR.carried))
     yield page, "it is set back by up to {} % of the depth", (per_cent(INTERIOR.deepest_inset),)
-    yield page, "its open bays are under {} % of the whole plan", (per_cent(coverage._LEAST),)
-    yield page, "found by shape ({} to {} m deep", evidence._BASIN_DEPTH
+    yield page, "its open bays are under {} % of the whole plan", (per_cent(TOP.openings.least),)
+    yield page, "found by shape ({} to {} m deep", (TOP.evidence.shallowest_basin, TOP.evidence.deepest_basin)
 
 
 def joints() -> Iterator[Sentence]:

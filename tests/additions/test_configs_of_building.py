@@ -7,46 +7,73 @@ import pytest
 
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
-from grafu.additions.grip.config import GripConfig, GripSize
-from grafu.additions.handle.config import GraspConfig, HandleConfig
-from grafu.additions.interior.config import InteriorConfig
-from grafu.additions.top.config import TopConfig
+from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
+from grafu.additions.handle.config import FingerRoomConfig, GraspConfig, HandleConfig, HandleTrials, ReliefConfig
+from grafu.additions.interior.config import InteriorConfig, RoomConfig
+from grafu.additions.top.config import (
+    CutoutConfig,
+    EvidenceConfig,
+    OpeningConfig,
+    OutlineConfig,
+    SupportConfig,
+    TopConfig,
+)
 from grafu.joints.config import HingeConfig, RailConfig, RealizationConfig
 
 CONFIGS = (
-    CarcassConfig, DrawerBoxConfig, GraspConfig, GripConfig, HandleConfig, HingeConfig, InteriorConfig, RailConfig,
-    RealizationConfig, TopConfig,
+    CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig, GraspConfig, GripConfig, GripSizes,
+    GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, RailConfig,
+    RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
 POSITIVE = [
     (CarcassConfig, "back"),
+    (CutoutConfig, "opening"),
     (DrawerBoxConfig, "wall"),
+    (EvidenceConfig, "flange"),
+    (FingerRoomConfig, "level"),
     (GraspConfig, "gap"),
     (GripConfig, "margin"),
     (GripSize, "length"),
     (GripConfig, "finger_width"),
+    (GroundConfig, "seam"),
     (HandleConfig, "inset"),
     (HandleConfig, "least"),
     (HingeConfig, "plate"),
     (InteriorConfig, "touch"),
+    (OpeningConfig, "crack"),
+    (OutlineConfig, "line"),
     (RailConfig, "divider"),
     (RealizationConfig, "depth"),
+    (ReliefConfig, "cell"),
+    (RoomConfig, "drawer_cells"),
+    (SupportConfig, "divider"),
     (TopConfig, "thickness"),
 ]
 RATIOS = [
+    (CutoutConfig, "left"),
+    (EvidenceConfig, "plate"),
+    (GraspConfig, "labelled"),
     (GraspConfig, "lever"),
     (GraspConfig, "small"),
     (GripConfig, "depth_ratio"),
     (GripConfig, "shown"),
+    (GripSizes, "rim_radius"),
     (HandleConfig, "both"),
     (HingeConfig, "slim"),
     (InteriorConfig, "carried"),
+    (OpeningConfig, "least"),
+    (OutlineConfig, "carries"),
     (RailConfig, "most_inset"),
     (RealizationConfig, "least_opening"),
     (RealizationConfig, "max_carve"),
     (RealizationConfig, "max_carve_fitting"),
+    (ReliefConfig, "plane"),
+    (RoomConfig, "walled"),
+    (SupportConfig, "full"),
     (TopConfig, "coverage"),
+    (TopConfig, "metal"),
 ]
 
 
@@ -80,3 +107,19 @@ def test_a_fraction_is_less_than_the_whole(made: type, name: str) -> None:
 def test_a_grips_own_size_is_above_0(wrong: dict[str, object]) -> None:
     with pytest.raises(ValueError, match="own size and depth must be above 0: got"):
         GripConfig(**wrong)
+
+
+@pytest.mark.parametrize(
+    ("made", "wrong"),
+    [
+        (GripTrials, {"sizes": (1.0, 0.0)}),
+        (GripTrials, {"margins": (-1.0,)}),
+        (HandleTrials, {"lengths": (0.0,)}),
+        (HandleTrials, {"protrusions": (1.0, nan)}),
+        (HandleTrials, {"insets": (-0.5,)}),
+        (HandleTrials, {"spare": (("knob-round", 1.0, 0.0),)}),
+    ],
+)
+def test_a_size_that_is_tried_is_above_0(made: type, wrong: dict[str, object]) -> None:
+    with pytest.raises(ValueError, match="must be above 0: got"):
+        made(**wrong)

@@ -14,6 +14,7 @@ from grafu.additions.config import NO_ADDITIONS
 from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.additions.interior.turned import compartments_of
+from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
@@ -90,6 +91,14 @@ def test_nothing_added_comes_back_too():
     assert settings_from_json(chosen.to_json()) == chosen
 
 
+def test_thresholds_of_additions_are_settings():
+    chosen = settings_from_json({"schema": SCHEMA, "additions": {"top": {"outline": {"kneehole": 0.5}}}})
+    top = chosen.additions.top
+    assert top is not None
+    assert (top.outline.kneehole, top.outline.span) == (0.5, TopConfig().outline.span)
+    assert settings_from_json(json.loads(json.dumps(chosen.to_json()))) == chosen
+
+
 def test_what_is_left_out_is_as_by_default():
     assert settings_from_json({"schema": SCHEMA}) == Settings()
 
@@ -101,6 +110,11 @@ def test_what_is_left_out_is_as_by_default():
         ({}, "`schema` grafu.settings/1: got None"),
         ({"schema": SCHEMA, "source": "auto"}, "there is no setting `source`"),
         ({"schema": SCHEMA, "joints": {"d": {"scael": 1}}}, "there is no setting `joints.d.scael`"),
+        (
+            {"schema": SCHEMA, "additions": {"top": {"outline": {"kneel": 1}}}},
+            "no setting `additions.top.outline.kneel`",
+        ),
+        ({"schema": SCHEMA, "additions": {"grasp": {"relief": {"cell": 0}}}}, "`ReliefConfig.cell` must be above 0"),
         ({"schema": SCHEMA, "joints": {"d": {"scale": 9}}}, "`joints.d` is wrong.*must be in 0.25..4"),
         ({"schema": SCHEMA, "motion": "urdf"}, "reads a file"),
         ({"schema": SCHEMA, "reading": {"up": "Q"}}, "`reading` is wrong"),

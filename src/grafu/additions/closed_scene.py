@@ -12,8 +12,6 @@ from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.scene.scene import MovingBody, Scene
 
-_OPPOSITE = -0.9  # cosine between the ways of two drawers from which on they face away from each other
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -34,12 +32,15 @@ class ClosedScene:
         moving = [self.scene.parts[i] for i in sorted(self.scene.moving_ids) if i not in own]
         return _local_triangles(self.scene.static_parts, frame), _local_triangles(moving, frame, frame.height / 2)
 
-    def limit_behind(self, request: JointRequest, frame: DrawerFrame) -> float:
-        """Returns the y up to which a box may reach for the sake of a front that faces the other way behind it."""
+    def limit_behind(self, request: JointRequest, frame: DrawerFrame, opposite: float) -> float:
+        """Returns the y up to which a box may reach for the sake of a front that faces the other way behind it.
+
+        Two fronts do so where the negative cosine between their directions is at least `opposite`.
+        """
         nearest = float("inf")
         for other in self.requests:
             way = float(np.asarray(other.axis.direction) @ np.asarray(request.axis.direction))
-            if other.moving == request.moving or not other.kind.slides or way > _OPPOSITE:
+            if other.moving == request.moving or not other.kind.slides or way > -opposite:
                 continue
             local = (self.scene.parts[other.moving].mesh.vertices - frame.origin) @ frame.rotation
             low, high = local.min(axis=0), local.max(axis=0)

@@ -21,11 +21,12 @@ from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
-_SQUARE = float(np.cos(np.radians(8.0)))  # how near to an axis of the object a front's way is taken to be along it
-_INNER = np.linspace(0.15, 0.85, 7)  # fractions of a front's sides: its edges lap onto the case
-_DEEP = 24  # places along the depth at which walls are felt for
-_FINE = 17  # places between two of those at which the walls' edges are
-_MANY, _COARSE = 4000, 0.008  # faces from which a part is coarsened, to cells of this fraction of the largest side
+FRONT_HEIGHTS = np.linspace(0.15, 0.85, 7)
+"""Heights of rays, as fractions of a front's height: its edges lap onto the case."""
+DEPTHS = 24
+"""Places along the depth at which walls are looked for."""
+FINE_DEPTHS = 17
+"""Places between two of those at which the walls' edges are looked for."""
 
 
 @final
@@ -93,7 +94,7 @@ class Bay(ArrayValue):
 
 def find_views(scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[View, ...]:
     """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
-    ways = {r.moving: way for r in requests if (way := _outward(scene, r, config.upright)) is not None}
+    ways = {r.moving: way for r in requests if (way := _outward(scene, r, config)) is not None}
     groups: list[tuple[Vec3, list[str]]] = []
     for moving, way in ways.items():
         group = next((g for g in groups if float(g[0] @ way) > config.same_way), None)
@@ -101,19 +102,19 @@ def find_views(scene: Scene, requests: Iterable[JointRequest], config: CarcassCo
             groups.append((way, [moving]))
         else:
             group[1].append(moving)
-    still = merge_meshes([_coarse(p.mesh, scene.extent) for p in scene.static_parts])
+    still = merge_meshes([_coarse(p.mesh, scene.extent, config) for p in scene.static_parts])
     if not groups or not len(still.faces):
         return ()
     rays = RayCaster(still)
-    return tuple(_view(scene, still, rays, way, tuple(moving_bodies)) for way, moving_bodies in groups)
+    return tuple(_view(scene, still, rays, (way, tuple(moving_bodies)), config) for way, moving_bodies in groups)
 
 
-def _coarse(mesh: TriangleMesh, extent: float) -> TriangleMesh:
+def _coarse(mesh: TriangleMesh, extent: float, config: CarcassConfig) -> TriangleMesh:
     """Returns a mesh of many faces with fewer: things on shelves and carvings cost more rays than they are worth."""
-    return clustered(mesh, _COARSE * extent) if len(mesh.faces) > _MANY else mesh
+    return clustered(mesh, config.coarse * extent) if len(mesh.faces) > config.many_faces else mesh
 
 
-def _outward(scene: Scene, request: JointRequest, upright: float) -> Vec3 | None:
+def _outward(scene: Scene, request: JointRequest, config: CarcassConfig) -> Vec3 | None:
     """Returns the level unit direction to which a front looks; None where it is a lid, or slides up."""
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
@@ -127,20 +128,27 @@ def _outward(scene: Scene, request: JointRequest, upright: float) -> Vec3 | None
         else:
             towards = mesh.box.center - np.mean([p.box.center for p in scene.parts.values()], axis=0)
         way = thin * (1.0 if float(thin @ towards) >= 0 else -1.0)
-    if abs(float(way[2])) > upright:
+    if abs(float(way[2])) > config.upright:
         return None
     level = vec3(float(way[0]), float(way[1]), 0.0)
     level = level / np.linalg.norm(level)
     nearest = int(np.argmax(np.abs(level)))  # carved leaves lie a little crooked in their boxes
     square = np.sign(level[nearest]) * np.eye(3)[nearest]
-    return square if float(square @ level) > _SQUARE else level
+    return square if float(square @ level) > config.square else level
 
 
-def _view(scene: Scene, still: TriangleMesh, rays: RayCaster, way: Vec3, moving_bodies: tuple[str, ...]) -> View:
+def _view(
+    scene: Scene,
+    still: TriangleMesh,
+    rays: RayCaster,
+    group: tuple[Vec3, tuple[str, ...]],
+    config: CarcassConfig,
+) -> View:
+    way, moving_bodies = group
     y = -way
     rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
     own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
-    others = merge_meshes([_coarse(scene.parts[i].mesh, scene.extent) for i in sorted(scene.moving_ids - own)])
+    others = merge_meshes([_coarse(scene.parts[i].mesh, scene.extent, config) for i in sorted(scene.moving_ids - own)])
     return View(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
 
 
@@ -174,14 +182,14 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     depth = float(view.body.high[1] - low[1])
     if depth < config.least_depth * scene.extent:
         return None
-    x, z = float(low[0] + high[0]) / 2, low[2] + _INNER * (high[2] - low[2])
-    depths = float(low[1]) + np.linspace(0.0, 1.0, _DEEP) * depth
+    x, z = float(low[0] + high[0]) / 2, low[2] + FRONT_HEIGHTS * (high[2] - low[2])
+    depths = float(low[1]) + np.linspace(0.0, 1.0, DEPTHS) * depth
     both = _between(view, x, depths, z)
     if not both.any():
         return None
-    first, last = int(np.argmax(both)), _DEEP - 1 - int(np.argmax(both[::-1]))
+    first, last = int(np.argmax(both)), DEPTHS - 1 - int(np.argmax(both[::-1]))
     start = _refined(view, x, z, (float(depths[max(first - 1, 0)]), float(depths[first])))
-    end = _refined(view, x, z, (float(depths[min(last + 1, _DEEP - 1)]), float(depths[last])))
+    end = _refined(view, x, z, (float(depths[min(last + 1, DEPTHS - 1)]), float(depths[last])))
     if end - start < config.least_depth * scene.extent:
         return None
     sides = [_walls(view, x, depths[both], z, sign) for sign in (-1.0, 1.0)]
@@ -218,6 +226,6 @@ def _between(view: View, x: float, depths: Scalars, z: np.ndarray) -> np.ndarray
 
 def _refined(view: View, x: float, z: np.ndarray, span: tuple[float, float]) -> float:
     """Returns where walls end between a depth without and one with them (or the latter, if both have them)."""
-    depths = np.linspace(*span, _FINE)
+    depths = np.linspace(*span, FINE_DEPTHS)
     both = _between(view, x, depths, z)
     return float(depths[int(np.argmax(both))]) if both.any() else span[1]

@@ -16,7 +16,7 @@ import numpy as np
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.carcass.bays import Bay, View
 from grafu.additions.carcass.config import CarcassConfig
-from grafu.additions.carcass.missing_panels import DEFAULT, MissingPanel, missing_panels, panels_missing
+from grafu.additions.carcass.missing_panels import MissingPanel, missing_panels, panels_missing
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Deficiency, DeficiencyKind, Request, StepResult
@@ -32,7 +32,8 @@ from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-_SPREAD = np.linspace(-0.4, 0.4, 9)  # fractions of a bay's side around a spot from which walls are felt for
+RAY_SPREAD = np.linspace(-0.4, 0.4, 9)
+"""Places of rays around a spot that look for walls, as fractions of a bay's side."""
 
 
 @final
@@ -82,9 +83,9 @@ class BoardRoom:
         felt = self.config.wall_reach * (high - low)
         ends = []
         for sign, end in ((-1.0, low), (1.0, high)):
-            origins = np.repeat(spot[None], len(_SPREAD), axis=0)
+            origins = np.repeat(spot[None], len(RAY_SPREAD), axis=0)
             origins[:, axis] = end - sign * felt
-            origins[:, spread] += _SPREAD * (bay.high[spread] - bay.low[spread])
+            origins[:, spread] += RAY_SPREAD * (bay.high[spread] - bay.low[spread])
             direction = np.zeros(3)
             direction[axis] = sign
             hits = np.sort(self._cast(origins, direction))
@@ -129,7 +130,7 @@ class BoardRoom:
         return len(pieces_in(self._still, Box(low, high), (16, 16, 16)).low) > 0
 
 
-_NO_ROOM = "no board fits between the walls without piercing something"
+NO_ROOM = "no board fits between the walls without piercing something"
 
 
 @final
@@ -159,7 +160,7 @@ def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | N
 
 
 def complete_carcass(
-    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT
+    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = CarcassConfig()
 ) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
     closed = closed_scene(parts, plan)
@@ -175,7 +176,7 @@ def complete_carcass(
         for panel in [whole] if together else group:
             board = _board(panel, room, config)
             if board is None:
-                why = f"no {panel.what.value}: {_NO_ROOM}"
+                why = f"no {panel.what.value}: {NO_ROOM}"
                 refused.append(Refusal(panel.moving_bodies[0], Reason.NO_ROOM, why, Asked.BOARD))
                 continue
             room = rooms[id(panel.view)] = room.with_board(board)

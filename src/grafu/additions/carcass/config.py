@@ -1,6 +1,7 @@
 """What counts as a carcass that lacks its back or bottom, and how the boards that close it are sized."""
 
 from dataclasses import dataclass
+from math import cos, radians
 from typing import final
 
 from grafu.scene.checks import require_positive
@@ -59,6 +60,12 @@ class CarcassConfig:
     """Fraction of the depth in which a face frame or a front may stand before a bottom."""
     touch: float = 5e-4
     """Depth below which a board and its neighbour merely touch (metres)."""
+    square: float = cos(radians(8.0))
+    """Cosine between a front's direction and an axis of the object from which on the front looks along the axis."""
+    many_faces: int = 4000
+    """Faces from which on a part is coarsened ..."""
+    coarse: float = 0.008
+    """... to cells of this fraction of the object's largest side."""
     bottom_above: float = 0.2
     """A bottom is looked for from this fraction of the lowest front's height on ..."""
     bottom_above_most: float = 0.15

@@ -19,9 +19,8 @@ from grafu.geometry.arrays import vec3
 from grafu.joints.plan import RealizationPlan
 from grafu.vocabulary import PartLabel
 
-DEFAULT = CarcassConfig()
-
-_GRID = np.linspace(0.12, 0.88, 13)  # fractions of a bay's sides at which rays are cast: walls and edges lie outside
+RAY_GRID = np.linspace(0.12, 0.88, 13)
+"""Places of rays on a back or bottom, as fractions of a bay's sides: walls and edges lie outside."""
 
 
 @final
@@ -41,14 +40,14 @@ class MissingPanel:
 
 
 def missing_panels(
-    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = DEFAULT
+    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = CarcassConfig()
 ) -> tuple[MissingPanel, ...]:
     """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
     closed = closed_scene(parts, plan)
     return panels_missing(closed, config)
 
 
-def panels_missing(closed: ClosedScene, config: CarcassConfig = DEFAULT) -> tuple[MissingPanel, ...]:
+def panels_missing(closed: ClosedScene, config: CarcassConfig = CarcassConfig()) -> tuple[MissingPanel, ...]:
     """Returns what the bodies lack, all moving bodies closed."""
     found: list[MissingPanel] = []
     for view in find_views(closed.scene, closed.requests, config):
@@ -88,7 +87,7 @@ def _is_carcass(bay: Bay, extent: float, view: View, config: CarcassConfig) -> b
 def _back_covered(view: View, bay: Bay) -> float:
     """Returns the fraction of a bay's back at which something stands, seen through the fronts."""
     (x0, y0, z0), (x1, _, z1) = bay.low.tolist(), bay.high.tolist()
-    x, z = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), z0 + _GRID * (z1 - z0), indexing="ij"))
+    x, z = (a.ravel() for a in np.meshgrid(x0 + RAY_GRID * (x1 - x0), z0 + RAY_GRID * (z1 - z0), indexing="ij"))
     y = y0 + 0.3 * (float(bay.high[1]) - y0)  # past whatever frames the opening
     hits = view.cast_through(np.column_stack([x, np.full(x.size, y), z]), vec3(0.0, 1.0, 0.0))
     return float(np.isfinite(hits).mean())
@@ -97,7 +96,7 @@ def _back_covered(view: View, bay: Bay) -> float:
 def _bottom_covered(view: View, bay: Bay, extent: float, config: CarcassConfig) -> float:
     """Returns the fraction of a bay's bottom at which something stands below it."""
     (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
-    x, y = (a.ravel() for a in np.meshgrid(x0 + _GRID * (x1 - x0), y0 + _GRID * (y1 - y0), indexing="ij"))
+    x, y = (a.ravel() for a in np.meshgrid(x0 + RAY_GRID * (x1 - x0), y0 + RAY_GRID * (y1 - y0), indexing="ij"))
     start = z0 + min(config.bottom_above * bay.lowest, config.bottom_above_most * extent)
     hits = view.cast(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     return float(np.isfinite(hits).mean())

@@ -19,7 +19,8 @@ from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.refusal import Reason, Refusal
 
-_GRID = 5
+RAYS_PER_SIDE = 5
+"""Rays along each side of a face."""
 
 
 @final
@@ -99,8 +100,8 @@ def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: f
     along, height = (
         a.ravel()
         for a in np.meshgrid(
-            outer.center[other] + np.linspace(-0.6, 0.6, _GRID) * outer.half[other],
-            outer.low[2] + np.linspace(0.3, 0.8, _GRID) * outer.size[2],
+            outer.center[other] + np.linspace(-0.6, 0.6, RAYS_PER_SIDE) * outer.half[other],
+            outer.low[2] + np.linspace(0.3, 0.8, RAYS_PER_SIDE) * outer.size[2],
             indexing="ij",
         )
     )
@@ -118,8 +119,8 @@ def _top_of_bottom(caster: RayCaster, outer: Box) -> float:
     x, y = (
         a.ravel()
         for a in np.meshgrid(
-            outer.center[0] + np.linspace(-0.6, 0.6, _GRID) * outer.half[0],
-            outer.center[1] + np.linspace(-0.6, 0.6, _GRID) * outer.half[1],
+            outer.center[0] + np.linspace(-0.6, 0.6, RAYS_PER_SIDE) * outer.half[0],
+            outer.center[1] + np.linspace(-0.6, 0.6, RAYS_PER_SIDE) * outer.half[1],
             indexing="ij",
         )
     )
@@ -164,8 +165,8 @@ def _front_face(drawer: RayCaster, outer: Box, start: float, ahead: float) -> fl
     x, z = (
         a.ravel()
         for a in np.meshgrid(
-            outer.center[0] + np.linspace(-0.95, 0.95, 2 * _GRID) * outer.half[0],
-            outer.center[2] + np.linspace(-0.95, 0.95, _GRID) * outer.half[2],
+            outer.center[0] + np.linspace(-0.95, 0.95, 2 * RAYS_PER_SIDE) * outer.half[0],
+            outer.center[2] + np.linspace(-0.95, 0.95, RAYS_PER_SIDE) * outer.half[2],
             indexing="ij",
         )
     )

@@ -34,8 +34,7 @@ from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-DEFAULT = DrawerBoxConfig()
-_WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
+WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
 
 
 @final
@@ -56,7 +55,7 @@ class DrawerBoxes:
 def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | None) -> StepResult:
     """Returns the scene in which drawers have their boxes; without a config it is only said what they lack."""
     parts = tuple(scene.parts.values())
-    made = complete_drawers(parts, request.plan, config or DEFAULT, build=config is not None)
+    made = complete_drawers(parts, request.plan, config or DrawerBoxConfig(), build=config is not None)
     lacking = [verdict for verdict in made.verdicts if verdict.missing]
     return StepResult(
         scene.with_attached(made.loose).with_parts(addition.part for addition in made.additions),
@@ -68,7 +67,7 @@ def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | N
 
 
 def complete_drawers(
-    parts: Sequence[Part], plan: RealizationPlan, config: DrawerBoxConfig = DEFAULT, *, build: bool = True
+    parts: Sequence[Part], plan: RealizationPlan, config: DrawerBoxConfig = DrawerBoxConfig(), *, build: bool = True
 ) -> DrawerBoxes:
     """Returns the boards that the drawers of a plan lack, each drawer keeping out of those of the others.
 
@@ -98,7 +97,7 @@ def complete_drawers(
         made = drawer_box(verdict, request, closed, config, known)
         if isinstance(made, Refusal):
             if drawn_with_the_case(verdict, request, closed, config):
-                verdicts[-1] = replace(verdict, kind="whole", missing=(), why=_WITH_THE_CASE)
+                verdicts[-1] = replace(verdict, kind="whole", missing=(), why=WITH_THE_CASE)
             else:
                 refused.append(made)
             continue
@@ -108,13 +107,15 @@ def complete_drawers(
     return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
 
 
-def find_loose(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DEFAULT) -> tuple[str, ...]:
+def find_loose(
+    request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DrawerBoxConfig()
+) -> tuple[str, ...]:
     """Returns the still parts that are boards of the box behind a mere front."""
     frame, mesh = _framed(request, closed.scene)
     return loose_boards(request, mesh, frame, closed, config) if frame is not None and mesh is not None else ()
 
 
-def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DEFAULT) -> BoxVerdict:
+def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DrawerBoxConfig()) -> BoxVerdict:
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
     frame, mesh = _framed(request, closed.scene)
     if frame is None or mesh is None:
@@ -128,7 +129,7 @@ def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxCon
 
 
 def drawn_with_the_case(
-    verdict: BoxVerdict, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DEFAULT
+    verdict: BoxVerdict, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DrawerBoxConfig()
 ) -> bool:
     """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
 
@@ -150,7 +151,7 @@ def drawer_box(
     verdict: BoxVerdict,
     request: JointRequest,
     closed: ClosedScene,
-    config: DrawerBoxConfig = DEFAULT,
+    config: DrawerBoxConfig = DrawerBoxConfig(),
     taken: Iterable[str] = (),
 ) -> tuple[Addition, ...] | Refusal:
     """Returns the boards that a drawer lacks, at rest as the drawer is drawn, or why there can be none.
@@ -165,7 +166,7 @@ def drawer_box(
     room: Room | Refusal | None = None
     if verdict.kind == "front only" or not has_walls(verdict):
         front = replace(frame, depth=verdict.inner_front)
-        room = find_room(caster, front, still, others, config, closed.limit_behind(request, front))
+        room = find_room(caster, front, still, others, config, closed.limit_behind(request, front, config.opposite))
     if isinstance(room, Refusal):
         return _of(request, room)
     if verdict.kind == "front only" and room is not None:

@@ -77,6 +77,8 @@ class DrawerBoxConfig:
     """... and the most of the front's width that it takes."""
     sticks_out: float = 1e-3
     """How far boards that are drawn with the case may stick out of the drawer's outline (metres)."""
+    opposite: float = 0.9
+    """Negative cosine between the directions of two drawers from which on they face away from each other (ratio)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

@@ -18,7 +18,7 @@ from grafu.joints.plan import JointRequest
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.vocabulary import PartLabel
 
-_NEVER = frozenset(
+CASE_LABELS = frozenset(
     {PartLabel.TOP_PANEL, PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.FACE_FRAME, PartLabel.LEG}
 )
 
@@ -33,7 +33,7 @@ def loose_boards(
     touch = max(min(config.touch, config.touch_ratio * frame.width), 1e-6)
     near: dict[str, TriangleMesh] = {}
     for part in closed.scene.static_parts:
-        if part.label not in _NEVER and _is_behind(_local_box(part, frame), frame, touch):
+        if part.label not in CASE_LABELS and _is_behind(_local_box(part, frame), frame, touch):
             near[part.id] = TriangleMesh(_local(part.mesh.vertices, frame), part.mesh.faces)
     held = _hanging_together(mesh.box, _apart(near, closed, 0.1 * touch), touch)
     rest = [p for p in closed.scene.static_parts if p.id not in held]

@@ -19,10 +19,13 @@ from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.refusal import Reason, Refusal
 
-_COLUMNS = (32, 16)  # across and upwards
-_SLICES = 6  # along the way into the cabinet
-_LEVELS = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)  # of all columns' depths: those that a box may end at
-_SHALLOW = "the space behind the front is only {:.3f} m deep"
+COLUMNS = (32, 16)
+"""Columns across a front and upwards."""
+SLICES = 6
+"""Slices along the way into the cabinet."""
+DEPTH_QUANTILES = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)
+"""Quantiles of all columns' depths at which a box may end."""
+SHALLOW = "the space behind the front is only {:.3f} m deep"
 
 
 @final
@@ -61,10 +64,10 @@ def find_room(
     seen = float(RayCaster(near).along(columns, vec3(0.0, 1.0, 0.0)).max()) + float(around.low[1])
     end = min(end, seen + config.drawn_in)
     if end - frame.depth < config.least_depth * min(frame.width, frame.height):
-        return Refusal("", Reason.NO_ROOM, _SHALLOW.format(max(end - frame.depth, 0.0)))
+        return Refusal("", Reason.NO_ROOM, SHALLOW.format(max(end - frame.depth, 0.0)))
     around = Box(around.low, vec3(half[0], end, half[1]))
-    pieces = pieces_in(near.triangles, around, (_COLUMNS[0], _SLICES, _COLUMNS[1]))
-    depths = nearest_depths(pieces, around, _COLUMNS, (0, 2, 1), end)
+    pieces = pieces_in(near.triangles, around, (COLUMNS[0], SLICES, COLUMNS[1]))
+    depths = nearest_depths(pieces, around, COLUMNS, (0, 2, 1), end)
     depths = np.where(_covered(front, frame, columns), depths, frame.depth)
     seed = _best_rectangle(depths, around, frame, config.crooked)
     if seed is None:
@@ -98,7 +101,7 @@ def _columns(around: Box) -> Points:
     """Returns the middle of each column on the near side of a box."""
     x, z = (
         around.low[axis] + (np.arange(count) + 0.5) / count * around.size[axis]
-        for axis, count in zip((0, 2), _COLUMNS, strict=True)
+        for axis, count in zip((0, 2), COLUMNS, strict=True)
     )
     grid_x, grid_z = (a.ravel() for a in np.meshgrid(x, z, indexing="ij"))
     return np.column_stack([grid_x, np.full(grid_x.size, around.low[1]), grid_z])
@@ -107,7 +110,7 @@ def _columns(around: Box) -> Points:
 def _covered(front: RayCaster, frame: DrawerFrame, columns: Points) -> np.ndarray:
     """Returns for each column whether the front stands before it, holes in its middle counted in."""
     behind = columns + vec3(0.0, frame.depth + 1e-3 - float(columns[0, 1]), 0.0)
-    hit = np.isfinite(front.along(behind, vec3(0.0, -1.0, 0.0))).reshape(_COLUMNS)
+    hit = np.isfinite(front.along(behind, vec3(0.0, -1.0, 0.0))).reshape(COLUMNS)
     both = np.ones_like(hit)
     for axis in (0, 1):
         forward = np.logical_or.accumulate(hit, axis=axis)
@@ -118,9 +121,9 @@ def _covered(front: RayCaster, frame: DrawerFrame, columns: Points) -> np.ndarra
 
 def _best_rectangle(depths: np.ndarray, around: Box, frame: DrawerFrame, crooked: float) -> Box | None:
     """Returns the box of free columns that makes the best drawer: wide and deep rather than high."""
-    step = np.array([around.size[0] / _COLUMNS[0], around.size[2] / _COLUMNS[1]])
+    step = np.array([around.size[0] / COLUMNS[0], around.size[2] / COLUMNS[1]])
     best, chosen = 0.0, None
-    for deep in np.unique(np.append(np.quantile(depths, _LEVELS), depths.max())):
+    for deep in np.unique(np.append(np.quantile(depths, DEPTH_QUANTILES), depths.max())):
         level = deep - crooked * (deep - frame.depth)
         if level <= frame.depth + 1e-3:
             continue
@@ -168,7 +171,7 @@ def _with_clearance(free: Box, frame: DrawerFrame, config: DrawerBoxConfig) -> R
     if far[0] - low[0] < config.least_width * frame.width:
         return _narrow(float(far[0] - low[0]), frame.width, "width")
     if far[1] - low[1] < config.least_depth * min(frame.width, frame.height):
-        return Refusal("", Reason.NO_ROOM, _SHALLOW.format(max(float(far[1] - low[1]), 0.0)))
+        return Refusal("", Reason.NO_ROOM, SHALLOW.format(max(float(far[1] - low[1]), 0.0)))
     if far[2] - low[2] < config.least_depth * frame.height:
         return _narrow(float(far[2] - low[2]), frame.height, "height")
     return Room(Box(low, far))

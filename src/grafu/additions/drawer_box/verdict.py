@@ -25,8 +25,12 @@ BoxKind = Literal[
 BoardName = Literal["side_left", "side_right", "back", "bottom"]
 BOARDS: tuple[BoardName, ...] = ("side_left", "side_right", "back", "bottom")
 
-_COLUMNS, _LEVELS = 16, 32
-_EPS = 1e-3
+COLUMNS = 16
+"""Rays along a board."""
+LEVELS = 32
+"""Rays over the height of a wall."""
+RAY_START = 1e-3
+"""Distance from the outline at which rays start, metres."""
 
 
 @final
@@ -100,7 +104,7 @@ def _inner_front(caster: RayCaster, frame: DrawerFrame) -> float:
     middle = 0.5 * frame.depth
     x, z = _grid(0.6 * frame.width / 2, 0.6 * frame.height / 2, 9, 9)
     hits = caster.along(np.column_stack([x, np.full(x.size, middle), z]), vec3(0.0, -1.0, 0.0))
-    found = hits[hits <= middle + _EPS]
+    found = hits[hits <= middle + RAY_START]
     if len(found) < 0.5 * len(hits):
         return min(0.02, 0.1 * frame.depth)
     inner = middle - float(np.median(found))
@@ -112,12 +116,12 @@ def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerB
     x, y = (
         a.ravel()
         for a in np.meshgrid(
-            np.linspace(-config.inner_ratio, config.inner_ratio, _COLUMNS) * frame.width / 2,
+            np.linspace(-config.inner_ratio, config.inner_ratio, COLUMNS) * frame.width / 2,
             _along(frame, inner),
             indexing="ij",
         )
     )
-    half = frame.height / 2 + _EPS
+    half = frame.height / 2 + RAY_START
     above = half - caster.along(np.column_stack([x, y, np.full(x.size, half)]), vec3(0.0, 0.0, -1.0))
     hit = np.isfinite(above)
     return float(hit.mean()), float(np.median(above[hit])) if hit.any() else 0.0
@@ -126,7 +130,7 @@ def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerB
 def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall: _Wall) -> float:
     """Returns the fraction of one side's length at which a wall stands."""
     y, z = (a.ravel() for a in np.meshgrid(_along(frame, inner), _levels(frame), indexing="ij"))
-    outside = frame.width / 2 + _EPS
+    outside = frame.width / 2 + RAY_START
     origins = np.column_stack([np.full(y.size, sign * outside), y, z])
     hits = caster.along(origins, vec3(-sign, 0.0, 0.0)) <= outside - wall.outer * frame.width / 2
     return _high_enough(hits & (z > wall.above), frame, wall)
@@ -134,26 +138,26 @@ def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall
 
 def _back(caster: RayCaster, frame: DrawerFrame, inner: float, wall: _Wall) -> float:
     """Returns the fraction of the back's width at which a wall stands."""
-    x = np.linspace(-wall.inner, wall.inner, _COLUMNS) * frame.width / 2
+    x = np.linspace(-wall.inner, wall.inner, COLUMNS) * frame.width / 2
     x, z = (a.ravel() for a in np.meshgrid(x, _levels(frame), indexing="ij"))
-    origins = np.column_stack([x, np.full(x.size, frame.depth + _EPS), z])
-    hits = caster.along(origins, vec3(0.0, -1.0, 0.0)) <= 0.5 * (frame.depth - inner) + _EPS
+    origins = np.column_stack([x, np.full(x.size, frame.depth + RAY_START), z])
+    hits = caster.along(origins, vec3(0.0, -1.0, 0.0)) <= 0.5 * (frame.depth - inner) + RAY_START
     return _high_enough(hits & (z > wall.above), frame, wall)
 
 
 def _high_enough(hits: np.ndarray, frame: DrawerFrame, wall: _Wall) -> float:
-    heights = hits.reshape(_COLUMNS, _LEVELS).sum(axis=1) * frame.height / _LEVELS
+    heights = hits.reshape(COLUMNS, LEVELS).sum(axis=1) * frame.height / LEVELS
     return float((heights > wall.height).mean())
 
 
 def _along(frame: DrawerFrame, inner: float) -> np.ndarray:
     """Returns values of y behind the front, short of the back."""
     room = frame.depth - inner
-    return np.linspace(inner + 0.1 * room, frame.depth - max(0.1 * room, min(0.02, 0.3 * room)), _COLUMNS)
+    return np.linspace(inner + 0.1 * room, frame.depth - max(0.1 * room, min(0.02, 0.3 * room)), COLUMNS)
 
 
 def _levels(frame: DrawerFrame) -> np.ndarray:
-    return ((np.arange(_LEVELS) + 0.5) / _LEVELS - 0.5) * frame.height
+    return ((np.arange(LEVELS) + 0.5) / LEVELS - 0.5) * frame.height
 
 
 def _grid(x: float, z: float, columns: int, rows: int) -> tuple[np.ndarray, np.ndarray]:

@@ -26,8 +26,8 @@ from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-_SAME = 1e-6  # metres
-_FULL = 0.5  # of the box around a groove: less was cut where what looked solid is not
+BOX_TOLERANCE = 1e-6
+"""Distance between the corners of boxes that are the same, metres."""
 
 
 def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refusal:
@@ -52,13 +52,13 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     if part.id != moving_id:
         local = Box.around(frame.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
         frame = replace(frame, box=local)
-    site = site_of(scene, moving_id, frame, part, scale)
+    site = site_of(scene, moving_id, frame, part, config.ground)
     reasons: list[tuple[GripKind, Counter[Reason]]] = []
     for kind in config.kinds:
         met: Counter[Reason] = Counter()
         for cut in spots(frame, config, kind, scale, spot):
             found = levelled(site, cut, config)
-            made = found if isinstance(found, Reason) else _carved(site, found)
+            made = found if isinstance(found, Reason) else _carved(site, found, config)
             if isinstance(made, Carved):
                 return made
             met[made] += 1
@@ -71,21 +71,23 @@ def _no_grip(moving_id: str, reason: Reason, told: str = "") -> Refusal:
     return Refusal(moving_id, reason, f"no grip: {reason} ({told})", Asked.GRASP)
 
 
-def _carved(site: Site, cut: Cut) -> Carved | Reason:
+def _carved(site: Site, cut: Cut, config: GripConfig) -> Carved | Reason:
     """Returns the part less the grip, unless that would harm it."""
     frame = site.frame
-    hulls = [ConvexSolid.around(_in_object(site, cut, np.asarray(solid.vertices))) for solid in cutters(cut)]
+    hulls = [
+        ConvexSolid.around(_in_object(site, cut, np.asarray(solid.vertices))) for solid in cutters(cut, config.sizes)
+    ]
     solids = [solid for solid in hulls if solid is not None]
-    around = union(cut)
+    around = union(cut, config.sizes)
     whole = around and TriangleMesh(_in_object(site, cut, np.asarray(around.vertices)), around.faces)
     left = cut_out(site.body, solids, whole)
     expected = cut.size.length * cut.size.width * cut.size.depth
-    if cut.kind is GripKind.GROOVE and not cut.is_hollow and left.volume < _FULL * expected:
+    if cut.kind is GripKind.GROOVE and not cut.is_hollow and left.volume < config.full * expected:
         return Reason.NO_THICKNESS
     surfaces = tuple(s for s in left.surfaces if not s.is_empty)
     if not left.is_whole or not surfaces:
         return Reason.WOULD_BREAK
-    part = replace(site.part, surfaces=(*surfaces, *_walls(site, cut, left)))
+    part = replace(site.part, surfaces=(*surfaces, *_walls(site, cut, left, config)))
     if not _has_same_box(site.part, part):
         return Reason.WOULD_BREAK
     size = np.array([cut.size.length, cut.size.width, cut.size.depth])
@@ -97,11 +99,11 @@ def _carved(site: Site, cut: Cut) -> Carved | Reason:
     return Carved(part, cut.kind, cut.profile, centre, direction, outward, size, left.volume, left.area)
 
 
-def _walls(site: Site, cut: Cut, left: CutOut) -> tuple[Surface, ...]:
+def _walls(site: Site, cut: Cut, left: CutOut, config: GripConfig) -> tuple[Surface, ...]:
     """Returns the faces of the cut in the material of the front that was cut, textured as it is."""
     wall = left.wall
     if cut.is_hollow and cut.size.depth > site.seam:
-        lined = lining(cut)
+        lined = lining(cut, config.sizes)
         wall = TriangleMesh(_in_object(site, cut, np.asarray(lined.vertices)), lined.faces)
     if not len(wall.faces):
         return ()
@@ -116,5 +118,6 @@ def _in_object(site: Site, cut: Cut, points: Points) -> Points:
 
 def _has_same_box(before: Part, after: Part) -> bool:
     return bool(
-        np.abs(before.box.low - after.box.low).max() < _SAME and np.abs(before.box.high - after.box.high).max() < _SAME
+        np.abs(before.box.low - after.box.low).max() < BOX_TOLERANCE
+        and np.abs(before.box.high - after.box.high).max() < BOX_TOLERANCE
     )

@@ -39,12 +39,75 @@ class GripSize:
         return GripSize(factor * self.length, factor * self.width, self.depth)
 
 
-# As routed and drilled by joiners: four fingers are 80 mm wide, one is 20 mm thick; 35 mm is the common bore.
-GRIP_SIZES = {
-    GripKind.GROOVE: GripSize(0.14, 0.03, 0.012),
-    GripKind.EDGE: GripSize(0.10, 0.028),
-    GripKind.HOLE: GripSize(0.035, 0.035),
-}
+@final
+@dataclass(frozen=True)
+class GripSizes:
+    """What grips are like where nothing else is asked: as routed and drilled by joiners.
+
+    Four fingers are 80 mm wide, one is 20 mm thick; 35 mm is the common bore.
+
+    Raises:
+        ValueError: if a radius is not between 0 and 1.
+    """
+
+    groove: GripSize = GripSize(0.14, 0.03, 0.012)
+    """Size of a groove, metres."""
+    edge: GripSize = GripSize(0.10, 0.028)
+    """Size of an edge notch, metres."""
+    hole: GripSize = GripSize(0.035, 0.035)
+    """Size of a hole, metres."""
+    bottom_radius: float = 0.7
+    """Radius of a groove's rounded bottom, as a fraction of its depth."""
+    rim_radius: float = 0.15
+    """Radius of a hole's rounded rim, as a fraction of the front's thickness."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, "bottom_radius", "rim_radius")
+
+    def of(self, kind: GripKind) -> GripSize:
+        """Returns the size of a kind of grip."""
+        return {GripKind.GROOVE: self.groove, GripKind.EDGE: self.edge, GripKind.HOLE: self.hole}[kind]
+
+
+@final
+@dataclass(frozen=True)
+class GripTrials:
+    """Which sizes and places are tried in turn, the usual one first.
+
+    Raises:
+        ValueError: if a size or a distance from the edge is not above 0.
+    """
+
+    sizes: tuple[float, ...] = (1.0, 0.7)
+    """Lengths and widths, as fractions of the wanted ones."""
+    margins: tuple[float, ...] = (1.0, 2.5)
+    """Distances from the edge, as multiples of the margin."""
+    shifts: tuple[float, ...] = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)
+    """Distances along the gripped edge from the best place, as fractions of its length."""
+
+    def __post_init__(self) -> None:
+        if not all(size > 0 for size in (*self.sizes, *self.margins)):
+            raise ValueError(f"`GripTrials` must be above 0: got {self.sizes} and {self.margins}")
+
+
+@final
+@dataclass(frozen=True)
+class GroundConfig:
+    """What counts as one layer of a front, and how far around a front is looked.
+
+    Raises:
+        ValueError: if a length is not above 0.
+    """
+
+    seam: float = 0.002
+    """Distance up to which layers count as one, metres."""
+    board: float = 0.04
+    """Distance up to which two sheets are the sides of one board, metres."""
+    around: float = 0.08
+    """Distance from a front beyond which things do not matter, metres."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
 
 
 @final
@@ -112,6 +175,14 @@ class GripConfig:
     """Height of a door's lower end above which it is gripped as low as it can be, metres."""
     end_ratio: float = 0.25
     """Least distance of such a grip from a door's ends, as a fraction of its height."""
+    full: float = 0.5
+    """Fraction of the box around a groove that is cut at least: less was cut where the front is not solid."""
+    sizes: GripSizes = GripSizes()
+    """What grips are like where nothing else is asked."""
+    trials: GripTrials = GripTrials()
+    """Which sizes and places are tried in turn."""
+    ground: GroundConfig = GroundConfig()
+    """What counts as one layer of a front."""
 
     def __post_init__(self) -> None:
         lengths = (
@@ -126,7 +197,7 @@ class GripConfig:
         )
         require_positive(self, *lengths, "steepest", "blunt", "away", "clear", "reach_height", "tall", "high")
         require_ratios(
-            self, "length_ratio", "width_ratio", "depth_ratio", "uneven", "margin_ratio", "shown", "end_ratio"
+            self, "length_ratio", "width_ratio", "depth_ratio", "uneven", "margin_ratio", "shown", "end_ratio", "full"
         )
         own = (*(self.size or ()), *(() if self.depth is None else (self.depth,)))
         if not all(length > 0 for length in own):
@@ -139,7 +210,7 @@ class GripConfig:
 
     def wanted(self, kind: GripKind) -> GripSize:
         """Returns the size that a kind should have where there is room."""
-        plain = GRIP_SIZES[kind]
+        plain = self.sizes.of(kind)
         length, width = self.size or (plain.length, plain.width)
         if self.turned and kind is not GripKind.EDGE:
             length, width = width, length

@@ -8,7 +8,9 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
+from grafu.additions.grip.config import GroundConfig
 from grafu.additions.grip.shape import GripFrame
+from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.asset.part import Part
 from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
 from grafu.geometry.bodywork import Bodywork
@@ -18,11 +20,11 @@ from grafu.geometry.raycast import Crossings, line_crossings
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-_OPAQUE = 0.95  # of a colour
-_ASIDE = 1e-4 * np.sqrt(2.0)  # of a grid's step: lines do not run along the edges between faces
-_MAP = 24  # lines each way that look for the front's outermost part
-_BOARD = 0.04  # metres: sheets no farther apart are the two sides of one board
-_AROUND = 0.08  # metres: what is farther from a front is of no concern
+ASIDE = 1e-4 * np.sqrt(2.0)
+"""Fraction of a grid's step by which lines are moved aside: they do not run along the edges between faces."""
+OUTERMOST_LINES = 24
+"""Lines each way that look for the front's outermost part."""
+
 
 Triangles = Float[np.ndarray, "_ 3 3"]
 Grid = Float[np.ndarray, " _"]  # rising coordinates
@@ -90,6 +92,7 @@ class Site:
     still: Triangles
     others: Triangles
     scale: float
+    config: GroundConfig
 
     @cached_property
     def body(self) -> Bodywork:
@@ -107,7 +110,9 @@ class Site:
 
     @cached_property
     def _is_opaque(self) -> Mask:
-        clear = [s.material.base_color[3] < _OPAQUE or s.material.alpha_mode == "BLEND" for s in self.body.surfaces]
+        clear = [
+            s.material.base_color[3] < OPAQUE_ALPHA or s.material.alpha_mode == "BLEND" for s in self.body.surfaces
+        ]
         return ~np.array(clear)[self.body.owner[self.body.source]]
 
     def ground(self, xs: Grid, ys: Grid) -> Ground:
@@ -119,18 +124,22 @@ class Site:
         found = line_crossings(self._triangles[near], aside(xs), aside(ys))
         face = near[found.face]
         return _layered(
-            found, self.body.is_solid[face], self._is_opaque[face], len(xs) * len(ys), (self.seam, _BOARD * self.scale)
+            found,
+            self.body.is_solid[face],
+            self._is_opaque[face],
+            len(xs) * len(ys),
+            (self.seam, self.config.board * self.scale),
         )
 
     @property
     def seam(self) -> float:
         """Layers no farther apart than this count as one, metres."""
-        return 0.002 * self.scale
+        return self.config.seam * self.scale
 
 
 def aside(grid: Grid) -> Grid:
     """Returns a grid's coordinates moved aside by a trace."""
-    return grid + _ASIDE * (grid[-1] - grid[0]) / max(len(grid) - 1, 1)
+    return grid + ASIDE * (grid[-1] - grid[0]) / max(len(grid) - 1, 1)
 
 
 def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, limits: tuple[float, float]) -> Ground:
@@ -162,16 +171,16 @@ def _first_layer(
     return face, back, solid, -np.inf, is_opaque
 
 
-def site_of(scene: Scene, moving_id: str, frame: GripFrame, part: Part, scale: float) -> Site:
+def site_of(scene: Scene, moving_id: str, frame: GripFrame, part: Part, config: GroundConfig) -> Site:
     """Returns the site on one of the moving body's parts."""
-    around = Box.around(frame.in_object(frame.box.corners())).grown(_AROUND * scale)
+    around = Box.around(frame.in_object(frame.box.corners())).grown(config.around * scene.metre)
     own = [scene.parts[m].mesh for m in scene.moving_bodies[moving_id].members if m != part.id]
     own += [v.mesh for v in scene.hardware_of(moving_id)]
     still = [scene.static_mesh_near(around, 0.0)]
     still += [v.mesh for owner, v in scene.hardware if not owner]
     others = [scene.equipped_mesh(other) for other in scene.moving_bodies if other != moving_id]
     attached, fixed, moving = (_near(frame, meshes, around) for meshes in (own, still, others))
-    return Site(part, frame, attached, fixed, moving, scale)
+    return Site(part, frame, attached, fixed, moving, scene.metre, config)
 
 
 def _near(frame: GripFrame, meshes: Sequence[TriangleMesh], around: Box) -> Triangles:
@@ -188,7 +197,7 @@ def front_part(scene: Scene, moving_id: str, frame: GripFrame) -> Part:
         return parts[0]
     owner = np.repeat(np.arange(len(parts)), [len(p.mesh.faces) for p in parts])
     triangles = np.concatenate([frame.local(p.mesh.vertices)[p.mesh.faces] for p in parts])
-    x, y = (np.linspace(frame.box.low[k], frame.box.high[k], _MAP + 2)[1:-1] for k in (0, 1))
+    x, y = (np.linspace(frame.box.low[k], frame.box.high[k], OUTERMOST_LINES + 2)[1:-1] for k in (0, 1))
     found = line_crossings(triangles, aside(x), aside(y))
     first = np.unique(found.line, return_index=True)[1]
     counts = np.bincount(owner[found.face[first]], minlength=len(parts))

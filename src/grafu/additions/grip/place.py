@@ -15,10 +15,8 @@ from grafu.geometry.mesh import triangle_bounds
 from grafu.geometry.raycast import line_crossings
 from grafu.refusal import Reason
 
-_SIZES = (1.0, 0.7)  # of what is wanted, tried in turn
-_INWARDS = (1.0, 2.5)  # margins from the edge, tried in turn
-_ALONG = (0.0, 0.15, -0.15, 0.3, -0.3, 0.4, -0.4)  # fractions of the gripped edge, from the best place
-_LINES = (21, 17)  # near enough for beads and narrow mouldings
+LINES = (21, 17)
+"""Lines along and across a grip that look at the front: near enough for beads and narrow mouldings."""
 
 
 def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
@@ -33,11 +31,11 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wi
     if kind is GripKind.HOLE and wanted.length == wanted.width:
         length = width = min(length, width)
     edge = float(frame.box.high[1])
-    for factor in _SIZES:
+    for factor in config.trials.sizes:
         size = GripSize(factor * length, factor * width, wanted.depth * scale)
         if _is_too_small(size, scale, config):
             continue
-        rows = [edge] if kind is GripKind.EDGE else [edge - m * margin - size.width / 2 for m in _INWARDS]
+        rows = [edge] if kind is GripKind.EDGE else [edge - m * margin - size.width / 2 for m in config.trials.margins]
         ends = size.length / 2 + margin
         low, high = float(frame.box.low[0]) + ends, float(frame.box.high[0]) - ends
         if wish is not None:
@@ -46,7 +44,7 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wi
             y = edge if kind is GripKind.EDGE else np.clip(y, frame.box.low[1] + inner, frame.box.high[1] - inner)
             yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
         middle = best_along(frame, scale, config)
-        columns = dict.fromkeys(float(np.clip(middle + s * frame.length, low, high)) for s in _ALONG)
+        columns = dict.fromkeys(float(np.clip(middle + s * frame.length, low, high)) for s in config.trials.shifts)
         for y, x in product(rows, columns):
             yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
 
@@ -78,8 +76,8 @@ def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | Reason:
     ring = _margin(site.frame, config, site.scale) / 2
     box = cut.box
     over = -config.blunt * site.scale if cut.kind is GripKind.EDGE else ring
-    xs = np.linspace(box.low[0] - ring, box.high[0] + ring, _LINES[0])
-    ys = np.linspace(box.low[1] - ring, box.high[1] + over, _LINES[1])
+    xs = np.linspace(box.low[0] - ring, box.high[0] + ring, LINES[0])
+    ys = np.linspace(box.low[1] - ring, box.high[1] + over, LINES[1])
     ground = site.ground(xs, ys)
     if not ground.is_covered or ground.is_mixed:
         return Reason.UNEVEN

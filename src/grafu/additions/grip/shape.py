@@ -14,7 +14,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.additions.grip.config import GripConfig, GripKind, GripProfile, GripSize
+from grafu.additions.grip.config import GripConfig, GripKind, GripProfile, GripSize, GripSizes
 from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, freeze_arrays, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -90,12 +90,14 @@ def _across(direction: Vec3, out: Vec3) -> Vec3:
 
 Outline = Float[np.ndarray, "n 2"]
 
-_QUARTER = 6  # straight pieces of a quarter turn
-_STEPS = 5  # levels of a rounded bottom
-_RIM = 3  # slices of a rounded rim
-_BOTTOM = 0.7  # the radius of a groove's rounded bottom, as a fraction of its depth
-_FLAT = 1e-9  # metres
-_ROUNDED = 0.15  # the radius of a hole's rounded rim, as a fraction of the front's thickness
+QUARTER_EDGES = 6
+"""Straight edges of a quarter turn."""
+BOTTOM_LEVELS = 5
+"""Levels of a rounded bottom."""
+RIM_SLICES = 3
+"""Slices of a rounded rim."""
+LEVEL_TOLERANCE = 1e-9
+"""Distance from a level up to which a corner lies on it, metres."""
 
 
 @final
@@ -136,34 +138,34 @@ def tilted(cut: Cut, points: Points) -> Points:
     return points + np.column_stack([np.zeros((len(points), 2)), cut.lift(points[:, 0], points[:, 1])])
 
 
-def cutters(cut: Cut) -> tuple[ConvexSolid, ...]:
+def cutters(cut: Cut, sizes: GripSizes) -> tuple[ConvexSolid, ...]:
     """Returns the solids of a grip, in the grip frame, as they are on a level front."""
     rounded = cut.profile == "rounded"
     if cut.kind is GripKind.GROOVE:
         outline = _oval(cut) if rounded else _rectangle(cut)
         # sheets are cut by the outline alone, which is quick; what curves is their lining
-        solids = [_groove(cut) if rounded and not cut.is_hollow else _prism(outline, cut.bottom, cut.top)]
+        solids = [_groove(cut, sizes) if rounded and not cut.is_hollow else _prism(outline, cut.bottom, cut.top)]
     elif cut.kind is GripKind.EDGE:
         solids = [_prism(_notch(cut, 0.25 * cut.size.width), cut.bottom, cut.top)]
     else:
-        solids = _stages(cut) if _is_rounded(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
+        solids = _stages(cut, sizes) if _is_rounded(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
     return tuple(solid for solid in solids if solid is not None)
 
 
-def lining(cut: Cut) -> TriangleMesh:
+def lining(cut: Cut, sizes: GripSizes) -> TriangleMesh:
     """Returns the walls of a grip in a hollow board, in the grip frame, as on a level front: they look into it."""
     if cut.kind is GripKind.GROOVE:
-        (solid,) = cutters(replace(cut, top=cut.face, is_hollow=False))
+        (solid,) = cutters(replace(cut, top=cut.face, is_hollow=False), sizes)
     else:
         outline = _notch(cut, 0.0) if cut.kind is GripKind.EDGE else _oval(cut)
         made = _prism(outline, cut.face - cut.size.depth, cut.face)
         assert made is not None
         solid = made
-    level = np.abs(solid.mesh.triangles[:, :, 2] - cut.face).max(axis=1) < _FLAT
+    level = np.abs(solid.mesh.triangles[:, :, 2] - cut.face).max(axis=1) < LEVEL_TOLERANCE
     if cut.kind is not GripKind.GROOVE:
-        level |= np.abs(solid.mesh.triangles[:, :, 2] - cut.face + cut.size.depth).max(axis=1) < _FLAT
+        level |= np.abs(solid.mesh.triangles[:, :, 2] - cut.face + cut.size.depth).max(axis=1) < LEVEL_TOLERANCE
     if cut.kind is GripKind.EDGE:
-        level |= np.abs(solid.mesh.triangles[:, :, 1] - cut.y).max(axis=1) < _FLAT
+        level |= np.abs(solid.mesh.triangles[:, :, 1] - cut.y).max(axis=1) < LEVEL_TOLERANCE
     walls = solid.mesh.with_faces(~level)
     return TriangleMesh(walls.vertices, walls.faces[:, ::-1])
 
@@ -186,16 +188,16 @@ def _oval(cut: Cut, grown: float = 0.0) -> Outline:
     size = np.array([cut.size.length, cut.size.width])
     radius = float(size.min()) / 2
     ends = size / 2 - radius
-    angles = _half_turn(4 * _QUARTER, 2 * np.pi)
+    angles = _half_turn(4 * QUARTER_EDGES, 2 * np.pi)
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
     return np.array([cut.x, cut.y]) + (radius + grown) * circle + ends * np.sign(np.round(circle, 9))
 
 
-def _groove(cut: Cut) -> ConvexSolid | None:
+def _groove(cut: Cut, sizes: GripSizes) -> ConvexSolid | None:
     """Returns a hollow with round ends whose walls curve into its bottom."""
     depth = cut.face - cut.bottom
-    radius = _BOTTOM * min(depth, 0.5 * min(cut.size.length, cut.size.width))
-    angles = np.linspace(0.0, np.pi / 2, _STEPS + 1)
+    radius = sizes.bottom_radius * min(depth, 0.5 * min(cut.size.length, cut.size.width))
+    angles = np.linspace(0.0, np.pi / 2, BOTTOM_LEVELS + 1)
     levels = [(cut.bottom + radius * (1 - np.sin(a)), -radius * (1 - np.cos(a))) for a in angles]
     points = [_at(_oval(cut, inset), level) for level, inset in levels]
     return ConvexSolid.around(np.vstack([_at(_oval(cut), cut.top), *points]))
@@ -207,16 +209,16 @@ def _notch(cut: Cut, over: float) -> Outline:
     if cut.profile == "sharp":
         inner = np.array([(-half, -width), (half, -width)])
     else:
-        angles = np.linspace(-np.pi, 0.0, 4 * _QUARTER + 1)
+        angles = np.linspace(-np.pi, 0.0, 4 * QUARTER_EDGES + 1)
         inner = np.column_stack([half * np.cos(angles), width * np.sin(angles)])
     return np.array([cut.x, cut.y]) + np.vstack([inner, [(half, over), (-half, over)]])
 
 
-def union(cut: Cut) -> TriangleMesh | None:
+def union(cut: Cut, sizes: GripSizes) -> TriangleMesh | None:
     """Returns the closed surface around all of a grip's cutters, in the frame that they are in; None: there is one."""
     if not _is_rounded(cut):
         return None
-    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
+    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut, sizes)]
     count, size = len(rings), len(rings[0])
     points = np.vstack([*rings, rings[0].mean(axis=0), rings[-1].mean(axis=0)])
     at = np.arange(size)
@@ -234,20 +236,20 @@ def _is_rounded(cut: Cut) -> bool:
     return cut.kind is GripKind.HOLE and cut.profile == "rounded" and not cut.is_hollow
 
 
-def _hole_levels(cut: Cut) -> list[tuple[float, float]]:
+def _hole_levels(cut: Cut, sizes: GripSizes) -> list[tuple[float, float]]:
     """Returns by how much a hole with a rounded rim is wider, and at which level, upwards: a quarter turn outwards.
 
     It ends a trace above the face: an edge in the very face would leave slivers.
     """
-    radius = _ROUNDED * (cut.face - cut.bottom)
-    angles = np.linspace(np.pi / 2, 0.0, _RIM + 1)
+    radius = sizes.rim_radius * (cut.face - cut.bottom)
+    angles = np.linspace(np.pi / 2, 0.0, RIM_SLICES + 1)
     rim = [(float(radius * (1 - np.sin(a))), float(cut.face - radius * (0.95 - np.cos(a)))) for a in angles]
     return [(0.0, cut.bottom), *rim, (radius, cut.top)]
 
 
-def _stages(cut: Cut) -> list[ConvexSolid | None]:
+def _stages(cut: Cut, sizes: GripSizes) -> list[ConvexSolid | None]:
     """Returns the convex slices of a hole with a rounded rim."""
-    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut)]
+    rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut, sizes)]
     return [ConvexSolid.around(np.vstack(pair)) for pair in pairwise(rings)]
 
 

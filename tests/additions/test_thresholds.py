@@ -1,0 +1,95 @@
+"""Thresholds of additions are fields of configurations: the numbers that stand in modules are listed with a reason."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ADDITIONS = Path(__file__).parents[2] / "src" / "grafu" / "additions"
+
+SAMPLES = "how many rays, cells, poses or pieces an algorithm takes, or where in a face they lie"
+TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
+NUMBERING = "numbers of axes, of faces and of steps between cells"
+LIMIT = "the most that an input may ask for, or that is computed in a reasonable time"
+GLASS = "what counts as glass, and textures of unknown size: of materials, not of furniture, and the same for all steps"
+
+REASONS = {
+    "carcass/bays.py": {"FRONT_HEIGHTS": SAMPLES, "DEPTHS": SAMPLES, "FINE_DEPTHS": SAMPLES},
+    "carcass/complete.py": {"RAY_SPREAD": SAMPLES},
+    "carcass/missing_panels.py": {"RAY_GRID": SAMPLES},
+    "drawer_box/boards.py": {"RAYS_PER_SIDE": SAMPLES},
+    "drawer_box/room.py": {"COLUMNS": SAMPLES, "SLICES": SAMPLES, "DEPTH_QUANTILES": SAMPLES},
+    "drawer_box/verdict.py": {"COLUMNS": SAMPLES, "LEVELS": SAMPLES, "RAY_START": TOLERANCE},
+    "grip/carve.py": {"BOX_TOLERANCE": TOLERANCE},
+    "grip/ground.py": {"ASIDE": TOLERANCE, "OUTERMOST_LINES": SAMPLES},
+    "grip/place.py": {"LINES": SAMPLES},
+    "grip/shape.py": {
+        "QUARTER_EDGES": SAMPLES,
+        "BOTTOM_LEVELS": SAMPLES,
+        "RIM_SLICES": SAMPLES,
+        "LEVEL_TOLERANCE": TOLERANCE,
+    },
+    "handle/finger_room.py": {"OPPOSITE_STEPS": NUMBERING, "STEPS": NUMBERING, "EDGE_CELLS": SAMPLES},
+    "handle/fit.py": {"SAME_SURFACE": TOLERANCE, "MOST_FOOT_POINTS": SAMPLES},
+    "handle/grips.py": {"CLUSTER_CELLS": SAMPLES},
+    "handle/relief.py": {"MOST_CELLS": SAMPLES, "UNSEEN": TOLERANCE},
+    "handle/spots.py": {"TURNS": NUMBERING},
+    "interior/compartments.py": {
+        "RAYS_PER_SIDE": SAMPLES,
+        "RAY_SPAN": SAMPLES,
+        "FACE_CELLS": SAMPLES,
+        "PART_CELLS": TOLERANCE,
+    },
+    "interior/occupied.py": {"POINT_SPACING": SAMPLES},
+    "interior/panels.py": {"RAYS_ALONG_EDGE": SAMPLES, "EDGE_LEVELS": SAMPLES},
+    "interior/request.py": {"MOST_PANELS": LIMIT},
+    "interior/rooms.py": {"FRONTS": NUMBERING, "LID": NUMBERING, "SIDE_AXES": NUMBERING, "FRONT_FACES": NUMBERING},
+    "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
+    "top/cutouts.py": {"SWEEP_POSES": SAMPLES},
+    "top/height_map.py": {"LEAST_UPRIGHT_PART": TOLERANCE, "BORDER_TOLERANCE": TOLERANCE},
+    "top/section.py": {
+        "SHORTEST_LINE": TOLERANCE,
+        "MOST_LINES": LIMIT,
+        "MITRE_LIMIT": TOLERANCE,
+        "ROUNDINGS": TOLERANCE,
+        "SHORTEST_EDGE": TOLERANCE,
+        "ARC_EDGES": SAMPLES,
+    },
+    "top/supports.py": {"CELL_INSET": SAMPLES},
+    "top/views.py": {"VIEW_CELLS": SAMPLES, "PLAN_CELLS": SAMPLES, "VIEWING_DIRECTIONS": NUMBERING},
+}
+
+
+def numbers_in(source: str) -> Iterator[str]:
+    """Yields the names that a module gives to values with a number in them; calls of its own classes are none."""
+    for node in ast.parse(source).body:
+        if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
+            continue
+        if any(isinstance(n, ast.Constant) and type(n.value) in (int, float) for n in ast.walk(node.value)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            yield from (ast.unparse(target) for target in targets)
+
+
+@pytest.mark.parametrize(
+    ("source", "names"),
+    [
+        ("NEAR = 0.3", ["NEAR"]),
+        ("NEAR: float = -0.3", ["NEAR"]),
+        ("A, B = 1, 2", ["(A, B)"]),
+        ("HEIGHTS = np.linspace(0.1, x, n)", ["HEIGHTS"]),
+        ("NAMES = ('a', 'b')\nOPEN = True\nCONFIG = Config()", []),
+        ("def f():\n    near = 0.3", []),
+    ],
+)
+def test_a_number_of_a_module_is_found(source: str, names: list[str]) -> None:
+    assert list(numbers_in(source)) == names
+
+
+def test_no_threshold_stands_in_a_module() -> None:
+    paths = {path.relative_to(ADDITIONS).as_posix(): path for path in sorted(ADDITIONS.rglob("*.py"))}
+    found = {name: set(numbers_in(path.read_text())) for name, path in paths.items()}
+
+    expected = {name: set(reasons) for name, reasons in REASONS.items()}
+
+    assert {name: names for name, names in found.items() if names} == expected
