@@ -96,8 +96,8 @@ class Reliefs:
         region = _around(front, factor, self.config)
         bodies = [scene.parts[m].mesh for m in body_members(scene, moving_id)]
         others = _others(scene, moving_id, front, self.config.before)
-        casters = [RayCaster(self._near(meshes, region)) for meshes in (bodies, others)]
-        return _looked_at(front, factor, *casters, self.config)
+        moving, around = (RayCaster(self._near(meshes, region)) for meshes in (bodies, others))
+        return _looked_at(front, factor, moving, around, self.config)
 
     def _near(self, meshes: Sequence[TriangleMesh], region: Box) -> TriangleMesh:
         """Returns the triangles whose own boxes meet a box of the object frame."""
