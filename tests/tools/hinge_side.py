@@ -16,7 +16,7 @@ import numpy as np
 from sklearn.ensemble import HistGradientBoostingClassifier
 
 from grafu.asset.load import load_asset
-from grafu.evaluation.statistics_fronts import Front, doors_of
+from grafu.evaluation.statistics_fronts import MeasuredFront, doors_of
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
@@ -88,14 +88,14 @@ def _matrix(doors: Iterable[Door], with_handles: bool) -> np.ndarray:
     return np.array([np.concatenate([d.features, d.handle]) if with_handles else d.features for d in doors])
 
 
-def _plane(front: Front, graph: FunctionalGraph) -> tuple[int, float]:
+def _plane(front: MeasuredFront, graph: FunctionalGraph) -> tuple[int, float]:
     """Returns the horizontal axis of the door's plane, and 1 or -1: whether it grows to the right as one sees it."""
     thin = front.node.box.thin_axis
     outward = 1.0 if front.node.box.center[thin] > graph.box.center[thin] else -1.0
     return 1 - thin, -outward if thin == 1 else outward
 
 
-def _surroundings(front: Front, graph: FunctionalGraph, extent: float) -> np.ndarray:
+def _surroundings(front: MeasuredFront, graph: FunctionalGraph, extent: float) -> np.ndarray:
     """Returns the door's place and shape, and for each side how far the next door, drawer and other part is."""
     box, around = front.node.box, graph.box
     across, sign = _plane(front, graph)
@@ -126,7 +126,7 @@ def _way_to(box, other, axis: int, way: float, extent: float) -> float:
     return float(gaps[axis] / extent)
 
 
-def _handle(front: Front, graph: FunctionalGraph) -> np.ndarray:
+def _handle(front: MeasuredFront, graph: FunctionalGraph) -> np.ndarray:
     """Returns where the first handle is on the door as one sees it (0..1 to the right, 0..1 up), and its shape."""
     if not front.handles:
         return np.full(4, np.nan)

@@ -28,7 +28,7 @@ _SMALL = 0.12
 
 @final
 @dataclass(frozen=True)
-class _Front:
+class _Host:
     """A piece that may hold others, and the axis that it faces along."""
 
     part: Part
@@ -69,7 +69,7 @@ def with_joined_pieces(parts: tuple[Part, ...], whole: Box) -> tuple[tuple[Part,
 def _pairs(pieces: list[Part], plates: list[Part], label: PartLabel, size: float) -> list[tuple[Part, Part]]:
     """Returns each piece that belongs to a front, with it: to a piece that is one, or to a plate named as a whole."""
     own = [p for p in pieces if label is PartLabel.DOOR or _is_front(p)]
-    fronts = {p.id: _Front(p, _faces(p)) for p in (*own, *plates)}
+    fronts = {p.id: _Host(p, _faces(p)) for p in (*own, *plates)}
     ranked = sorted(fronts.values(), key=lambda f: -_face_area(f.part.box))
     pairs: list[tuple[Part, Part]] = []
     taken: set[str] = set()
@@ -91,7 +91,7 @@ def _held(parts: tuple[Part, ...], size: float) -> dict[str, str]:
     moving = [p for p in parts if p.label.is_movable]
     found: dict[str, str] = {}
     for front in sorted((p for p in moving if _is_plate(p.box)), key=lambda p: -_face_area(p.box)):
-        seen = _Front(front, front.box.thin_axis)
+        seen = _Host(front, front.box.thin_axis)
         small = [p for p in moving if p.id not in found and _face_area(p.box) <= _SMALL * _face_area(front.box)]
         small = [p for p in small if seen.misses(p) <= _TOUCH * size and not _in_plane(front.box, p.box)]
         reached = [front]
@@ -127,7 +127,7 @@ def _is_plate(box: Box) -> bool:
     return bool(sides[0] <= _PLATE * sides[1])
 
 
-def _host(piece: Part, fronts: list[_Front], size: float, touching: bool) -> Part | None:
+def _host(piece: Part, fronts: list[_Host], size: float, touching: bool) -> Part | None:
     """Returns the front that covers the piece, the nearest of several, or None; it may have to touch the piece."""
     covering = [f for f in fronts if f.misses(piece) <= _STAND_OUT * size and _may_hold(f.part, piece)]
     best = min(covering, key=lambda f: f.gap(piece) + f.misses(piece), default=None)

@@ -43,7 +43,7 @@ _SLAB = 0.08  # a lower box without a handle may be a thick panel
 
 @final
 @dataclass(frozen=True, slots=True)
-class _Front:
+class _FrontGuess:
     """An unlabelled part that may open towards `way`."""
 
     node: PartNode
@@ -74,7 +74,7 @@ def guess_labels(graph: FunctionalGraph) -> tuple[dict[str, PartLabel], tuple[De
     return named, tuple(decisions)
 
 
-def _label_with_handles(front: _Front, handles: list[PartNode]) -> PartLabel:
+def _label_with_handles(front: _FrontGuess, handles: list[PartNode]) -> PartLabel:
     """Returns the front's label: a wide plate with its handle in the very middle is the front of a drawer."""
     box, across = front.node.box, 1 - front.way // 2
     middle = np.mean([h.box.center for h in handles], axis=0)
@@ -91,7 +91,7 @@ def _extent(graph: FunctionalGraph) -> float:
     return max(float(graph.box.size.max()), 1e-9)
 
 
-def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_Front]:
+def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_FrontGuess]:
     """Returns the ways that a part may open, by its shape and by how near to the outside it lies."""
     size, found = node.box.size / _extent(graph), []
     for way in _FRONTS:
@@ -99,9 +99,9 @@ def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_Front]:
         if _behind_outside(node.box, way, graph) > _SKIN or (node.box.thin_axis == 2 and depth < _LEAST_DEPTH):
             continue
         if depth <= _PLATE and min(across, size[2]) >= max(_LEAST_SIDE, 2.5 * depth):
-            found += [_Front(node, way, PartLabel.DOOR)] if not _is_frame(node, way, graph) else []
+            found += [_FrontGuess(node, way, PartLabel.DOOR)] if not _is_frame(node, way, graph) else []
         elif depth >= _LEAST_DEPTH and across >= _LEAST_SIDE and 0.03 <= size[2] <= 0.55 and not _is_case(node, graph):
-            found.append(_Front(node, way, PartLabel.DRAWER))
+            found.append(_FrontGuess(node, way, PartLabel.DRAWER))
     return found
 
 
@@ -127,7 +127,7 @@ def _is_frame(node: PartNode, way: SignedAxis, graph: FunctionalGraph) -> bool:
     )
 
 
-def _is_flanked(front: _Front, graph: FunctionalGraph) -> bool:
+def _is_flanked(front: _FrontGuess, graph: FunctionalGraph) -> bool:
     """Whether something stands beside each flank of a box, along most of its height and depth."""
     box, across = front.node.box, 1 - front.way // 2
     others = (n.box for n in graph.nodes if n.id != front.node.id)
@@ -149,7 +149,7 @@ def _handles(unknown: tuple[PartNode, ...], graph: FunctionalGraph) -> tuple[Par
     )
 
 
-def _sits_in_front(handle: Box, front: _Front, graph: FunctionalGraph) -> bool:
+def _sits_in_front(handle: Box, front: _FrontGuess, graph: FunctionalGraph) -> bool:
     """Whether a box stands out from a front, within its outline: as wide as the front it would be a batten."""
     box, way, extent = front.node.box, front.way, _extent(graph)
     axis, outward = way // 2, code_to_direction(way)
@@ -162,7 +162,7 @@ def _sits_in_front(handle: Box, front: _Front, graph: FunctionalGraph) -> bool:
     return inside and smaller and out > 0 and away <= _TOUCH * extent
 
 
-def _closes(front: _Front, graph: FunctionalGraph) -> bool:
+def _closes(front: _FrontGuess, graph: FunctionalGraph) -> bool:
     """Whether a front without a handle looks like one that opens: upright, not a plinth, nothing before it."""
     size = front.node.box.size
     across, height = float(size[1 - front.way // 2]), float(size[2])
@@ -173,7 +173,7 @@ def _closes(front: _Front, graph: FunctionalGraph) -> bool:
     return not any(_covers(node, front) for node in graph.nodes if node.id != front.node.id)
 
 
-def _covers(node: PartNode, front: _Front) -> bool:
+def _covers(node: PartNode, front: _FrontGuess) -> bool:
     axis, outward = front.way // 2, code_to_direction(front.way)
     ahead = float((node.box.center - front.node.box.face_center(front.way)) @ outward) > 0
     others = [a for a in range(3) if a != axis]

@@ -29,7 +29,7 @@ _BELOW = 0.03  # fraction of the object's largest side by which a top may lie be
 
 @final
 @dataclass(frozen=True, slots=True)
-class Front:
+class MeasuredFront:
     """A door or a drawer as seen from in front of it: sizes in metres, `depth` across the front.
 
     `handles` are the boxes of its handles. `hinge_side` is where a door hangs, seen from outside (a lid's is `lid`);
@@ -71,7 +71,7 @@ class Front:
         return float((self.handles[0].center[2] - self.node.box.low[2]) / self.node.box.size[2])
 
 
-def doors_of(graph: FunctionalGraph) -> tuple[Front, ...]:
+def doors_of(graph: FunctionalGraph) -> tuple[MeasuredFront, ...]:
     """Returns the doors: what hangs on a hinge, and what is labelled so."""
     hinged = {edge.child: edge for edge in graph.hinges}
     nodes = [n for n in graph.nodes if n.id in hinged or n.label is PartLabel.DOOR]
@@ -86,11 +86,11 @@ def doors_of(graph: FunctionalGraph) -> tuple[Front, ...]:
             pin = code_to_direction(border_to_face(thin, hinged[node.id].border))
             side = _side(node.box, graph.box.center, pin)
             along = tuple(_way_from_pin(node.box, pin, handle) for handle in handles)
-        found.append(Front(node, width, height, float(node.box.size[thin]), handles, side, along))
+        found.append(MeasuredFront(node, width, height, float(node.box.size[thin]), handles, side, along))
     return tuple(found)
 
 
-def drawers_of(graph: FunctionalGraph) -> tuple[Front, ...]:
+def drawers_of(graph: FunctionalGraph) -> tuple[MeasuredFront, ...]:
     """Returns the drawers: what runs on rails, and what is labelled so (then it is taken to open along Y)."""
     slides = {edge.child: edge.axis // 2 for edge in graph.rails}
     nodes = [n for n in graph.nodes if n.id in slides or n.label is PartLabel.DRAWER]
@@ -98,7 +98,7 @@ def drawers_of(graph: FunctionalGraph) -> tuple[Front, ...]:
     for node in nodes:
         across = slides.get(node.id, 1)
         width, height = _width_and_height(node.box, across)
-        found.append(Front(node, width, height, float(node.box.size[across]), _handles(graph, node)))
+        found.append(MeasuredFront(node, width, height, float(node.box.size[across]), _handles(graph, node)))
     return tuple(found)
 
 

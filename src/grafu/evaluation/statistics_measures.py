@@ -14,7 +14,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.evaluation.statistics_fronts import Front, boxes_of, doors_of, drawers_of, lacks_top
+from grafu.evaluation.statistics_fronts import MeasuredFront, boxes_of, doors_of, drawers_of, lacks_top
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
@@ -115,7 +115,7 @@ def _graph_values(graph: FunctionalGraph, extent: float) -> dict[str, float]:
     return values
 
 
-def _front_values(word: str, fronts: tuple[Front, ...], extent: float) -> dict[str, float]:
+def _front_values(word: str, fronts: tuple[MeasuredFront, ...], extent: float) -> dict[str, float]:
     if not fronts:
         return {}
     lists = {
@@ -131,7 +131,7 @@ def _front_values(word: str, fronts: tuple[Front, ...], extent: float) -> dict[s
 
 
 def _tallies(
-    asset: Asset, graph: FunctionalGraph, doors: tuple[Front, ...], drawers: tuple[Front, ...]
+    asset: Asset, graph: FunctionalGraph, doors: tuple[MeasuredFront, ...], drawers: tuple[MeasuredFront, ...]
 ) -> dict[str, tuple[int, int]]:
     fronts = (*doors, *drawers)
     sides = Counter(f.hinge_side for f in doors if f.hinge_side)

@@ -11,7 +11,7 @@ from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.candidates import Scale, candidates, overlaps
 from grafu.segmentation.framed import framed, merged
-from grafu.segmentation.fronts import Front, fronts_among
+from grafu.segmentation.fronts import FrontShells, fronts_among
 from grafu.segmentation.view import MaskOfShells, OfShells, View, view_of
 
 _PLATE = 0.35  # of its shorter side: as thick as this an object is a plate
@@ -75,13 +75,13 @@ def divided(meshes: Sequence[TriangleMesh], open_to: Sequence[bool], whole: Sequ
     return {owner: _pieces(shells, owner, int(starts[owner]), fronts) for owner, fronts in sorted(found.items())}
 
 
-def _from_the_best_side(shells: Shells, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[Front, ...]]:
+def _from_the_best_side(shells: Shells, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[FrontShells, ...]]:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
     Fronts are clear where an object has several, or a handle on one: a side or the back is a plate without either.
     """
-    ahead: dict[int, tuple[Front, ...]] = {}
-    clear: dict[int, tuple[Front, ...]] = {}
+    ahead: dict[int, tuple[FrontShells, ...]] = {}
+    clear: dict[int, tuple[FrontShells, ...]] = {}
     most = 0.0
     for turn in range(4):
         view = view_of(shells.mesh, shells.shell, shells.owner, _axes(turn))
@@ -101,18 +101,18 @@ def _axes(turn: int) -> Mat3:
     return np.stack([np.cross(_Z, toward), _Z, toward])
 
 
-def _outline(view: View, front: Front) -> float:
+def _outline(view: View, front: FrontShells) -> float:
     """Returns the area of a front's bounding box as it is seen."""
     shells = [*front.shells]
     size = view.high[shells].max(axis=0) - view.low[shells].min(axis=0)
     return float(size[0] * size[1])
 
 
-def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[Front, ...]]:
+def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[FrontShells, ...]]:
     """Returns the fronts of each object that hides some."""
     view, members = merged(view, framed(view))
     may = may[[shells[0] for shells in members]]
-    found: dict[int, list[Front]] = {}
+    found: dict[int, list[FrontShells]] = {}
     for front in fronts_among(view, candidates(view, may)):
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
     flush = {owner: tuple(f for f in fronts if _is_flush(view, f)) for owner, fronts in found.items()}
@@ -120,7 +120,7 @@ def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> dict[int,
     return {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()}
 
 
-def _is_flush(view: View, front: Front) -> bool:
+def _is_flush(view: View, front: FrontShells) -> bool:
     """Whether a front lies near the front of its object and is no trifle."""
     plate = front.shells[0]
     own = np.flatnonzero(view.owner == view.owner[plate])
@@ -131,7 +131,7 @@ def _is_flush(view: View, front: Front) -> bool:
     return inside <= _FLUSH * depth + thick and shorter >= _SMALL * extent
 
 
-def _hides(view: View, owner: int, fronts: tuple[Front, ...], is_whole: bool) -> bool:
+def _hides(view: View, owner: int, fronts: tuple[FrontShells, ...], is_whole: bool) -> bool:
     """Whether an object is more than the fronts in it are: a case, or several fronts in one."""
     own = view.owner == owner
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
@@ -146,13 +146,13 @@ def _hides(view: View, owner: int, fronts: tuple[Front, ...], is_whole: bool) ->
     return len(major) > 1 or (bool(rest.any()) and _is_case(view, np.flatnonzero(rest), fronts))
 
 
-def _major(view: View, fronts: tuple[Front, ...]) -> tuple[Front, ...]:
+def _major(view: View, fronts: tuple[FrontShells, ...]) -> tuple[FrontShells, ...]:
     """Returns the fronts of some size: rails and stiles of one door are far smaller than its panel."""
     areas = [_outline(view, front) for front in fronts]
     return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= _ALIKE * max(areas))
 
 
-def _is_beside_panel(view: View, own: Indices, major: tuple[Front, ...]) -> bool:
+def _is_beside_panel(view: View, own: Indices, major: tuple[FrontShells, ...]) -> bool:
     """Whether a plate is one front beside a plate that is none: a control panel."""
     area = np.prod(view.size[:, :2], axis=1)
     size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
@@ -162,7 +162,7 @@ def _is_beside_panel(view: View, own: Indices, major: tuple[Front, ...]) -> bool
     return has_panel and bool(area[[plate, *beside]].sum() >= _FILLED * outline)
 
 
-def _is_case(view: View, rest: Indices, fronts: tuple[Front, ...]) -> bool:
+def _is_case(view: View, rest: Indices, fronts: tuple[FrontShells, ...]) -> bool:
     """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above."""
     plates = [front.shells[0] for front in fronts]
     near = 3 * float(Scale.of(view).near[plates[0]])
@@ -175,7 +175,7 @@ def _is_case(view: View, rest: Indices, fronts: tuple[Front, ...]) -> bool:
     return lid >= _LID * float((high - low)[0] * (high - low)[2])
 
 
-def _pieces(shells: Shells, owner: int, start: int, fronts: tuple[Front, ...]) -> list[Piece]:
+def _pieces(shells: Shells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[Piece]:
     faces = np.flatnonzero(shells.owner[shells.shell] == owner)
     of = shells.shell[faces]
     groups = [("front", front.shells) for front in fronts]

@@ -26,7 +26,7 @@ _ON_FRONT = 0.6  # of a handle's outline: what lies on its front
 
 @final
 @dataclass(frozen=True, slots=True)
-class Front:
+class FrontShells:
     """The shells of one door or drawer, the plate first, and those of each handle on it."""
 
     shells: tuple[int, ...]
@@ -37,13 +37,15 @@ class Front:
         """Every shell that moves with it."""
         return frozenset((*self.shells, *(shell for handle in self.handles for shell in handle)))
 
-    def made_of(self, members: Sequence[tuple[int, ...]]) -> "Front":
+    def made_of(self, members: Sequence[tuple[int, ...]]) -> "FrontShells":
         """Returns the front with each shell replaced by those that it is made of."""
         parts = tuple(m for shell in self.shells for m in members[shell])
-        return Front(parts, tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles))
+        return FrontShells(
+            parts, tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles)
+        )
 
 
-def fronts_among(view: View, plates: Indices) -> tuple[Front, ...]:
+def fronts_among(view: View, plates: Indices) -> tuple[FrontShells, ...]:
     """Returns the fronts that candidates form, each shell in one at most.
 
     Args:
@@ -97,7 +99,7 @@ class _Look:
         many = int(on.sum()) > 1 and covers >= _HALF * self._area[plate]
         return many and bool(self._area[plate] >= _WHOLE * self._scale.outline[plate])
 
-    def with_members(self, plate: int, taken: Iterable[int]) -> Front:
+    def with_members(self, plate: int, taken: Iterable[int]) -> FrontShells:
         """Returns the front of a plate: shells of its object that no front has yet, as they belong to it."""
         view = self._view
         free = view.owner == view.owner[plate]
@@ -106,7 +108,7 @@ class _Look:
         inside = free & ~handles & within(view, plate, float(self._scale.near[plate]))
         members = inside & self._lies_in(plate)
         members |= self._drawer_boards(plate, inside & ~members)
-        return Front((plate, *np.flatnonzero(members).tolist()), self._grouped(np.flatnonzero(handles)))
+        return FrontShells((plate, *np.flatnonzero(members).tolist()), self._grouped(np.flatnonzero(handles)))
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""
