@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from grafu.additions.interior.request import (
     AUTO,
-    MOST,
+    MOST_PANELS,
     NOTHING,
     PREDICTED,
     InteriorKind,
@@ -19,7 +19,7 @@ from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
 counted = st.builds(
-    lambda s, d: InteriorRequest(InteriorKind.COUNTED, s, d), st.integers(0, MOST), st.integers(0, MOST)
+    lambda s, d: InteriorRequest(InteriorKind.COUNTED, s, d), st.integers(0, MOST_PANELS), st.integers(0, MOST_PANELS)
 )
 
 
