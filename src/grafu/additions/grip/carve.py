@@ -23,6 +23,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.refusal import Asked, Reason, Refusal
+from grafu.scene.front import front_of
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -43,11 +44,10 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
         KeyError: if the scene has no such moving body.
     """
     moving = scene.moving_bodies[moving_id]
-    joint_motion = scene.joint_motions.get(moving_id)
-    if joint_motion is None:
+    if moving_id not in scene.joint_motions:
         return _no_grip(moving_id, Reason.NO_MOTION)
     scale = scene.metre
-    frame = grip_frame(scene.parts[moving.id].mesh, joint_motion, config)
+    frame = grip_frame(scene.parts[moving.id].mesh, front_of(scene, moving_id), config)
     part = front_part(scene, moving_id, frame)
     if part.id != moving_id:
         local = Box.around(frame.local(part.mesh.vertices[np.unique(part.mesh.faces)]))

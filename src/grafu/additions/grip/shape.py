@@ -3,8 +3,8 @@
 The grip frame: a door or drawer front seen from before it, with the edge at which it is gripped on top.
 
 X runs along the gripped edge, Y across the front towards it, Z outwards, right-handed; the frame shares its origin with
-the object frame. A door is gripped opposite its hinge, a drawer at its upper edge, a sliding door at the edge that
-trails when it opens.
+the object frame. It is a `grafu.scene.front.Front`, turned. A door is gripped opposite its hinge, a drawer at its upper
+edge, a sliding door at the edge that trails when it opens.
 """
 
 from dataclasses import dataclass, replace
@@ -15,13 +15,11 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripProfile, GripSize, GripSizes
-from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, freeze_arrays, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
-from grafu.joints.rail.search import slides_in_its_plane
-from grafu.scene.border import border_frame, part_axes
-from grafu.scene.scene import JointMotion
+from grafu.scene.front import Front
 
 
 @final
@@ -54,38 +52,19 @@ class GripFrame(ArrayValue):
         return points @ self.rotation.T
 
 
-def grip_frame(mesh: TriangleMesh, joint_motion: JointMotion, config: GripConfig) -> GripFrame:
-    """Returns the grip frame of a part that moves in a way."""
-    direction = np.asarray(joint_motion.axis.direction)
-    if joint_motion.kind.turns:
-        border = border_frame(mesh, joint_motion.axis)
-        along, towards, out = border.rotation[:, 2], border.rotation[:, 0], border.rotation[:, 1]
-    elif slides_in_its_plane(mesh, direction):
-        axes = part_axes(mesh)
-        out = axes[:, int(np.argmin(np.ptp(mesh.vertices @ axes, axis=0)))]
-        out = out * (-1.0 if _looks_back(out) else 1.0)
-        towards = -_across(direction, out)
-        along = np.cross(towards, out)
+def grip_frame(mesh: TriangleMesh, front: Front, config: GripConfig) -> GripFrame:
+    """Returns the grip frame of a part on a front: its upper edge is the one that a hand opens the front at.
+
+    A drawer has no such edge: there it is the one that the config names, of one that faces up the nearer edge.
+    """
+    upper = front.up if abs(float(front.up[2])) > abs(float(front.inwards[2])) else -front.up
+    if front.held is None:
+        towards = upper if config.drawer_side == "top" else -upper
     else:
-        axes = part_axes(mesh)
-        nearest = int(np.argmax(np.abs(axes.T @ direction)))
-        out = axes[:, nearest] * np.sign(float(axes[:, nearest] @ direction))
-        up = vec3(0.0, 0.0, 1.0) if abs(float(out[2])) < 0.5 else vec3(0.0, -1.0, 0.0)
-        towards = _across(up, out) * (1.0 if config.drawer_side == "top" else -1.0)
-        along = np.cross(towards, out)
-    rotation = np.column_stack([along, towards, out])
+        towards = {"left": -front.right, "right": front.right, "top": front.up, "bottom": -front.up}[front.held]
+    out = -front.inwards
+    rotation = np.column_stack([np.cross(towards, out), towards, out])
     return GripFrame(rotation, Box.around(mesh.vertices[np.unique(mesh.faces)] @ rotation))
-
-
-def _looks_back(out: Vec3) -> bool:
-    """Whether a sliding door's normal points to the object's back: its front is -Y, or else +X."""
-    return bool(out[1] > 0) if abs(float(out[1])) > 0.5 else bool(out[0] < 0)
-
-
-def _across(direction: Vec3, out: Vec3) -> Vec3:
-    """Returns the unit vector of a direction's part across another."""
-    flat = direction - out * float(direction @ out)
-    return np.asarray(flat / np.linalg.norm(flat))
 
 
 Outline = Float[np.ndarray, "n 2"]
