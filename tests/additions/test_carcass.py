@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 
 from grafu.additions.carcass.complete import complete_carcass
+from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.carcass.missing_panels import missing_panels
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
+from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import realize
+from grafu.scene.scale import metre_on
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
@@ -109,15 +112,28 @@ def test_turned_cabinets_are_judged_alike(turn):
     assert [a.part.label for a in made.additions] == [PartLabel.BACK_PANEL]
 
 
-@pytest.mark.parametrize("factor", [0.1, 10.0])
-def test_any_scale_is_judged_alike(factor):
-    asset = without(cabinet("pair"), PartLabel.BOTTOM_PANEL)
+def in_scale(asset: Asset, factor: float) -> Asset:
     T = np.diag([factor, factor, factor, 1.0])
     parts = tuple(replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts)
     joints = tuple(replace(j, axis=replace(j.axis, point=factor * j.axis.point)) for j in asset.joints)
-    made = closed(replace(asset, parts=parts, joints=joints))
+    return replace(asset, parts=parts, joints=joints)
+
+
+@pytest.mark.parametrize("factor", [0.1, 10.0])
+def test_any_scale_is_judged_alike(factor):
+    made = closed(in_scale(without(cabinet("pair"), PartLabel.BOTTOM_PANEL), factor))
     assert [a.part.label for a in made.additions] == [PartLabel.BOTTOM_PANEL]
     assert 1e-4 * factor < made.additions[0].part.box.size[2] < 0.03 * factor
+
+
+@pytest.mark.parametrize("factor", [1.0, 10.0, 30.0])
+def test_a_bottom_is_as_thick_as_the_scale_of_the_model_says(factor):
+    asset = in_scale(without(cabinet("pair"), PartLabel.BOTTOM_PANEL), factor)
+    extent = float(Box.enclosing(p.box for p in asset.parts).size.max())
+
+    bottom = closed(asset).additions[0].part.box
+
+    assert bottom.size[2] == pytest.approx(CarcassConfig().bottom * metre_on(extent))
 
 
 @pytest.mark.parametrize("options", [{}, {"has_aprons": False}, {"two_sided": True}])

@@ -7,13 +7,16 @@ import numpy as np
 import pytest
 
 from grafu.additions.drawer_box.complete import complete_drawers
+from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import realize
+from grafu.scene.scale import metre_on
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Drawer, DrawerBox, Stack
@@ -53,6 +56,20 @@ def test_what_has_a_box_lacks_nothing(kind):
     made = found(stack(kind))
     assert [v.kind for v in made.verdicts] == ["whole", "whole"]
     assert made.additions == ()
+
+
+@pytest.mark.parametrize("factor", [1.0, 10.0, 30.0])
+def test_walls_are_as_thick_as_the_scale_of_the_model_says(factor):
+    asset = stack("front only")
+    T = np.diag([factor, factor, factor, 1.0])
+    parts = tuple(replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts)
+    joints = tuple(replace(j, axis=replace(j.axis, point=factor * j.axis.point)) for j in asset.joints)
+    extent = float(Box.enclosing(p.box for p in parts).size.max())
+
+    boards = found(replace(asset, parts=parts, joints=joints)).additions
+
+    sides = [a.part.box.size[0] for a in boards if "side" in a.part.id]
+    assert sides == pytest.approx([DrawerBoxConfig().wall * metre_on(extent)] * 4)
 
 
 @pytest.mark.parametrize("depth", [0.41, 0.56, 0.73, 0.95])

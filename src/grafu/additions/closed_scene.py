@@ -69,12 +69,13 @@ def closed_scene(parts: Iterable[Part], plan: RealizationPlan) -> ClosedScene:
     for request in requests:
         if request.drawn_at > 0:
             for member in moving_bodies[request.moving].members:
-                known[member] = _closed(known[member], request)
+                known[member] = closed_part(known[member], request)
     whole = Box.enclosing(part.box for part in known.values())
     return ClosedScene(Scene(known, moving_bodies, float(whole.size.max())), requests)
 
 
-def _closed(part: Part, request: JointRequest) -> Part:
+def closed_part(part: Part, request: JointRequest) -> Part:
+    """Returns a part that moves with a joint as it stands when the joint is closed."""
     T = request.kind.transform(request.axis, -request.drawn_at)
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 

@@ -164,6 +164,7 @@ def complete_carcass(
 ) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
     closed = closed_scene(parts, plan)
+    config = config.at_scale(closed.scene.metre)
     missing = panels_missing(closed, config)
     additions: list[Addition] = []
     refused: list[Refusal] = []

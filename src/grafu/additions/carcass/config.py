@@ -1,6 +1,6 @@
 """What counts as a carcass that lacks its back or bottom, and how the boards that close it are sized."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, radians
 from typing import final
 
@@ -10,7 +10,7 @@ from grafu.scene.checks import require_positive
 @final
 @dataclass(frozen=True)
 class CarcassConfig:
-    """Lengths are metres and hold for furniture of real size; fractions keep them sensible in any other.
+    """Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
 
     Raises:
         ValueError: if a length or a fraction is not above 0.
@@ -73,3 +73,8 @@ class CarcassConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
+
+    def at_scale(self, metre: float) -> "CarcassConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("back", "bottom", "gap", "on_edge", "front_thickness", "inset", "held", "touch")
+        return replace(self, **{name: metre * getattr(self, name) for name in lengths})

@@ -44,11 +44,11 @@ def missing_panels(
 ) -> tuple[MissingPanel, ...]:
     """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
     closed = closed_scene(parts, plan)
-    return panels_missing(closed, config)
+    return panels_missing(closed, config.at_scale(closed.scene.metre))
 
 
-def panels_missing(closed: ClosedScene, config: CarcassConfig = CarcassConfig()) -> tuple[MissingPanel, ...]:
-    """Returns what the bodies lack, all moving bodies closed."""
+def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingPanel, ...]:
+    """Returns what the bodies lack, all moving bodies closed; `config` is at the scale of the scene."""
     found: list[MissingPanel] = []
     for view in find_views(closed.scene, closed.requests, config):
         bays = [

@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 
 from grafu.additions.addition import Addition, added_part, free_ids
-from grafu.additions.closed_scene import ClosedScene, closed_scene
+from grafu.additions.closed_scene import ClosedScene, closed_part, closed_scene
 from grafu.additions.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.drawer_box.loose import loose_boards
@@ -77,6 +77,7 @@ def complete_drawers(
     if not requests:
         return DrawerBoxes()
     closed = closed_scene(parts, plan)
+    config = config.at_scale(closed.scene.metre)
     verdicts: list[BoxVerdict] = []
     additions: list[Addition] = []
     refused: list[Refusal] = []
@@ -103,19 +104,17 @@ def complete_drawers(
             continue
         additions += made
         known |= {addition.part.id for addition in made}
-        closed = closed.with_parts(tuple(_closed(a.part, request) for a in made))
+        closed = closed.with_parts(tuple(closed_part(a.part, request) for a in made))
     return DrawerBoxes(tuple(verdicts), tuple(additions), tuple(refused), tuple(loose))
 
 
-def find_loose(
-    request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DrawerBoxConfig()
-) -> tuple[str, ...]:
+def find_loose(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig) -> tuple[str, ...]:
     """Returns the still parts that are boards of the box behind a mere front."""
     frame, mesh = _framed(request, closed.scene)
     return loose_boards(request, mesh, frame, closed, config) if frame is not None and mesh is not None else ()
 
 
-def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DrawerBoxConfig()) -> BoxVerdict:
+def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig) -> BoxVerdict:
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
     frame, mesh = _framed(request, closed.scene)
     if frame is None or mesh is None:
@@ -129,7 +128,7 @@ def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxCon
 
 
 def drawn_with_the_case(
-    verdict: BoxVerdict, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig = DrawerBoxConfig()
+    verdict: BoxVerdict, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig
 ) -> bool:
     """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
 
@@ -151,7 +150,7 @@ def drawer_box(
     verdict: BoxVerdict,
     request: JointRequest,
     closed: ClosedScene,
-    config: DrawerBoxConfig = DrawerBoxConfig(),
+    config: DrawerBoxConfig,
     taken: Iterable[str] = (),
 ) -> tuple[Addition, ...] | Refusal:
     """Returns the boards that a drawer lacks, at rest as the drawer is drawn, or why there can be none.
@@ -240,8 +239,3 @@ def _additions(
         part = added_part(part_id, PartLabel.MISC, (surface,), request.moving)
         made.append(Addition(part, f"{request.moving}: {why}", "drawer box"))
     return tuple(made)
-
-
-def _closed(part: Part, request: JointRequest) -> Part:
-    T = translation(-request.drawn_at * np.asarray(request.axis.direction))
-    return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))

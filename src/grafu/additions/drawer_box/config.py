@@ -1,6 +1,6 @@
 """What counts as a drawer's box, and how the boards that are added are sized."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.scene.checks import require_positive
@@ -9,7 +9,7 @@ from grafu.scene.checks import require_positive
 @final
 @dataclass(frozen=True)
 class DrawerBoxConfig:
-    """Lengths are metres and hold for furniture of real size; fractions of the front keep them sensible in any other.
+    """Lengths are metres on furniture of usual size, on small fronts less; see `at_scale` for models in another scale.
 
     Raises:
         ValueError: if a length or a fraction is not above 0.
@@ -82,3 +82,9 @@ class DrawerBoxConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
+
+    def at_scale(self, metre: float) -> "DrawerBoxConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("side_gap", "under", "over", "behind", "wall", "bottom", "highest", "rim", "drawn_in", "inset")
+        lengths += ("to_front", "touch", "sticks_out")
+        return replace(self, **{name: metre * getattr(self, name) for name in lengths})

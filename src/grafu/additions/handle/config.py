@@ -69,7 +69,7 @@ class FingerRoomConfig:
 @final
 @dataclass(frozen=True)
 class GraspConfig:
-    """What counts as room for fingers; see `at_scale` for models of another size.
+    """What counts as room for fingers; see `grafu.scene.scale` for models in another scale.
 
     Raises:
         ValueError: if a number is not above 0, a fraction is not between 0 and 1, or a confidence is above 1.

@@ -70,14 +70,10 @@ def by_size(compartment: Compartment, sizes: Sizes, config: InteriorConfig) -> A
         return Arrangement(dividers=min(max(round(width / sizes.divider_pitch) - 1, 0), 2))
     if width < 1.5 * sizes.least_side:
         return Arrangement()
-    if is_for_hanging(compartment, sizes, config):
+    if is_for_hanging(compartment, sizes):
         above = height - sizes.hanging_height - sizes.thickness
         hat = float(compartment.box.high[2]) - min(above, sizes.shelf_pitch) - sizes.thickness / 2
-        return (
-            Arrangement(shelf_at=(hat,))
-            if above >= config.hat * sizes.shelf_pitch / config.shelf_pitch
-            else Arrangement()
-        )
+        return Arrangement(shelf_at=(hat,)) if above >= sizes.hat else Arrangement()
     shelves = min(max(round(height / sizes.shelf_pitch) - 1, 0), most)
     pitch = sizes.divider_pitch * (1.0 if not compartment.behind else 1.5)  # doors are dividers enough for most
     is_low = shelves == 0 and width >= 2.5 * height
@@ -85,12 +81,11 @@ def by_size(compartment: Compartment, sizes: Sizes, config: InteriorConfig) -> A
     return Arrangement(shelves, dividers)
 
 
-def is_for_hanging(compartment: Compartment, sizes: Sizes, config: InteriorConfig) -> bool:
+def is_for_hanging(compartment: Compartment, sizes: Sizes) -> bool:
     """Whether a compartment behind doors is as tall, wide and deep as a wardrobe's."""
     size = compartment.box.size
-    scale = sizes.hanging_height / config.hanging_height
     depth, width = float(size[compartment.depth_axis]), float(size[compartment.side_axis])
-    wide = min(depth, width) >= config.hanging_depth * scale
+    wide = min(depth, width) >= sizes.hanging_depth
     return bool(compartment.behind) and wide and float(size[2]) >= sizes.hanging_height
 
 

@@ -1,7 +1,6 @@
 """What an interior is made of, and how small a compartment may be.
 
-Lengths are metres, held between fractions of the object: so a model that is drawn ten times too large or too small gets
-panels in its own scale.
+Lengths are metres on furniture of usual size; a model in another scale gets panels in its own (`grafu.scene.scale`).
 """
 
 from dataclasses import dataclass
@@ -9,6 +8,7 @@ from typing import final
 
 from grafu.joints.config import RealizationConfig
 from grafu.scene.checks import require_not_negative, require_positive, require_ratios
+from grafu.scene.scale import metre_on
 
 
 @final
@@ -124,15 +124,18 @@ class InteriorConfig:
 
     def sizes(self, extent: float) -> "Sizes":
         """Returns the lengths for an object whose largest side is `extent` metres."""
+        metre = metre_on(extent)
         return Sizes(
-            thickness=_held(self.thickness, extent, 0.006, 0.03),
-            inset=_held(self.inset, extent, 0.008, 0.03),
-            least_side=_held(self.least_side, extent, 0.04, 0.12),
-            least_pitch=_held(self.least_pitch, extent, 0.03, 0.12),
-            shelf_pitch=_held(self.shelf_pitch, extent, 0.12, 0.42),
-            divider_pitch=_held(self.divider_pitch, extent, 0.2, 0.5),
-            hanging_height=_held(self.hanging_height, extent, 0.4, 1.2),
-            touch=_held(self.touch, extent, 0.0008, 0.002),
+            thickness=metre * self.thickness,
+            inset=metre * self.inset,
+            least_side=metre * self.least_side,
+            least_pitch=metre * self.least_pitch,
+            shelf_pitch=metre * self.shelf_pitch,
+            divider_pitch=metre * self.divider_pitch,
+            hanging_height=metre * self.hanging_height,
+            hanging_depth=metre * self.hanging_depth,
+            hat=metre * self.hat,
+            touch=metre * self.touch,
             cell=extent / self.cells,
         )
 
@@ -149,9 +152,7 @@ class Sizes:
     shelf_pitch: float
     divider_pitch: float
     hanging_height: float
+    hanging_depth: float
+    hat: float
     touch: float
     cell: float
-
-
-def _held(metres: float, extent: float, least: float, most: float) -> float:
-    return min(max(metres, least * extent), most * extent)
