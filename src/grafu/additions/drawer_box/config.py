@@ -85,6 +85,6 @@ class DrawerBoxConfig:
 
     def at_scale(self, metre: float) -> "DrawerBoxConfig":
         """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("side_gap", "under", "over", "behind", "wall", "bottom", "highest", "rim", "drawn_in", "inset")
-        lengths += ("to_front", "touch", "sticks_out")
-        return replace(self, **{name: metre * getattr(self, name) for name in lengths})
+        boards = ("side_gap", "under", "over", "behind", "wall", "bottom", "highest", "inset", "to_front")
+        seen = ("rim", "drawn_in", "touch", "sticks_out")
+        return replace(self, **{name: metre * getattr(self, name) for name in (*boards, *seen)})
