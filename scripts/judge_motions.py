@@ -30,7 +30,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph
 from grafu.joints.make_plan import plan_from_completion
 from grafu.metrics.motion import Motion, compare_motions
-from grafu.pipeline.learned import complete_by_weights
+from grafu.pipeline.complete import complete_by_weights
 from grafu.vocabulary import PartLabel
 
 GONE = 0.25  # of the parts that stand still

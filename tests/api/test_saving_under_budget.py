@@ -7,9 +7,9 @@ import pytest
 from clocks import Clock
 from grafu.api.saving import Saved, files_of
 from grafu.geometry.budget import UNLIMITED, Budget
-from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.words import FaultKind
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack

@@ -46,7 +46,7 @@ def _particulate(folder: Path) -> None:
 def _official(folder: Path) -> None:
     from grafu.graph.official_json import functional_to_official, input_to_official
     from grafu.graph.parse import parse_graph
-    from grafu.pipeline.annotation import complete_by_annotation
+    from grafu.pipeline.complete import complete_by_annotation
 
     asset = _asset()
     stated = functional_to_official(complete_by_annotation(asset, parse_graph(asset)).completed)
@@ -89,7 +89,7 @@ def templates(folder: Path) -> str:
 def graph(folder: Path) -> str:
     from grafu.graph.parse import parse_graph
     from grafu.graph.serialize import completion_to_json, dump_json
-    from grafu.pipeline.annotation import complete_by_annotation
+    from grafu.pipeline.complete import complete_by_annotation
 
     asset = _asset()
     text = dump_json(completion_to_json(complete_by_annotation(asset, parse_graph(asset))))

@@ -17,7 +17,7 @@ from grafu.graph.official_json import functional_to_official, input_to_official
 from grafu.graph.official_prediction import read_prediction
 from grafu.graph.parse import parse_graph
 from grafu.joints.make_plan import plan_from_annotation
-from grafu.pipeline.annotation import complete_by_annotation
+from grafu.pipeline.complete import complete_by_annotation
 from grafu.vocabulary import JointType, PartLabel
 from predictions import cabinet, unlabelled
 

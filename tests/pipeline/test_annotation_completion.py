@@ -10,7 +10,7 @@ from grafu.geometry.axis import Axis
 from grafu.graph.edges import Slide
 from grafu.graph.motion import code_to_direction, hinge_to_axis, rail_to_axis
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.annotation import complete_by_annotation
+from grafu.pipeline.complete import complete_by_annotation
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack

@@ -54,7 +54,7 @@ def test_auto_takes_the_first_that_can_answer(asset: Asset, monkeypatch: pytest.
 def test_the_network_without_weights_says_so_in_one_line(
     asset: Asset, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("grafu.pipeline.learned.open_network", lambda _: open_network(tmp_path / "none.onnx"))
+    monkeypatch.setattr("grafu.pipeline.complete.open_network", lambda _: open_network(tmp_path / "none.onnx"))
     with pytest.raises(WeightsError, match=r"there are no trained weights at `.*`: use another motion source") as error:
         functionalize(asset, MotionSource.NETWORK, builtin_gallery())
     assert "\n" not in str(error.value)
@@ -68,9 +68,9 @@ def test_the_network_sees_points_and_no_annotation(asset: Asset, monkeypatch: py
         assert features == FeatureConfig(points=64)
         return replace(complete_by_rule(graph), source="network")
 
-    monkeypatch.setattr("grafu.pipeline.learned.complete_by_network", complete)
+    monkeypatch.setattr("grafu.pipeline.complete.complete_by_network", complete)
     network = SimpleNamespace(features=FeatureConfig(points=64))
-    monkeypatch.setattr("grafu.pipeline.learned.open_network", lambda _: network)
+    monkeypatch.setattr("grafu.pipeline.complete.open_network", lambda _: network)
     found = functionalize(asset, MotionSource.NETWORK, builtin_gallery())
     stripped = functionalize(asset.without_annotation(), MotionSource.NETWORK, builtin_gallery())
 

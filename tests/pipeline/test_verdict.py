@@ -15,13 +15,13 @@ from grafu.additions.config import NO_ADDITIONS
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import LEAST_CONFIDENCE, LEAST_OPENING, MOST_CARVED, verdict_of
+from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case

@@ -8,10 +8,10 @@ from page_reader import PageReader
 
 from grafu.cli.job import Job, JobOptions, Succeeded
 from grafu.cli.summary import print_results
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import NOT_ADDED, SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import verdict_of
+from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
 from grafu.viewer.report_tables import not_built_table
 from grafu.viewer.run_table import RunEntry, functionalized_run

@@ -125,7 +125,6 @@ def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
     moved = {i: d.motion for d, i in zip(drafts, ids, strict=True) if d.motion}
     moving = {link: i for link, i in by_body.items() if i in moved}
     joints = tuple(_joint(motion, i, moving) for i, motion in moved.items())
-    notes += [f"{j.part} follows {j.coupling.leader}, which is noted and not built" for j in joints if j.coupling]
     return Annotation(parts, joints, tuple(notes))
 
 

@@ -10,10 +10,9 @@ from rich.table import Table
 from grafu.articulation.motion_kind import motion_kind
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
-from grafu.pipeline.words import counted, cut_in_words, listed, percent
+from grafu.pipeline.words import Colour, FaultKind, counted, cut_in_words, listed, percent
 from grafu.viewer.wording import added, unused_joints
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)

@@ -40,8 +40,8 @@ class AnnotatedEdges:
 def annotated_edges(asset: Asset, graph: FunctionalGraph) -> AnnotatedEdges:
     """Returns an edge for each annotated joint and each handle that rides on a door or drawer of the graph.
 
-    A joint that the codes cannot say (a door that turns across its plane), and a door or drawer without a joint,
-     are refused with the reason.
+    A joint that no edge can express (a door that turns across its plane, a joint on a moving part), and a door or
+    drawer without a joint, are refused with the reason.
     """
     edges: list[Attached | Hinge | Rail | Slide] = list(_attachments(asset, graph))
     refused = {node.id: _NOT_STATED for node in graph.nodes if node.label.is_movable}
@@ -49,6 +49,8 @@ def annotated_edges(asset: Asset, graph: FunctionalGraph) -> AnnotatedEdges:
     still = [node for node in graph.nodes if node.label.is_support and node.id not in joints]
     for part, joint in joints.items():
         try:
+            if asset.part(part).rides_on in joints:
+                raise GraphError(f"a functional graph has no edge for a joint on a moving part: {part} is on one")
             edges += joint_edges(joint, graph, still)
             refused.pop(part, None)
         except GraphError as error:

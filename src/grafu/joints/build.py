@@ -15,11 +15,10 @@ from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.place import place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
-from grafu.joints.placement import Placement
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
-from grafu.joints.report import Clearance
+from grafu.joints.report import Clearance, Placement
 from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import JointMotion, Scene
@@ -42,9 +41,12 @@ class Built:
 
 
 def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
-    """Returns the joint as built, or why it could not be; a chosen opening may be wider than doors have by default."""
-    opening = request.choice.opening
-    if opening is not None:
+    """Returns the joint as built, or why it could not be.
+
+    An opening that was chosen, or that follows from a leader's, may be wider than doors have by default.
+    """
+    opening = request.choice.opening if request.coupling is None else request.reference
+    if opening is not None and request.kind.turns:
         config = replace(config, door_opening=max(config.door_opening, opening))
     return _BUILDERS[request.type](request, scene, gallery, config)
 
@@ -123,7 +125,8 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
-    if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in scene.static_obstacles):
+    held_by = [o for o in scene.static_obstacles if not request.holders or o.id in request.holders]
+    if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in held_by):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < 0.3:

@@ -54,13 +54,24 @@ Outcomes = tuple[list[Built], list[Refusal], Scene]
 
 
 def in_order(joints: Iterable[JointRequest]) -> list[JointRequest]:
-    """Returns one request per part (the first), doors before drawers, attached parts never on their own."""
+    """Returns one request per part (the first), doors before drawers; attached parts only if their parent is stated.
+
+    Where the stated parent has no request, it is the part without others between that the moving part is attached to.
+    """
     first: dict[str, JointRequest] = {}
     for request in joints:
         first.setdefault(request.moving, request)
     ridden = {part for request in first.values() for part in request.attached}
-    kept = [request for request in first.values() if request.moving not in ridden]
-    return sorted(kept, key=lambda r: not r.kind.turns)
+    kept = [request for request in first.values() if request.parent or request.moving not in ridden]
+    return sorted((_on_requested(request, kept) for request in kept), key=lambda r: not r.kind.turns)
+
+
+def _on_requested(request: JointRequest, requests: Sequence[JointRequest]) -> JointRequest:
+    if request.parent in ("", *(other.moving for other in requests)):
+        return request
+    above = [other for other in requests if request.moving in other.attached]
+    nearest = min(above, key=lambda other: len(other.attached), default=None)
+    return replace(request, parent=nearest.moving if nearest else "")
 
 
 def build_fairly(

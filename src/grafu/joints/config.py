@@ -88,6 +88,8 @@ class RealizationConfig:
     """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (extent)."""
     bridge: float = 0.6
     """Longest support block (extent)."""
+    chosen_reach: float = 0.1
+    """Longest block (extent) that bridges the gap to a chosen mount: what stands farther off does not carry it."""
     door_opening: float = radians(110)
     """How far a door may open at most; real butt hinges stop the leaf at about 110 degrees."""
     restricted: float = 0.7
@@ -118,7 +120,9 @@ class RealizationConfig:
     """Of doors' hinges and pivots."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "depth", "contact", "flush", "anchor", "bridge", "door_opening", "body_tolerance")
+        require_positive(
+            self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
+        )
         require_ratios(
             self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
         )

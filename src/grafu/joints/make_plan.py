@@ -3,12 +3,13 @@
 Both give initial axes only; what is built from them cannot tell the sources apart.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
-from grafu.articulation.articulated_object import Joint, JointLimits
+from grafu.articulation.articulated_object import Coupling, Joint, JointLimits
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.box import Box
@@ -27,11 +28,14 @@ _PLAY = 0.25
 def plan_from_annotation(asset: Asset) -> RealizationPlan:
     """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one.
 
-    Joints that another system predicted count as stated; each request's source says who stated it.
+    Joints that another system predicted count as stated; each request's source says who stated it. A part that rides on
+    a moving part is carried by it; a joint that follows another is coupled to it.
     """
     others = {joint.stated_by for joint in asset.joints} - {"annotation"}
     who = " and ".join(sorted(others)) or "the input"
-    requests = tuple(_from_joint(joint, asset) for joint in asset.joints)
+    joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
+    made = {part: _from_joint(_in_step(joint, joints), asset) for part, joint in joints.items()}
+    requests = tuple(_linked(made[part], joints, made, asset) for part in dict.fromkeys(j.part for j in asset.joints))
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
     refused = tuple(
         Refusal(part.id, Reason.NO_MOTION, f"{who} states no joint for it")
@@ -103,6 +107,61 @@ def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
         reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out is unknown
     attached = attached_to(asset, ()).get(joint.part, ())
     return JointRequest(joint.part, joint.type, axis, joint.stated_by, reference, (), attached, drawn_at)
+
+
+def _in_step(joint: AnnotatedJoint, joints: Mapping[str, AnnotatedJoint]) -> AnnotatedJoint:
+    """Returns a joint with the range that it has while its leader keeps to its own; as it is where it follows none."""
+    if joint.coupling is None or _leads_back(joint, joints):
+        return joint
+    leader = _in_step(joints[joint.coupling.leader], joints)
+    ends = (leader.lower, leader.upper) if leader.limited else (0.0, pi / 2)
+    if not leader.limited and motion_kind(leader.type).slides:
+        return joint
+    lower, upper = sorted(joint.coupling.value(end) for end in ends)
+    return replace(joint, lower=lower, upper=upper, limited=True)
+
+
+def _leads_back(joint: AnnotatedJoint, joints: Mapping[str, AnnotatedJoint]) -> bool:
+    """Whether the joints that a joint follows end nowhere: in a circle, or at a part without a joint."""
+    seen = {joint.part}
+    while joint.coupling is not None:
+        leader = joint.coupling.leader
+        if leader in seen or leader not in joints:
+            return True
+        seen.add(leader)
+        joint = joints[leader]
+    return False
+
+
+def _linked(
+    request: JointRequest, joints: Mapping[str, AnnotatedJoint], made: Mapping[str, JointRequest], asset: Asset
+) -> JointRequest:
+    """Returns a request with the moving part that carries it and the coupling, in values that count from closed."""
+    joint = joints[request.moving]
+    parent = _carrying_part(request.moving, made, asset)
+    if joint.coupling is None or _leads_back(joint, joints):
+        return replace(request, parent=parent)
+    leader = made[joint.coupling.leader]
+    own, its = _sign(request, joint), _sign(leader, joints[leader.moving])
+    multiplier = own * joint.coupling.multiplier * its
+    offset = own * joint.coupling.offset + request.drawn_at - multiplier * leader.drawn_at
+    return replace(request, parent=parent, coupling=Coupling(leader.moving, multiplier, offset))
+
+
+def _sign(request: JointRequest, joint: AnnotatedJoint) -> float:
+    """Returns 1 where positive values of the stated joint open, else -1."""
+    return 1.0 if float(np.dot(request.axis.direction, joint.axis.direction)) > 0 else -1.0
+
+
+def _carrying_part(moving: str, made: Mapping[str, JointRequest], asset: Asset) -> str:
+    """Returns the nearest part with a joint that a part rides on; "" where the static body carries it."""
+    seen, above = {moving}, asset.part(moving).rides_on
+    while above is not None and above not in made:
+        if above in seen:
+            return ""
+        seen.add(above)
+        above = asset.part(above).rides_on
+    return "" if above is None or above == moving else above
 
 
 def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float) -> float:

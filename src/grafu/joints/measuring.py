@@ -19,8 +19,8 @@ from grafu.joints.build_all import joint_ratio
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, sweep, swept_box
 from grafu.joints.order import Order
-from grafu.joints.placement import Placement
 from grafu.joints.plan import JointRequest
+from grafu.joints.report import Placement
 from grafu.processes.cache import Cache
 from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes

@@ -6,6 +6,7 @@ from enum import StrEnum
 from math import isfinite
 from typing import final
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.geometry.axis import Axis
 from grafu.refusal import Refusal
@@ -83,6 +84,10 @@ class JointRequest:
     that should carry it, best first; empty leaves the choice to the geometry. `attached` move with the part (handles).
     `source` says where the motion came from. `drawn_at` is the joint value at which the input draws the part: where it
     is not 0 the part is drawn ajar, and is closed before anything is built. `choice` narrows the search for hardware.
+
+    `parent` is the moving part that carries the joint ("": the static body); the part is among what is `attached` to
+    it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.
+    `carriers` are the parts that alone may hold the hardware (empty: every static part).
     """
 
     moving: str
@@ -94,15 +99,25 @@ class JointRequest:
     attached: tuple[str, ...] = ()
     drawn_at: float = 0.0
     choice: JointChoice = AUTOMATIC
+    parent: str = ""
+    coupling: Coupling | None = None
+    carriers: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.kind.moves:
             raise ValueError(f"`JointRequest.type` must be one that moves: got {self.type} for {self.moving}")
+        if self.moving in (self.parent, self.coupling and self.coupling.leader):
+            raise ValueError(f"`parent` and the leader must be other parts: got {self.moving}")
 
     @property
     def kind(self) -> MotionKind:
         """How it moves, and what everyone asks about it."""
         return motion_kind(self.type)
+
+    @property
+    def holders(self) -> tuple[str, ...]:
+        """The parts that alone may hold the hardware: the chosen mount, else its carriers; empty: every static part."""
+        return (self.choice.mount,) if self.choice.mount else self.carriers
 
 
 @final

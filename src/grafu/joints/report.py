@@ -1,11 +1,34 @@
-"""The outcome of each request: installed with its figures, or refused with a reason."""
+"""The hardware that was placed for a joint, and the outcome of each request: installed with its figures, or refused."""
 
 from dataclasses import dataclass
 from typing import final
 
+from grafu.articulation.articulated_object import Visual
 from grafu.geometry.axis import Axis
 from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
+
+
+@final
+@dataclass(frozen=True)
+class Placement:
+    """The hardware of one joint in the object frame at rest: rectified axis, opening (radians or metres), both ends.
+
+    `in_way` names the moving bodies that the part meets at rest along its path, `struck_by` those that run into the
+    hardware on theirs; `notes` say what was left out for their sake.
+    """
+
+    axis: Axis
+    upper: float
+    mechanism: MechanismClass
+    template: str
+    mount: str
+    count: int
+    dynamic: tuple[Visual, ...]
+    static: tuple[Visual, ...]
+    in_way: tuple[str, ...]
+    struck_by: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 @final

@@ -1,4 +1,4 @@
-"""Support blocks: prisms that bridge the gap between a piece of hardware and what carries it.
+"""Support blocks: prisms that bridge the gap between a piece of hardware and what carries it; which part that is.
 
 A block starts at a rectangle (a snap plane) and is extruded until it meets a surface; rays say how far that is.
 """
@@ -13,9 +13,12 @@ from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.box import Box
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
+from grafu.joints.plan import JointRequest
+from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 WOOD = Material("support block", base_color=(0.42, 0.31, 0.2, 1.0), roughness=0.85)
@@ -71,3 +74,12 @@ def shortest_bridge(footings: Iterable[Footing], target: RayCaster, reach: float
     found = [(footing, footing.gap(target, reach)) for footing in footings]
     reached = [(footing, gap) for footing, gap in found if np.isfinite(gap)]
     return min(reached, key=lambda pair: pair[1], default=None)
+
+
+def nearest_part(hardware: Visual, scene: Scene, request: JointRequest) -> str:
+    """Returns the id of the static part that hardware sits on, "" where none is near; a wanted mount wins a draw."""
+    collider = MeshCollider(hardware.mesh)
+    held_by = [o for o in scene.static_obstacles if not request.holders or o.id in request.holders]
+    near = [o for o in held_by if o.collider.box.overlaps(collider.box, 0.1 * scene.extent)]
+    ranked = sorted((round(collider.distance(o.collider), 4), o.id not in request.mounts, o.id) for o in near)
+    return ranked[0][2] if ranked else ""

@@ -28,9 +28,8 @@ from grafu.joints.plan import JointChoice, RealizationPlan
 from grafu.joints.realize import realize
 from grafu.joints.report import RealizationReport
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
-from grafu.pipeline.annotation import complete_by_annotation
 from grafu.pipeline.built_graph import as_built, without_removed
-from grafu.pipeline.learned import complete_by_weights
+from grafu.pipeline.complete import complete_by_annotation, complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.stages import (

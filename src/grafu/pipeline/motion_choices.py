@@ -150,7 +150,7 @@ def plan_with_motions(
     attachments = ((edge.parent, edge.child) for edge in completion.completed.attachments)
     attached = attached_to(asset, attachments)
     stated = [part for part, choice in motions.items() if choice.moves is not Moves.FIXED]
-    kept = tuple(_without_parts(r, stated) for r in plan.joints if r.moving not in motions)
+    kept = tuple(_uncoupled(_without_parts(r, stated), motions) for r in plan.joints if r.moving not in motions)
     requests = [_request(asset.part(p), motions[p], attached.get(p, ()), completion, asset) for p in stated]
     moving_bodies = {request.moving for request in (*kept, *requests)}
     requests = [_without_parts(request, sorted(moving_bodies - {request.moving})) for request in requests]
@@ -162,6 +162,12 @@ def plan_with_motions(
 
 def _without_parts(request: JointRequest, moving_bodies: Sequence[str]) -> JointRequest:
     return replace(request, attached=tuple(part for part in request.attached if part not in moving_bodies))
+
+
+def _uncoupled(request: JointRequest, motions: Motions) -> JointRequest:
+    """Returns a request that follows no joint whose motion the user states or rejects."""
+    leads = request.coupling is not None and request.coupling.leader in motions
+    return replace(request, coupling=None) if leads else request
 
 
 def _request(

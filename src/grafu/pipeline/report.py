@@ -114,8 +114,10 @@ def _part_record(part: Part, category: PartLabel, link: str) -> PartRecord:
 def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
     joints = {joint.id: joint for joint in result.object.joints}
     grasps = _grasps(result)
+    pulled = {name: result.object.leader_of(joint).child for name, joint in joints.items()}
     return tuple(
-        _joint_record(made, joints[made.joint], grasps.get(made.moving, "none")) for made in result.report.installed
+        _joint_record(made, joints[made.joint], grasps.get(made.moving, grasps.get(pulled[made.joint], "none")))
+        for made in result.report.installed
     )
 
 

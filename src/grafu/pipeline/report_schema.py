@@ -9,8 +9,8 @@ from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
 from grafu.additions.step import DeficiencyKind
 from grafu.graph.completion import Question
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
 
@@ -122,7 +122,7 @@ class JointRecord(ReportRecord):
     origin: Vector = Field(description="a point on the rectified axis")
     lower: float = Field(description="the lower limit; 0 is closed")
     upper: float = Field(description="the upper limit, rectified")
-    mount: str = Field(description="the static part that carries it")
+    mount: str = Field(description="the part that carries it: a static one, or one of the link `parent`")
     mechanism: MechanismClass = Field(description="the class of mechanism")
     template: str = Field(description="the template that was installed")
     count: int = Field(description="how many hinges or rails")
@@ -141,7 +141,7 @@ class JointRecord(ReportRecord):
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
     parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not stated")
     follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
-    grasp: Grasp = Field(description="how it can be grasped")
+    grasp: Grasp = Field(description="how it can be grasped; what follows a leader and has no grasp: by the leader's")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="anything else worth knowing")
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import NOT_ADDED, FaultRecord, Report
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
+from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked
 
 

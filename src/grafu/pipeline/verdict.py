@@ -9,7 +9,6 @@ from math import prod
 from typing import Final
 
 from grafu.articulation.motion_kind import motion_kind
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
     FaultRecord,
@@ -19,7 +18,7 @@ from grafu.pipeline.report_schema import (
     SkippedRecord,
     VerdictRecord,
 )
-from grafu.pipeline.words import counted, listed, percent
+from grafu.pipeline.words import Colour, FaultKind, counted, listed, percent
 from grafu.refusal import Reason
 from grafu.vocabulary import PartLabel
 

@@ -155,10 +155,10 @@ class Scene:
         others = (other for other in self.moving_bodies if other != moving_id)
         return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
 
-    def is_near_static(self, mesh: TriangleMesh, within: float, of: str = "") -> bool:
-        """Whether a mesh comes within so many metres of a static part (`of`: of that one alone)."""
+    def is_near_static(self, mesh: TriangleMesh, within: float, of: Collection[str] = ()) -> bool:
+        """Whether a mesh comes within so many metres of a static part (`of`: of one of these)."""
         collider = MeshCollider(mesh)
-        obstacles = (obstacle for obstacle in self.static_obstacles if of in ("", obstacle.id))
+        obstacles = (obstacle for obstacle in self.static_obstacles if not of or obstacle.id in of)
         return any(collider.is_within(within, obstacle.collider) for obstacle in obstacles)
 
     def hardware_of(self, moving_id: str) -> tuple[Visual, ...]:
@@ -213,7 +213,7 @@ class Scene:
             self, hardware=(*self.hardware, *added), joint_motions={**self.joint_motions, moving_id: joint_motion}
         )
 
-    def static_mesh_near(self, box: Box, margin: float, of: str = "") -> TriangleMesh:
-        """Returns the static triangles (`of`: of that part alone) whose own boxes come within `margin` of a box."""
-        parts = (part for part in self.static_parts if of in ("", part.id))
+    def static_mesh_near(self, box: Box, margin: float, of: Collection[str] = ()) -> TriangleMesh:
+        """Returns the static triangles (`of`: of these parts alone) whose own boxes come within `margin` of a box."""
+        parts = (part for part in self.static_parts if not of or part.id in of)
         return mesh_near((part.mesh for part in parts), box.grown(margin))

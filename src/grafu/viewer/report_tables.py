@@ -10,10 +10,9 @@ from types import MappingProxyType
 from grafu.articulation.motion_kind import motion_kind
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.certainty import certainty_words
-from grafu.pipeline.faults import FaultKind
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.pipeline.verdict import reason_of, stopped, verdict_of
-from grafu.pipeline.words import counted, cut_in_words, listed, percent
+from grafu.pipeline.words import FaultKind, counted, cut_in_words, listed, percent
 from grafu.refusal import Reason
 from grafu.viewer.shell import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from typing import Final, Literal, final
 
 from grafu.articulation.motion_kind import motion_kind
-from grafu.pipeline.faults import Colour, FaultKind
 from grafu.pipeline.report_schema import Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
-from grafu.pipeline.words import listed
+from grafu.pipeline.words import Colour, FaultKind, listed
 from grafu.viewer.wording import still_lacking
 
 Cell = str | int | float | None

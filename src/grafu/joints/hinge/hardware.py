@@ -82,7 +82,7 @@ _LAP = 0.002  # how far it laps over the leaf that it carries on
 class Site:
     """What hinge hardware is tested against: the door, static parts, the other moving bodies and their motions.
 
-    `mount` is the one part that may carry it (empty: any).
+    `holders` are the parts that alone may hold it (empty: any).
     """
 
     moving: str
@@ -99,7 +99,7 @@ class Site:
     depth: float
     anchor: float
     reach: float
-    mount: str = ""
+    holders: tuple[str, ...] = ()
 
 
 @final
@@ -195,9 +195,9 @@ def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.inset:
         tongue = _tongue(hinge, pin, site.frame)
-        held = site.scene.is_near_static(tongue.mesh, site.anchor, site.mount)
+        held = site.scene.is_near_static(tongue.mesh, site.anchor, site.holders)
         return (hinge.static, tongue) if held else None
-    if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.mount):
+    if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.holders):
         return (hinge.static,)
     snap = hinge.template.static.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.static, snap, site.static_rays, site)

@@ -17,8 +17,9 @@ from grafu.joints.hinge.hardware import InstalledHinge, Site, install, judged_hi
 from grafu.joints.hinge.pivot import pivot_ends
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
 from grafu.joints.limits import in_the_way
-from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.joints.plan import PIVOT
+from grafu.joints.report import Placement
+from grafu.joints.support_block import nearest_part
 from grafu.templates.template import Gallery, HingeModel
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
@@ -41,13 +42,15 @@ class _Try:
 def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
     """Returns the best placement that works; None where no pin can be given hardware.
 
-    Where others would run into every placement, it is the first of those that spare the joints that stand already.
+    Where others would run into every placement, it is the first of those that spare the joints that stand already. A
+    door that follows a leader takes the first that opens wide: where it stops, the leader must stop as well.
     """
     left_out: list[_Try] = []
     for one in _tries(search, gallery):
         found = one.placement
         is_wide = found.upper >= search.config.restricted * search.wanted
-        if not found.struck_by and (is_wide or all(other.whole() is None for other in left_out)):
+        may_be_narrow = search.request.coupling is None and all(other.whole() is None for other in left_out)
+        if not found.struck_by and (is_wide or may_be_narrow):
             return _noted(found, [other.placement for other in left_out], search.request.moving)
         left_out.append(one)
     return _least_struck(left_out, search)
@@ -135,9 +138,9 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[
 
 
 def _is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
-    """Whether the static end sits on the mount that was chosen, if any."""
+    """Whether the static end sits on what alone may hold it, if that is limited."""
     static = merge_meshes(hinge.static_meshes)
-    return not site.mount or site.scene.is_near_static(static, site.anchor, site.mount)
+    return not site.holders or site.scene.is_near_static(static, site.anchor, site.holders)
 
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
@@ -157,8 +160,8 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         upper=upper,
         depth=search.depth,
         anchor=search.config.anchor * extent,
-        reach=(CHOSEN_REACH if mount else search.config.bridge) * extent,
-        mount=mount,
+        reach=(search.config.chosen_reach if mount else search.config.bridge) * extent,
+        holders=search.request.holders,
     )
 
 
@@ -219,7 +222,7 @@ def _placement(
         upper=upper,
         mechanism=judged.pin.mechanism,
         template=template,
-        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request.mounts),
+        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request),
         count=len(hinges),
         dynamic=tuple(dynamic),
         static=tuple(static),

@@ -88,14 +88,14 @@ class DoorSearch:
 
     @cached_property
     def static_rays(self) -> RayCaster:
-        """The static body around the door, of which what must carry it where that was chosen, prepared for rays."""
+        """The static body around the door, of which what alone may hold it, prepared for rays."""
         return RayCaster(self.carriers)
 
     @cached_property
     def carriers(self) -> TriangleMesh:
-        """The static body around the door that may carry it: all of it, or the mount that was chosen."""
+        """The static body around the door that may carry it: all of it, or the parts that alone may hold it."""
         box = self.scene.parts[self.request.moving].box
-        return self.scene.static_mesh_near(box, 0.25 * float(box.size.max()), self.request.choice.mount)
+        return self.scene.static_mesh_near(box, 0.25 * float(box.size.max()), self.request.holders)
 
     @cached_property
     def door_rays(self) -> RayCaster:

@@ -23,12 +23,12 @@ from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, reflection
 from grafu.joints.config import RailConfig
 from grafu.joints.limits import in_the_way, is_free, swept_box
-from grafu.joints.placement import CHOSEN_REACH, Placement, nearest_part
 from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
-from grafu.joints.support_block import Footing, block, shortest_bridge
+from grafu.joints.report import Placement
+from grafu.joints.support_block import Footing, block, nearest_part, shortest_bridge
 from grafu.scene.scene import Obstacle
 from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
 from grafu.vocabulary import PartLabel
@@ -52,22 +52,25 @@ def held_rail(template: RailTemplate, T: Mat4, side: str, search: DrawerSearch) 
     if carried is None:
         return None
     mount = search.request.choice.mount
-    on_mount = _fixed(f"{name}_static", static, T, search, mount) if mount else None
-    fixed = on_mount or _fixed(f"{name}_static", static, T, search, "")
+    on_mount = _fixed(f"{name}_static", static, T, search, (mount,)) if mount else None
+    fixed = on_mount or _fixed(f"{name}_static", static, T, search, search.request.carriers)
     return None if fixed is None else HeldRail(fixed, carried, on_mount is not None)
 
 
-def _fixed(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, mount: str) -> tuple[Visual, ...] | None:
-    """Returns a rail's static end fixed to the case, or to one part of it; None where it is out of reach."""
+def _fixed(
+    name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch, holders: tuple[str, ...]
+) -> tuple[Visual, ...] | None:
+    """Returns a rail's static end fixed to the case, or to some of its parts; None where it is out of reach."""
     rail = _visual(f"rail_{name}", end)
-    if search.scene.is_near_static(end.mesh, search.config.anchor * search.scene.extent, mount):
+    if search.scene.is_near_static(end.mesh, search.config.anchor * search.scene.extent, holders):
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
-    if not mount and _meets_divider(end, search):
+    if not holders and _meets_divider(end, search):
         return (rail,)
-    walls = search.walls_of(mount) if mount else search.static_rays
-    reach = (CHOSEN_REACH if mount else search.config.bridge) * search.scene.extent
+    walls = search.walls_of(holders) if holders else search.static_rays
+    is_chosen = holders == (search.request.choice.mount,)
+    reach = (search.config.chosen_reach if is_chosen else search.config.bridge) * search.scene.extent
     if search.request.choice.supports is Supports.DIVIDER:
         found = _divider(end, T, walls, reach, search.config.rail)
     else:
@@ -205,7 +208,7 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         upper=upper,
         mechanism=model.mechanism,
         template=model.id,
-        mount=mount or nearest_part(static[0], search.scene, search.request.mounts),
+        mount=mount or nearest_part(static[0], search.scene, search.request),
         count=2,
         dynamic=tuple(dynamic),
         static=tuple(static),

@@ -69,13 +69,13 @@ class DrawerSearch:
     @cached_property
     def static_rays(self) -> RayCaster:
         """The static body around the drawer and behind it, prepared for rays."""
-        return self.walls_of("")
+        return self.walls_of(())
 
-    def walls_of(self, part: str) -> RayCaster:
-        """Returns the static body around the drawer and behind it (or one part of it), prepared for rays."""
+    def walls_of(self, parts: tuple[str, ...]) -> RayCaster:
+        """Returns the static body around the drawer and behind it (or some parts of it alone), prepared for rays."""
         near = 0.5 * float(self.mesh.box.size.max())
         margin = self.scene.extent if is_shallow(self.frame) else near
-        return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin, part))
+        return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin, parts))
 
     @cached_property
     def region(self) -> BodyRegion | None:

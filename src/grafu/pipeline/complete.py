@@ -1,0 +1,51 @@
+"""Completed graphs from what an asset has beyond its graph: its own joints, or points on its parts for the network.
+
+Which edges stated joints stand for is decided in `grafu.graph.annotated`. It builds nothing.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+from grafu.asset.part import Asset
+from grafu.completion.network import complete_by_network
+from grafu.completion.session import SHIPPED_WEIGHTS, open_network
+from grafu.geometry.sampling import sample_surfaces
+from grafu.graph.annotated import annotated_edges
+from grafu.graph.completion import Decision, GraphCompletion
+from grafu.graph.edges import Attached, Hinge, Rail, Slide
+from grafu.graph.edit import with_edges
+from grafu.graph.functional_graph import FunctionalGraph
+
+
+def complete_by_annotation(asset: Asset, graph: FunctionalGraph, source: str = "annotation") -> GraphCompletion:
+    """Returns the graph with an edge for each annotated joint and each handle that rides on a part.
+
+    A joint that no edge can express (a door that turns across its plane, a joint on a moving part), and a door or
+    drawer without a joint, are refused here with the reason; a plan made from the annotation itself may still build it.
+    `source` names who stated the joints, where that was not the input.
+    """
+    stated = annotated_edges(asset, graph)
+    motions = {edge.child: edge for edge in reversed(stated.edges) if not isinstance(edge, Attached)}
+    decisions = tuple(_decision(edge) for edge in reversed(motions.values()))
+    completed = with_edges(graph, stated.edges)
+    return GraphCompletion(graph, completed, source, decisions=decisions, refused=stated.refused)
+
+
+def _decision(edge: Hinge | Rail | Slide) -> Decision:
+    if isinstance(edge, Hinge):
+        return Decision(edge.child, "border", str(edge.border), 1.0)
+    return Decision(edge.child, "slide", str(edge.axis), 1.0)
+
+
+def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | None = None) -> GraphCompletion:
+    """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
+
+    Raises:
+        WeightsError: if the file is missing, or is no such network.
+    """
+    network = open_network(weights or SHIPPED_WEIGHTS)
+    clouds = sample_surfaces([asset.part(node.id).mesh for node in graph.nodes], network.features.points)
+    pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
+    found = complete_by_network(replace(graph, nodes=pointed), network, network.features)
+    bare = tuple(replace(node, points=None) for node in found.completed.nodes)
+    return replace(found, input=graph, completed=replace(found.completed, nodes=bare))
