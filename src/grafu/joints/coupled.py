@@ -14,7 +14,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import opening_values
-from grafu.joints.nesting import ParentOf, above, riders
+from grafu.joints.nesting import ParentOf, above, bodies_on
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
@@ -61,7 +61,7 @@ class Coupled:
     def _free(self, values: Sequence[float], config: RealizationConfig) -> float:
         """Returns the last of ascending values before the follower runs into something."""
         depth = config.depth * self.scene.extent
-        own = (self.moving, *riders(self.moving, self.parent_of))
+        own = (self.moving, *bodies_on(self.moving, self.parent_of))
         axes = part_axes(self.scene.parts[self.moving].mesh)
         body = SweptBody(self._mesh(own), depth, np.asarray(axes))
         leader, apart = self.coupling.leader, [MeshCollider(part.mesh) for part in self.scene.static_parts]

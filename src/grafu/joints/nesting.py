@@ -24,7 +24,7 @@ def bodies_of(requests: Sequence[JointRequest]) -> dict[str, MovingBody]:
     attached = {request.moving: (request.moving, *request.attached) for request in requests}
     found = {}
     for moving, members in attached.items():
-        others = {member for other in riders(moving, parent_of) for member in attached[other]}
+        others = {member for other in bodies_on(moving, parent_of) for member in attached[other]}
         found[moving] = MovingBody(moving, tuple(m for m in members if m not in others))
     return found
 
@@ -37,7 +37,7 @@ def above(moving: str, parent_of: ParentOf) -> Iterator[str]:
         yield moving
 
 
-def riders(moving: str, parent_of: ParentOf) -> tuple[str, ...]:
+def bodies_on(moving: str, parent_of: ParentOf) -> tuple[str, ...]:
     """Returns the moving bodies that a moving body carries, and those that these carry."""
     return tuple(other for other in parent_of if moving in above(other, parent_of))
 
@@ -60,7 +60,7 @@ def seen_from(
         T_carrier_others: where everything but the carrier and what it carries stands (None: at rest).
         is_alone: whether there is nothing but the carrier and the bodies.
     """
-    owner = {own: body for body in bodies for own in (body, *riders(body, parent_of))}
+    owner = {own: body for body in bodies for own in (body, *bodies_on(body, parent_of))}
     members = {body: tuple(m for own in owner if owner[own] == body for m in _members(own, scene)) for body in bodies}
     near = {*_members(carrier, scene), *(m for ids in members.values() for m in ids)}
     parts, hardware = dict(scene.parts), list(scene.hardware)

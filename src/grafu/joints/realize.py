@@ -28,7 +28,7 @@ from grafu.joints.clearance.make import adopt
 from grafu.joints.config import RealizationConfig
 from grafu.joints.joint_choice import short_of_chosen
 from grafu.joints.levels import Builder, Levels
-from grafu.joints.nesting import above, bodies_of, posed, riders
+from grafu.joints.nesting import above, bodies_of, bodies_on, posed
 from grafu.joints.order import Order
 from grafu.joints.plan import AUTOMATIC, JointRequest, RealizationPlan
 from grafu.joints.report import Clearance, Installed, RealizationReport
@@ -113,7 +113,7 @@ def _closed_scene(
         path = Path(request.moving, motion, 1e-6, axes, request.kind.turns)
         scene, joined = adopt(scene, path, obstruction(scene, path, config).blockers, config)
         T = motion(-request.drawn_at)
-        carried = riders(request.moving, parent_of)
+        carried = bodies_on(request.moving, parent_of)
         members = [m for body in (request.moving, *carried) for m in scene.moving_bodies[body].members]
         scene = scene.replaced(posed(scene.parts[m], T) for m in members)
         given = {other.moving: other.axis for other in requests if other.moving in carried}
