@@ -118,6 +118,10 @@ class Scene:
         """One obstacle per installed static piece of hardware."""
         return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for owner, v in self.hardware if not owner)
 
+    def hardware_obstacles(self, moving_id: str) -> tuple[Obstacle, ...]:
+        """Returns one obstacle per piece of hardware that a moving body carries, at rest: the same whoever asks."""
+        return self.once(_hardware_obstacles, moving_id)
+
     def moving_mesh(self, moving_id: str) -> TriangleMesh:
         """Returns the moving body with all that rides on it, without hardware, as one mesh."""
         return self._as_one(tuple(self.parts[member].mesh for member in self.moving_bodies[moving_id].members))
@@ -217,3 +221,7 @@ class Scene:
         """Returns the static triangles (`of`: of these parts alone) whose own boxes come within `margin` of a box."""
         parts = (part for part in self.static_parts if not of or part.id in of)
         return mesh_near((part.mesh for part in parts), box.grown(margin))
+
+
+def _hardware_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:
+    return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for v in scene.hardware_of(moving_id))

@@ -11,7 +11,7 @@ from typing import final
 import numpy as np
 
 from grafu.additions.drawer_box.config import DrawerBoxConfig
-from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict
+from grafu.additions.drawer_box.verdict import RAY_START, BoardName, BoxVerdict
 from grafu.geometry.arrays import ArrayValue, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -124,7 +124,7 @@ def _top_of_bottom(caster: RayCaster, outer: Box) -> float:
             indexing="ij",
         )
     )
-    start = float(outer.high[2]) + 1e-3
+    start = float(outer.high[2]) + RAY_START
     hits = caster.along(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     found = hits[np.isfinite(hits)]
     return start - float(np.median(found)) if len(found) else float(outer.low[2])
@@ -170,6 +170,6 @@ def _front_face(drawer: RayCaster, outer: Box, start: float, ahead: float) -> fl
             indexing="ij",
         )
     )
-    hits = drawer.along(np.column_stack([x, np.full(x.size, start + 1e-3), z]), vec3(0.0, -1.0, 0.0)) - 1e-3
-    found = hits[(hits >= -1e-3) & (hits <= ahead)]
+    hits = drawer.along(np.column_stack([x, np.full(x.size, start + RAY_START), z]), vec3(0.0, -1.0, 0.0)) - RAY_START
+    found = hits[(hits >= -RAY_START) & (hits <= ahead)]
     return start - max(float(np.median(found)), 0.0) if len(found) else start

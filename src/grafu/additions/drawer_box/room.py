@@ -11,6 +11,7 @@ from typing import final
 import numpy as np
 
 from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.drawer_box.verdict import RAY_START
 from grafu.geometry.arrays import ArrayValue, Points, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import Pieces, largest_rectangles, meeting, nearest_depths, pieces_in, spans_of
@@ -109,7 +110,7 @@ def _columns(around: Box) -> Points:
 
 def _covered(front: RayCaster, frame: DrawerFrame, columns: Points) -> np.ndarray:
     """Returns for each column whether the front stands before it, holes in its middle counted in."""
-    behind = columns + vec3(0.0, frame.depth + 1e-3 - float(columns[0, 1]), 0.0)
+    behind = columns + vec3(0.0, frame.depth + RAY_START - float(columns[0, 1]), 0.0)
     hit = np.isfinite(front.along(behind, vec3(0.0, -1.0, 0.0))).reshape(COLUMNS)
     both = np.ones_like(hit)
     for axis in (0, 1):

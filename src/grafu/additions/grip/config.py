@@ -103,6 +103,8 @@ class GroundConfig:
     """Distance up to which layers count as one, metres."""
     board: float = 0.04
     """Distance up to which two sheets are the sides of one board, metres."""
+    thinnest: float = 0.001
+    """Thickness up to which a layer is a sheet that takes no groove, metres."""
     around: float = 0.08
     """Distance from a front beyond which things do not matter, metres."""
 

@@ -101,7 +101,7 @@ def _tilt(x: Scalars, y: Scalars, face: Scalars) -> tuple[float, float]:
 
 def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | Reason:
     """Returns a groove as deep as the front allows."""
-    if float(ground.thickness.min()) <= 1e-3 * site.scale:
+    if float(ground.thickness.min()) <= config.ground.thinnest * site.scale:
         return Reason.NO_THICKNESS
     face = float(np.median(ground.face))
     room = float((face - ground.back).min())

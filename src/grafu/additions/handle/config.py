@@ -28,6 +28,8 @@ class ReliefConfig:
     """Width around the front that is looked at: three fingers' thickness, metres."""
     lead: float = 0.09
     """Distance before the front at which rays start: beyond any grip, metres."""
+    foot_lead: float = 0.05
+    """Distance before the front at which rays to the place of a handle's foot start, metres."""
     behind: float = 0.1
     """Depth behind the front's plane up to which anything matters to fingers, metres."""
     plane: float = 0.15
@@ -55,6 +57,8 @@ class FingerRoomConfig:
     """Distance between the depths at which a finger is tried, metres."""
     edge: float = 0.001
     """Distance before an edge at which it counts as met, metres."""
+    tip: float = 0.015
+    """Distance that a fingertip behind an edge may lie from the edge's inner face, metres."""
     through: float = 0.06
     """Depth behind the front's plane: what is seen beyond it is seen through a hole, metres."""
     steep: float = 0.014

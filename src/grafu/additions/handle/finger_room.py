@@ -62,7 +62,7 @@ def _hooks_towards(relief: Relief, config: GraspConfig, where: Cells, step: Step
     first, found = _first_run(free, int(np.ceil(config.gap / fingers.level)) + 1)
     rows = np.flatnonzero(found & np.isfinite(edge))
     start = depths[rows, first[rows]]
-    good = _pulls(relief, cells[rows], start, edge[rows], direction, s * config.hook, lip[rows])
+    good = _pulls(relief, cells[rows], start, edge[rows], direction, config, lip[rows])
     back = _reaches(relief, cells[rows], depths[rows], -direction)
     back[np.arange(depths.shape[1]) > first[rows][:, None]] = np.inf
     good &= back.min(axis=1) + edge[rows] >= s * config.gap
@@ -83,13 +83,14 @@ def _pulls(
     start: Float[np.ndarray, " k"],
     edge: Float[np.ndarray, " k"],
     way: Vec3,
-    hook: float,
+    config: GraspConfig,
     lip: Float[np.ndarray, " k"],
 ) -> Mask:
     """Whether a fingertip behind the edge meets the moving body, and nothing else, when it is pulled back."""
+    hook, tip = relief.factor * config.hook, config.fingers.tip * relief.factor
     tips = _points(relief, cells, start) + (edge + 0.8 * hook)[:, None] * way
     moving, others = relief.cast(tips, vec3(0.0, -1.0, 0.0))
-    return (moving <= others) & (moving <= start - lip + 0.015 * relief.factor)
+    return (moving <= others) & (moving <= start - lip + tip)
 
 
 def _points(relief: Relief, cells: Int[np.ndarray, "k 2"], depth: Float[np.ndarray, " k"]) -> Points:

@@ -54,7 +54,11 @@ class HandleObstacles:
         """
         body, poses = SweptBody(handle, config.touch * self.scene.extent), config.poses
         others = [other for other in self.moving if other != moving_id]
-        at_rest = [*self.still, *self._own_hardware(moving_id), *(o for other in others for o in self.moving[other])]
+        at_rest = [
+            *self.still,
+            *self.scene.hardware_obstacles(moving_id),
+            *(o for other in others for o in self.moving[other]),
+        ]
         found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)
         if found:
             return found
@@ -65,9 +69,6 @@ class HandleObstacles:
         fixed += [obstacle for other in opened for obstacle in self._opened(other)]
         found = _met(body, motion, upper, fixed, poses)
         return found or next((o for o in others if self._runs_into(o, moving_id, body, handle, poses)), "")
-
-    def _own_hardware(self, moving_id: str) -> list[Obstacle]:
-        return [Obstacle(v.name, MeshCollider(v.mesh)) for v in self.scene.hardware_of(moving_id)]
 
     def _motion_of(self, moving_id: str) -> tuple[PoseFunction, float]:
         joint_motion = self.scene.joint_motions[moving_id]
@@ -110,7 +111,7 @@ def handle_obstacles(scene: Scene) -> HandleObstacles:
     moving = {
         moving.id: (
             *(Obstacle(m, MeshCollider(scene.parts[m].mesh)) for m in moving.members if len(scene.parts[m].mesh.faces)),
-            *(Obstacle(v.name, MeshCollider(v.mesh)) for v in scene.hardware_of(moving.id)),
+            *scene.hardware_obstacles(moving.id),
         )
         for moving in scene.moving_bodies.values()
     }
@@ -139,7 +140,7 @@ class Ground:
     def depths(self, points: Points) -> Points:
         """Returns points, (u, any, v), moved onto the front's first surface; NaN where that is a pane or nothing."""
         lead = points.copy()
-        lead[:, 1] = -0.05 * self.relief.factor
+        lead[:, 1] = -self.relief.config.foot_lead * self.relief.factor
         origins, inwards = self.relief.front.to_object(lead), self.relief.front.inwards
         seen, solid = self.relief.moving.along(origins, inwards), self.solid.along(origins, inwards)
         good = np.isfinite(seen) & (solid <= seen + SAME_SURFACE)

@@ -62,7 +62,8 @@ class Clearing:
 
     @cached_property
     def _hardware(self) -> list[Obstacle]:
-        return [Obstacle(v.name, MeshCollider(v.mesh)) for _, v in self._scene.hardware if len(v.mesh.faces)]
+        carried = (self._scene.hardware_obstacles(moving) for moving in self._scene.moving_bodies)
+        return [*self._scene.static_hardware, *(obstacle for some in carried for obstacle in some)]
 
     @cached_property
     def _at_rest(self) -> list[Obstacle]:

@@ -167,7 +167,7 @@ def _judged(
     covered, told = ratio >= config.coverage, ""
     if (plate := plate_in(roles, views, coverage, config, metre)) is not None:
         covered, told = True, f", `{plate.id}` is a top with a cut-out"
-    elif hint is not None and abs(float(hint.high[2]) - level) <= 0.1 * metre:
+    elif hint is not None and abs(float(hint.high[2]) - level) <= config.evidence.predicted * metre:
         covered, told = False, ", and a top was predicted there"
     elif named.sum() < config.evidence.named * near_top.sum() and speaks_for_bars(roles, coverage, config, metre):
         covered, told = False, " by bars"
@@ -212,7 +212,7 @@ def _cut_outs(basins: tuple[Part, ...], config: TopConfig, metre: float) -> Base
     """Returns the plans of basins below their flanges."""
     below, line = config.evidence.flange * metre, config.outline.line * metre
     walls = (section(p.mesh.triangles, [float(p.box.high[2]) - below], line, metre) for p in basins)
-    cut = [closed_up(wall, 0.03 * metre) for wall in walls]
+    cut = [closed_up(wall, config.outline.crevice * metre) for wall in walls]
     return shapely.union_all(cut) if cut else EMPTY
 
 

@@ -1,4 +1,7 @@
-"""When furniture counts as topless, and the slab that it is given. Lengths are metres on furniture of usual size."""
+"""When furniture counts as topless, and the slab that it is given. Lengths are metres on furniture of usual size.
+
+Every config checks its numbers when it is made, and raises ValueError where one is out of its range.
+"""
 
 from dataclasses import dataclass
 from math import radians
@@ -12,11 +15,7 @@ TopShape = Literal["rectangle", "rounded", "chamfered"]
 @final
 @dataclass(frozen=True)
 class OpeningConfig:
-    """Which openings, seen from above, speak for a missing top.
-
-    Raises:
-        ValueError: if a length is not above 0, or a fraction is not between 0 and 1.
-    """
+    """Which openings, seen from above, speak for a missing top."""
 
     front: float = 0.06
     """Distance before the still parts up to which a closed front belongs to the footprint, metres."""
@@ -49,11 +48,7 @@ class OpeningConfig:
 @final
 @dataclass(frozen=True)
 class SupportConfig:
-    """What a top alone joined: posts, walls and pedestals that end at one height.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction is not between 0 and 1.
-    """
+    """What a top alone joined: posts, walls and pedestals that end at one height."""
 
     even: float = 0.01
     """Difference in height between supports of one top, metres."""
@@ -96,11 +91,7 @@ class SupportConfig:
 @final
 @dataclass(frozen=True)
 class EvidenceConfig:
-    """What parts say beyond the two maps: basins, tops by name, plates with cut-outs.
-
-    Raises:
-        ValueError: if a length is not above 0, or a fraction is not between 0 and 1.
-    """
+    """What parts say beyond the two maps: basins, tops by name, plates with cut-outs."""
 
     shallowest_basin: float = 0.06
     """Least depth of sinks and wash basins, metres."""
@@ -114,6 +105,10 @@ class EvidenceConfig:
     """Width of the cabinet that stands around a basin at least, metres."""
     basin_area: float = 0.05
     """Fraction of what stands at the rim that a basin takes at least."""
+    basin_full: float = 0.7
+    """Fraction of its own box that a basin covers at least."""
+    basin_hollow: float = 0.4
+    """Fraction of a basin that lies as deep as a shallow basin at least."""
     flange: float = 0.015
     """Distance below a basin's rim at which it is as wide as its cut-out, metres."""
     inset: float = 0.2
@@ -128,20 +123,18 @@ class EvidenceConfig:
     """The same fraction for a part that is called top panel."""
     named: float = 0.5
     """Fraction of what covers at the rim that is called top panel, from which on bars around it are its frame."""
+    predicted: float = 0.1
+    """Greatest distance between the upper face of a predicted top and the rim that it belongs to, metres."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "basin_area", "spans", "plate", "named_plate", "named")
+        require_ratios(self, "basin_area", "basin_full", "basin_hollow", "spans", "plate", "named_plate", "named")
 
 
 @final
 @dataclass(frozen=True)
 class OutlineConfig:
-    """What carries a missing top, and the outline that is closed up around it.
-
-    Raises:
-        ValueError: if a length is not above 0, or a fraction is not between 0 and 1.
-    """
+    """What carries a missing top, and the outline that is closed up around it."""
 
     below_rim: float = 0.03
     """Depth below a rim's height in which what carries the top is looked for, metres."""
@@ -175,6 +168,8 @@ class OutlineConfig:
     """Distance between a rectangle's and an outline's corners up to which it was meant as a rectangle, metres."""
     front: float = 0.08
     """Distance before the body in which a front belongs under the top, metres."""
+    front_below: float = 0.005
+    """Depth below a front's upper end, or below the seat, at which the front's outline is taken, metres."""
     reach: float = 0.06
     """Distance that a front may end below the rim and still belong under the top, metres."""
     base: float = 0.08
@@ -189,6 +184,10 @@ class OutlineConfig:
     """Greatest height above a seat at which what stands on a top begins: that of a thick top, metres."""
     tongue: float = 0.012
     """Width below which a piece of a top is removed, metres."""
+    crevice: float = 0.03
+    """Width of gaps in what stands up through a top, or hangs in it, that are closed up, metres."""
+    detail: float = 2e-4
+    """Distance by which a top's outline may be simplified, metres."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -198,11 +197,7 @@ class OutlineConfig:
 @final
 @dataclass(frozen=True)
 class CutoutConfig:
-    """What a slab leaves free for doors, drawers and flaps.
-
-    Raises:
-        ValueError: if a length or an angle is not above 0, or a fraction is not between 0 and 1.
-    """
+    """What a slab leaves free for doors, drawers and flaps."""
 
     left: float = 0.4
     """Fraction of the thickness that must be left over a groove."""

@@ -92,8 +92,8 @@ def _is_basin(part: Part, views: Views, coverage: Coverage, config: EvidenceConf
     held = np.isfinite(own)
     hollow = held & (own <= box.high[2] - config.shallowest_basin * metre)
     large = held.sum() >= config.basin_area * coverage.everything.sum()
-    full = held.sum() >= 0.7 * _within(box, views).sum()
-    return inside and bool(large and full and hollow.sum() >= 0.4 * held.sum())
+    full = held.sum() >= config.basin_full * _within(box, views).sum()
+    return inside and bool(large and full and hollow.sum() >= config.basin_hollow * held.sum())
 
 
 def _within(box: Box, views: Views) -> CellMask:

@@ -70,7 +70,7 @@ def with_fronts(rim: Rim, moving_bodies: tuple[Closed, ...], config: OutlineConf
         top = float(moving.mesh.box.high[2])
         if top < rim.seat - config.reach * metre or not _plan_box(moving.mesh.box).intersects(near):
             continue
-        height = min(top, rim.seat) - 0.005 * metre
+        height = min(top, rim.seat) - config.front_below * metre
         front = offset(filled(section(moving.mesh.triangles, [height], line, metre)), -line)
         found.append(front.intersection(near))
     if len(found) == 1:
@@ -168,7 +168,7 @@ def _standing(
     if not meshes:
         return EMPTY
     lines = section(triangles_of(meshes), heights, config.line * metre, metre)
-    return filled(closed_up(lines, 0.03 * metre))
+    return filled(closed_up(lines, config.crevice * metre))
 
 
 def one_piece(shape: BaseGeometry, coverage: Coverage, config: OutlineConfig, metre: float) -> Polygon | None:
@@ -178,7 +178,7 @@ def one_piece(shape: BaseGeometry, coverage: Coverage, config: OutlineConfig, me
     best = max(pieces, key=lambda p: int(shapely.contains_xy(p, x, y).sum()), default=None)
     if best is None:
         return None
-    plain = shapely.simplify(best, 2e-4 * metre)
+    plain = shapely.simplify(best, config.detail * metre)
     return plain if isinstance(plain, Polygon) and plain.is_valid and plain.area > 0 else best
 
 
