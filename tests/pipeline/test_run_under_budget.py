@@ -9,7 +9,7 @@ from grafu.asset.part import Asset
 from grafu.export.formats import export
 from grafu.geometry.budget import Budget, present_budget
 from grafu.joints import build_all
-from grafu.joints.build_all import joint_ratio
+from grafu.joints.config import TimeConfig
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -101,14 +101,14 @@ def test_a_stage_that_is_given_up_is_noted_in_the_report(asset: Asset) -> None:
 
 
 def test_a_hard_joint_leaves_time_for_the_others() -> None:
-    assert joint_ratio(1) == 1.0
-    assert joint_ratio(2) == 0.5
+    assert TimeConfig().of_joint(1) == 1.0
+    assert TimeConfig().of_joint(2) == 0.5
     left = 1.0
     for k in range(100, 10, -1):  # ninety of a hundred take all that they may
-        left *= 1 - joint_ratio(k)
+        left *= 1 - TimeConfig().of_joint(k)
     assert left > 0.0
-    assert joint_ratio(100) == pytest.approx(0.08)
-    assert joint_ratio(2400) == 0.05  # of very many some are built, rather than none
+    assert TimeConfig().of_joint(100) == pytest.approx(0.08)
+    assert TimeConfig().of_joint(2400) == 0.05  # of very many some are built, rather than none
 
 
 def test_more_parts_than_the_network_holds_are_left_to_the_rule(asset: Asset) -> None:

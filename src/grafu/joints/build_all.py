@@ -44,12 +44,6 @@ def _motions(
             yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
 
 
-_EXPECTING = 0.15  # of the time: what joints that are not built yet may be expected to do
-_TRY = 0.8  # of the time: all joints, and all of them once more where that is needed
-_TIMES_EVEN = 8  # a hard joint may take so many times an even part of the time that is left,
-_MOST = 0.5  # and at most so much of it,
-_LEAST = 0.05  # and in any case so much: of very many joints some are built, rather than none
-
 Outcomes = tuple[list[Built], list[Refusal], Scene]
 
 
@@ -83,8 +77,8 @@ def build_fairly(
     stands unless the second builds more.
     """
     find = partial(cache.value, "ways", expected_motions, tuple(requests), scene, config)
-    joint_motions: Mapping[str, JointMotion] = within(_EXPECTING, find, lambda _: {})
-    budget = present_budget().fraction(_TRY)
+    joint_motions: Mapping[str, JointMotion] = within(config.time.expecting, find, lambda _: {})
+    budget = present_budget().fraction(config.time.building)
     with budget.in_force():
         first = _build_all(requests, replace(scene, joint_motions=joint_motions), gallery, config, cache)
         left = {skip.part for skip in first[1] if skip.reason is not Reason.TOO_COMPLEX} & joint_motions.keys()
@@ -123,9 +117,4 @@ def _build(
 ) -> Built | Refusal:
     """Returns one joint of those `left` to build, or why it could not be built."""
     work = partial(cache.value, "joint", build_joint, request, scene, gallery, config)
-    return within(joint_ratio(left), work, partial(Refusal, request.moving, Reason.TOO_COMPLEX))
-
-
-def joint_ratio(left: int) -> float:
-    """Returns the part (0..1) of the time left that the first of `left` joints may take."""
-    return 1.0 if left <= 1 else min(_MOST, max(_LEAST, _TIMES_EVEN / left))
+    return within(config.time.of_joint(left), work, partial(Refusal, request.moving, Reason.TOO_COMPLEX))

@@ -14,19 +14,21 @@ from grafu.geometry.box import Box
 from grafu.graph.edges import SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import code_to_direction, opening_face
+from grafu.joints.config import PlanConfig
 from grafu.vocabulary import PartLabel
 
 _HANGING = (PartLabel.MISC, PartLabel.UNKNOWN, PartLabel.HANDLE, PartLabel.BAR)
-_BEYOND = 0.05  # of a moving part's side: how far what it carries may stand out of its outline
-_SMALL = 0.5  # of its outline's area
 
 
-def carried_parts(graph: FunctionalGraph, fixed_to: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+def carried_parts(
+    graph: FunctionalGraph, fixed_to: Mapping[str, str], config: PlanConfig = PlanConfig()
+) -> tuple[tuple[str, str], ...]:
     """Returns the pairs (moving part, part that it carries) that contacts alone tell.
 
     Args:
         graph: a completed graph: contacts, hinges and rails.
         fixed_to: by the id of each part of which it is known what carries it, the id of that.
+        config: how large such parts may be.
     """
     ways = _ways(graph)
     carrier = dict.fromkeys(ways, "") | dict(fixed_to) | {edge.child: edge.parent for edge in graph.attachments}
@@ -41,7 +43,7 @@ def carried_parts(graph: FunctionalGraph, fixed_to: Mapping[str, str]) -> tuple[
             continue
         moving = moving_parts.pop()
         nodes = [graph.node(part) for part in cluster]
-        if all(_may_carry(graph.node(moving), code_to_direction(ways[moving]), n.box) for n in nodes):
+        if all(_may_carry(graph.node(moving), code_to_direction(ways[moving]), n.box, config) for n in nodes):
             found += [(moving, node.id) for node in graph.nodes if node.id in cluster]
     return tuple(found)
 
@@ -69,16 +71,16 @@ def _clusters(graph: FunctionalGraph, loose: set[str]) -> list[set[str]]:
     return sorted(found, key=lambda cluster: min(cluster))
 
 
-def _may_carry(moving: PartNode, outward: Vec3, box: Box) -> bool:
+def _may_carry(moving: PartNode, outward: Vec3, box: Box, config: PlanConfig) -> bool:
     """Whether a box lies before a moving part or within it, inside its outline and clearly smaller."""
     axis = int(np.argmax(np.abs(outward)))
     others = [a for a in range(3) if a != axis]
     inner = moving.box.low[axis] if outward[axis] > 0 else -moving.box.high[axis]
     before = float(box.center @ np.abs(outward)) * float(outward[axis]) >= inner
-    spare = _BEYOND * moving.box.size
+    spare = config.beyond * moving.box.size
     inside = all(
         box.low[a] >= moving.box.low[a] - spare[a] and box.high[a] <= moving.box.high[a] + spare[a] for a in others
     )
     areas = [float(np.prod(b.size[others])) for b in (box, moving.box)]
     flat = float(box.size[axis]) <= 0.5 * float(moving.box.size[axis])  # a pane may fill its door
-    return bool(before and inside and (areas[0] <= _SMALL * areas[1] or flat))
+    return bool(before and inside and (areas[0] <= config.carried_area * areas[1] or flat))

@@ -9,6 +9,86 @@ from grafu.scene.checks import require_positive, require_ratios
 
 @final
 @dataclass(frozen=True)
+class PlanConfig:
+    """How stated and predicted motions become requests.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    play: float = 0.25
+    """A limit on the other side of the drawn pose below this fraction of the wider one is play, not motion."""
+    beyond: float = 0.05
+    """How far what a moving part carries may stand out of its outline (fraction of the moving part's side)."""
+    carried_area: float = 0.5
+    """Largest outline of what a moving part carries, over its own (fraction of the area)."""
+    nearer_border: float = 0.2
+    """A chosen mount this much nearer to a door's other border carries it there (fraction of the door's width)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True)
+class TimeConfig:
+    """Which fraction of the time that is left each step of realization may take.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    expecting: float = 0.15
+    """For what joints that are not built yet are expected to do (fraction)."""
+    building: float = 0.8
+    """For building all joints, and once more where that is needed (fraction)."""
+    hard_joint: float = 8.0
+    """How many times an even part of the time a hard joint may take (ratio)."""
+    most_of_joint: float = 0.5
+    """Most that one joint of several may take (fraction)."""
+    least_of_joint: float = 0.05
+    """Least that a joint may take: of very many joints some are built, rather than none (fraction)."""
+    ordering: float = 0.5
+    """For the order in which joints open; the rest is for measuring them (fraction)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "hard_joint")
+        require_ratios(self, "expecting", "building", "most_of_joint", "least_of_joint", "ordering")
+
+    def of_joint(self, left: int) -> float:
+        """Returns the fraction of the time left that the first of `left` joints may take."""
+        return 1.0 if left <= 1 else min(self.most_of_joint, max(self.least_of_joint, self.hard_joint / left))
+
+
+@final
+@dataclass(frozen=True)
+class DrawerConfig:
+    """What counts as a drawer, as a front without a container, and as a sliding door.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    shallow: float = 0.15
+    """What is less deep than this fraction of its smaller side is a front without a container."""
+    thickest_board: float = 0.03
+    """What is less deep than this is a board, however low it is (metres)."""
+    slat: float = 0.1
+    """Depth of such a board, at most this fraction of its longer side: low fronts are thick for their height."""
+    shortest: float = 0.3
+    """A body shorter than this fraction of the drawer's depth is no container (official 7.4)."""
+    flat: float = 0.2
+    """A sliding door is thinner than this fraction of its smaller side, and slides nearly along its plane."""
+    stands_out: float = 1e-3
+    """How far an attached part may stand out and still count as behind a drawer's front side (metres)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "thickest_board", "stands_out")
+        require_ratios(self, "shallow", "slat", "shortest", "flat")
+
+
+@final
+@dataclass(frozen=True)
 class RailConfig:
     """Sizes of rails and of the dividers that carry them.
 
@@ -63,10 +143,28 @@ class HingeConfig:
     """Distance between the door's end and the plate (metres)."""
     plate_reach: float = 0.025
     """How far the plate reaches behind the door's back, and how far inwards the case may stand there (metres)."""
+    length_ratio: float = 0.12
+    """Longest hinge, a fraction of its door's length along the axis (official 7.3)."""
+    radius_ratio: float = 0.22
+    """Largest barrel radius, a fraction of the door's thickness."""
+    radius: float = 0.0036
+    """Barrel radius of a common 60 mm butt hinge (metres): none is larger."""
+    smallest: float = 0.001
+    """Smallest barrel radius (metres)."""
+    tongue: float = 0.02
+    """How deep the tongue of an inset leaf reaches into what stands behind the door (metres)."""
+    lap: float = 0.002
+    """How far the tongue overlaps the leaf that it extends (metres)."""
+    inside: float = 0.1
+    """An axis nearer to a side than this fraction of the part runs along its border."""
+    chunky: float = 0.45
+    """A part thicker than this fraction of its width is no door panel."""
+    nearly: float = 0.05
+    """A pin that leaves this fraction of the wanted opening blocked is still as good as free."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "slim")
+        require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")
 
 
 @final
@@ -118,6 +216,12 @@ class RealizationConfig:
     """Of drawers' rails."""
     hinge: HingeConfig = HingeConfig()
     """Of doors' hinges and pivots."""
+    drawer: DrawerConfig = DrawerConfig()
+    """Of what counts as a drawer."""
+    plan: PlanConfig = PlanConfig()
+    """Of requests."""
+    time: TimeConfig = TimeConfig()
+    """Of the time that steps may take."""
 
     def __post_init__(self) -> None:
         require_positive(

@@ -12,17 +12,21 @@ from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.joints.config import PlanConfig
 from grafu.joints.plan import AUTOMATIC, PIVOT, JointChoice, JointRequest, RealizationPlan, Supports
 from grafu.scene.border import BorderFrame, border_frame
 from grafu.templates.template import Gallery
 from grafu.vocabulary import MechanismClass
 
 _RAILS = (MechanismClass.CENTRE, MechanismClass.CORNER)
-_APART = 0.2  # of a door's width: a mount this much nearer to the other border stands by that one
 
 
 def with_choices(
-    plan: RealizationPlan, choices: Mapping[str, JointChoice], asset: Asset, gallery: Gallery
+    plan: RealizationPlan,
+    choices: Mapping[str, JointChoice],
+    asset: Asset,
+    gallery: Gallery,
+    config: PlanConfig = PlanConfig(),
 ) -> RealizationPlan:
     """Returns the plan whose joints are to be built as chosen; `choices` go by the id of the moving part.
 
@@ -36,7 +40,9 @@ def with_choices(
     moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
     for request in plan.joints:
         _require_still(request.moving, choices.get(request.moving, AUTOMATIC).mount, parts, moving)
-    joints = tuple(_chosen(request, choices.get(request.moving, AUTOMATIC), parts, gallery) for request in plan.joints)
+    joints = tuple(
+        _chosen(request, choices.get(request.moving, AUTOMATIC), parts, gallery, config) for request in plan.joints
+    )
     return replace(plan, joints=joints)
 
 
@@ -46,32 +52,34 @@ def _require_still(part: str, mount: str, parts: Collection[str], moving: Collec
         raise OptionError(f"the mount of `{part}` must be a static part: {mount!r} {why}")
 
 
-def _chosen(request: JointRequest, choice: JointChoice, parts: Mapping[str, Part], gallery: Gallery) -> JointRequest:
+def _chosen(
+    request: JointRequest, choice: JointChoice, parts: Mapping[str, Part], gallery: Gallery, config: PlanConfig
+) -> JointRequest:
     if choice == AUTOMATIC:
         return request
     choice = replace(choice, mechanism=_mechanism(request, choice, gallery))
-    axis = _chosen_axis(request, choice, parts)
+    axis = _chosen_axis(request, choice, parts, config)
     mounts = (choice.mount, *(m for m in request.mounts if m != choice.mount)) if choice.mount else request.mounts
     reference = request.reference if choice.opening is None else choice.opening
     return replace(request, axis=axis, mounts=mounts, reference=reference, choice=choice)
 
 
-def _chosen_axis(request: JointRequest, choice: JointChoice, parts: Mapping[str, Part]) -> Axis:
+def _chosen_axis(request: JointRequest, choice: JointChoice, parts: Mapping[str, Part], config: PlanConfig) -> Axis:
     """Returns the axis at the border that is chosen: the opposite one, or that by which the chosen mount stands."""
     door = parts[request.moving]
     if choice.flipped:
         return flipped_axis(door, request.axis)
-    if choice.mount and request.kind.turns and _is_beyond(door, request.axis, parts[choice.mount]):
+    if choice.mount and request.kind.turns and _is_beyond(door, request.axis, parts[choice.mount], config):
         return flipped_axis(door, request.axis)
     return request.axis
 
 
-def _is_beyond(door: Part, axis: Axis, mount: Part) -> bool:
+def _is_beyond(door: Part, axis: Axis, mount: Part, config: PlanConfig) -> bool:
     """Whether a mount stands by the door's opposite border, and clearly not by that of the axis."""
     frame = border_frame(door.mesh, axis)
     box = Box.around(frame.to_border(mount.mesh.vertices))
     near, far = (_border_box(frame, x).gap(box) for x in (0.0, frame.width))
-    return far + _APART * frame.width < near
+    return far + config.nearer_border * frame.width < near
 
 
 def _border_box(frame: BorderFrame, x: float) -> Box:

@@ -28,8 +28,6 @@ from grafu.refusal import Refusal
 from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery
 
-_ORDERING = 0.5  # of the time that is left when all joints stand; the rest is for measuring them
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -95,7 +93,7 @@ class Builder:
         """Returns the joints of one body that were built, ordered and measured in its view."""
         built, failed, scene = build_fairly(requests, scene, self.gallery, self.config, self.cache)
         order = partial(self.cache.value, "order", _orders, tuple(built), scene, self.config)
-        orders = within(_ORDERING, order, partial(_without_order, built))
+        orders = within(self.config.time.ordering, order, partial(_without_order, built))
         measured = measure_all(built, orders, scene, self.config, self.cache)
         return replace(measured, skipped=(*failed, *measured.skipped))
 

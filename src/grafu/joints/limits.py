@@ -14,7 +14,7 @@ from grafu.geometry.intersection import SweptBody
 from grafu.geometry.transform import transform_points
 from grafu.scene.scene import Obstacle
 
-_NEAR_REST = 1.5
+_REST_DENSITY = 1.5  # exponent that brings the poses of a sweep closer together near rest
 
 PoseFunction = Callable[[float], Mat4]
 
@@ -36,7 +36,7 @@ def opening_values(reach: float, poses: int) -> Scalars:
 
 @cache
 def _ratios(poses: int) -> Scalars:
-    return frozen_array(np.linspace(0.0, 1.0, poses) ** _NEAR_REST)
+    return frozen_array(np.linspace(0.0, 1.0, poses) ** _REST_DENSITY)
 
 
 def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = 9) -> Box:

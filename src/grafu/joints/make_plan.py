@@ -18,14 +18,12 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Rail, Slide
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.joints.carried import carried_parts
+from grafu.joints.config import PlanConfig
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.refusal import Reason, Refusal
 
-# A limit on the other side of the drawn pose that is less than this fraction of the wider one is play, not motion.
-_PLAY = 0.25
 
-
-def plan_from_annotation(asset: Asset) -> RealizationPlan:
+def plan_from_annotation(asset: Asset, config: PlanConfig = PlanConfig()) -> RealizationPlan:
     """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one.
 
     Joints that another system predicted count as stated; each request's source says who stated it. A part that rides on
@@ -34,7 +32,7 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
     others = {joint.stated_by for joint in asset.joints} - {"annotation"}
     who = " and ".join(sorted(others)) or "the input"
     joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
-    made = {part: _from_joint(_in_step(joint, joints), asset) for part, joint in joints.items()}
+    made = {part: _from_joint(_in_step(joint, joints), asset, config) for part, joint in joints.items()}
     requests = tuple(_linked(made[part], joints, made, asset) for part in dict.fromkeys(j.part for j in asset.joints))
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
     refused = tuple(
@@ -45,12 +43,14 @@ def plan_from_annotation(asset: Asset) -> RealizationPlan:
     return RealizationPlan(requests, refused)
 
 
-def plan_from_completion(completion: GraphCompletion, asset: Asset) -> RealizationPlan:
+def plan_from_completion(
+    completion: GraphCompletion, asset: Asset, config: PlanConfig = PlanConfig()
+) -> RealizationPlan:
     """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
     graph = completion.completed
     known = {part.id for part in asset.parts}
     fixed_to = {part.id: part.rides_on for part in asset.parts if part.rides_on}
-    carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to) if part in known]
+    carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to, config) if part in known]
     attached = attached_to(asset, [*((edge.parent, edge.child) for edge in graph.attachments), *carried])
     requests = []
     for hinge in graph.hinges:
@@ -92,16 +92,16 @@ def _descendants(parent: str, below: dict[str, list[str]]) -> list[str]:
     return found
 
 
-def _from_joint(joint: AnnotatedJoint, asset: Asset) -> JointRequest:
+def _from_joint(joint: AnnotatedJoint, asset: Asset, config: PlanConfig) -> JointRequest:
     """Returns the request of one annotated joint: signed so that positive opens, drawn ajar where its range says so."""
     lower, upper = (joint.lower, joint.upper) if joint.limited else (0.0, pi / 2)
     lower, upper = min(lower, upper), max(lower, upper)
     opens_up = abs(upper) >= abs(lower)
-    if min(-lower, upper) > _PLAY * max(-lower, upper):
+    if min(-lower, upper) > config.play * max(-lower, upper):
         opens_up = _closed_end(joint, asset, lower, upper) == lower
     axis = joint.axis if opens_up else joint.axis.reversed()
     before, after = (lower, upper) if opens_up else (-upper, -lower)
-    drawn_at = -before if min(-before, after) > _PLAY * max(-before, after) else 0.0
+    drawn_at = -before if min(-before, after) > config.play * max(-before, after) else 0.0
     reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
     if not joint.limited and motion_kind(joint.type).slides:
         reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out is unknown

@@ -15,7 +15,6 @@ from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import within
 from grafu.geometry.intersection import MeshCollider
 from grafu.joints.build import Built
-from grafu.joints.build_all import joint_ratio
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, sweep, swept_box
 from grafu.joints.order import Order
@@ -27,7 +26,7 @@ from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
 _GAP_POSES = 5  # hardware slides or turns along itself: a gap, where there is one, opens steadily
-_TOUCHING = 1e-4
+_TOUCHING = 1e-4  # metres: no narrower gap is measured
 _MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
 
 Figures = tuple[float, float]
@@ -55,7 +54,9 @@ def measure_all(
     for k, one in enumerate(built):
         name = one.request.moving
         work = partial(_measured, one, orders[name].upper, scene, config, cache)
-        found: Figures | Refusal = within(joint_ratio(len(built) - k), work, partial(Refusal, name, Reason.TOO_COMPLEX))
+        found: Figures | Refusal = within(
+            config.time.of_joint(len(built) - k), work, partial(Refusal, name, Reason.TOO_COMPLEX)
+        )
         if isinstance(found, Refusal):
             skipped.append(found)
         else:

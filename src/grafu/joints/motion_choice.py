@@ -20,7 +20,7 @@ from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import part_axes
 from grafu.vocabulary import JointType, PartLabel
 
-_LEVEL = 1e-6
+_LEVEL = 1e-6  # metres: a face this near to the middle of the whole is in the middle
 OLD_FIXED = "not"
 """The word of earlier versions for `fixed`; saved settings are still read."""
 

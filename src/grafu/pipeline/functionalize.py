@@ -20,7 +20,7 @@ from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.joints.config import RealizationConfig
+from grafu.joints.config import PlanConfig, RealizationConfig
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.motion_choice import MotionChoice
@@ -124,27 +124,29 @@ class MotionMethod:
     """
 
     complete: Callable[[Asset, FunctionalGraph], GraphCompletion]
-    plan: Callable[[Asset, GraphCompletion], RealizationPlan]
+    plan: Callable[[Asset, GraphCompletion, PlanConfig], RealizationPlan]
     answers: Callable[[Asset], bool] = lambda _: True
     reads_annotation: bool = True
 
 
-def _plan_completion(asset: Asset, completion: GraphCompletion) -> RealizationPlan:
-    return plan_from_completion(completion, asset)
+def _plan_completion(asset: Asset, completion: GraphCompletion, config: PlanConfig) -> RealizationPlan:
+    return plan_from_completion(completion, asset, config)
+
+
+def _plan_annotation(asset: Asset, _: GraphCompletion, config: PlanConfig) -> RealizationPlan:
+    return plan_from_annotation(asset, config)
 
 
 MOTIONS: dict[MotionSource, MotionMethod] = {
     MotionSource.ANNOTATION: MotionMethod(
-        complete_by_annotation, lambda asset, _: plan_from_annotation(asset), lambda asset: bool(asset.stated_joints)
+        complete_by_annotation, _plan_annotation, lambda asset: bool(asset.stated_joints)
     ),
     MotionSource.NETWORK: MotionMethod(
         complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
     ),
     MotionSource.RULE: MotionMethod(lambda _, graph: complete_by_rule(graph), _plan_completion, reads_annotation=False),
     **{
-        source: MotionMethod(
-            partial(complete_by_annotation, source=source.value), lambda asset, _: plan_from_annotation(asset)
-        )
+        source: MotionMethod(partial(complete_by_annotation, source=source.value), _plan_annotation)
         for source in FOREIGN
     },
 }
@@ -199,9 +201,12 @@ def functionalize(
     complete = partial(cache.value, source_name, motion.complete, asset, graph)  # who moves, and how
     completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, config.motions, asset), config.joints)
-    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion)  # initial axes
+    requested = config.realization.plan
+    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, requested)  # initial axes
     plan = stages.timed("plan", first)
-    plan = with_choices(plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery)
+    plan = with_choices(
+        plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery, requested
+    )
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, config.additions.of_body)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))

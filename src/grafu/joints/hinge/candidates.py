@@ -20,14 +20,13 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.joints.config import HingeConfig
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.scene.border import BorderFrame
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel
 
-_INSIDE = 0.1  # an axis nearer to a side than this fraction of the part runs along its border
 MAKESHIFT = 5  # the preference of makeshift mounts: after C, F, P, inset leaves, and pivots
-_CHUNKY = 0.45  # a part thicker than this fraction of its width is no door panel
 
 
 @final
@@ -119,8 +118,8 @@ def _corner_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCan
     return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), tol.radius, 2)
 
 
-def _let_in_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
-    """C at a door's front edge, its static leaf let into what stands behind: for doors that meet over one divider."""
+def _inset_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+    """C at a door's front edge, its static leaf inset in what stands behind: for doors that meet over one divider."""
     if not np.isfinite(s.back_gap):
         return None
     room = tol.radius + 0.95 * frame.board
@@ -134,7 +133,7 @@ _RULES: tuple[_Rule, ...] = (
     _flush_side,
     _corner_front,
     _corner_side,
-    _let_in_front,
+    _inset_front,
 )
 
 
@@ -143,21 +142,21 @@ def ruled_pins(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> list[Pin
     return [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
 
 
-def turns_about_itself(frame: BorderFrame, axis: Axis) -> bool:
+def turns_about_itself(frame: BorderFrame, axis: Axis, config: HingeConfig) -> bool:
     """Whether a part is no board and its axis runs through it: a tap, a revolving shelf; not a deep lid."""
-    if frame.thickness <= _CHUNKY * frame.width:
+    if frame.thickness <= config.chunky * frame.width:
         return False
     x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
     ratios = (float(x) / max(frame.width, 1e-9), -float(y) / max(frame.thickness, 1e-9))
-    return all(_INSIDE < ratio < 1 - _INSIDE for ratio in ratios)
+    return all(config.inside < ratio < 1 - config.inside for ratio in ratios)
 
 
-def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances) -> list[PinCandidate]:
+def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances, config: HingeConfig) -> list[PinCandidate]:
     """Returns the pins that discs at the door's ends could carry: the initial axis itself, then the border's corner."""
     radius = max(tol.radius, 0.06 * min(frame.thickness, frame.width))
     x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
     spots = [(float(x), float(y))]
-    if not turns_about_itself(frame, axis):
+    if not turns_about_itself(frame, axis, config):
         spots.append((1.2 * radius, -1.2 * radius))
     return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, 4, is_pivot=True) for x, y in spots]
 
@@ -174,13 +173,6 @@ def makeshift_pins(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate
             yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, MAKESHIFT + 1)
 
 
-# A hinge never exceeds this fraction of its door (official 7.3: 12 % of the door's axial length per hinge).
-_LENGTH_RATIO = 0.12
-_RADIUS_RATIO = 0.22
-_RADIUS = 0.0036  # of a common 60 mm butt hinge
-SMALLEST = 0.001
-
-
 @final
 @dataclass(frozen=True)
 class FittedHinge:
@@ -192,9 +184,9 @@ class FittedHinge:
     dynamic: Visual
 
 
-def barrel_radius(frame: BorderFrame) -> float:
+def barrel_radius(frame: BorderFrame, config: HingeConfig) -> float:
     """Returns the barrel radius that suits a door, metres; a door drawn without thickness counts as a thin board."""
-    return max(SMALLEST, min(_RADIUS, _RADIUS_RATIO * frame.board))
+    return max(config.smallest, min(config.radius, config.radius_ratio * frame.board))
 
 
 def hinge_count(length: float) -> int:
@@ -211,14 +203,14 @@ def hinge_heights(length: float, count: int) -> np.ndarray:
 
 
 def hinge_size(
-    model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int, scale: float = 1.0
+    model: HingeModel, frame: BorderFrame, pin: PinCandidate, count: int, config: HingeConfig, scale: float = 1.0
 ) -> HingeSize | None:
     """Returns the size at which a model fits a pin; None where its leaves would be no wider than its barrel.
 
     `scale` multiplies what suits the door; the pin's radius has it already, and hinges still must find room.
     """
     radius = pin.radius
-    wanted = scale * min(model.natural.length, _LENGTH_RATIO * frame.length)
+    wanted = scale * min(model.natural.length, config.length_ratio * frame.length)
     length = min(wanted, 0.8 * frame.length / (count + 1))
     leaf = min(scale * model.natural.leaf, pin.leaf_room)
     thickness = min(scale * model.natural.thickness, 0.6 * radius)

@@ -18,6 +18,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.joints.config import HingeConfig
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
@@ -73,8 +74,6 @@ def neighbours_of(moving_id: str, scene: Scene, depth: float) -> tuple[Neighbour
 
 
 _POSES = 11
-_TONGUE = 0.02  # how deep a tongue is let into what stands behind the door, metres
-_LAP = 0.002  # how far it laps over the leaf that it carries on
 
 
 @final
@@ -99,6 +98,7 @@ class Site:
     depth: float
     anchor: float
     reach: float
+    config: HingeConfig
     holders: tuple[str, ...] = ()
 
 
@@ -194,7 +194,7 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
 def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.inset:
-        tongue = _tongue(hinge, pin, site.frame)
+        tongue = _tongue(hinge, pin, site.frame, site.config)
         held = site.scene.is_near_static(tongue.mesh, site.anchor, site.holders)
         return (hinge.static, tongue) if held else None
     if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.holders):
@@ -238,13 +238,14 @@ def _extent(frame: BorderFrame, axis: int, half: np.ndarray) -> Vec3:
     return frame.rotation[:, axis] * max(float(half[axis]), 5e-4)
 
 
-def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame) -> Visual:
-    """Returns the strip that carries a let-in leaf on through the seam into what stands behind the door."""
+def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame, config: HingeConfig) -> Visual:
+    """Returns the strip that carries an inset leaf on through the seam into what stands behind the door."""
     size = hinge.template.size
     leaf = frame.to_border(hinge.static.mesh.vertices)
-    start, end = float(leaf[:, 1].min()) + _LAP, -frame.thickness - _TONGUE
+    start, end = float(leaf[:, 1].min()) + config.lap, -frame.thickness - config.tongue
     z = float(leaf[:, 2].min() + leaf[:, 2].max()) / 2
     u = frame.direction(0.0, 0.0, 0.4 * size.length)
     v = frame.direction(0.4 * size.thickness, 0.0, 0.0)
     center = frame.to_object(vec3(pin.x - size.thickness / 2, start, z)[None])[0]
-    return block("support_hinge", Footing(center, frame.direction(0.0, -1.0, 0.0), u, v), max(start - end, _LAP), METAL)
+    foot = Footing(center, frame.direction(0.0, -1.0, 0.0), u, v)
+    return block("support_hinge", foot, max(start - end, config.lap), METAL)

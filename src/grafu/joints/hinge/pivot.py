@@ -21,7 +21,7 @@ from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame
 from grafu.vocabulary import PartLabel
 
-_SEGMENTS = 24
+_SEGMENTS = 24  # sides of a disc
 
 
 PivotEnd = tuple[tuple[Visual, ...], tuple[Visual, ...]]

@@ -109,7 +109,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
     """Yields the placements of the templates of the pin's class whose hinges all fit."""
     count, choice = search.count, search.request.choice
     for model in gallery.hinges_of(judged.pin.mechanism):
-        size = hinge_size(model, search.frame, judged.pin, count, choice.scale)
+        size = hinge_size(model, search.frame, judged.pin, count, search.config.hinge, choice.scale)
         if size is None or not choice.takes(model.id):
             continue
         upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
@@ -161,6 +161,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         depth=search.depth,
         anchor=search.config.anchor * extent,
         reach=(search.config.chosen_reach if mount else search.config.bridge) * extent,
+        config=search.config.hinge,
         holders=search.request.holders,
     )
 
@@ -183,7 +184,7 @@ def _installed(
     model: HingeModel, pin: PinCandidate, site: Site, count: int, search: DoorSearch
 ) -> Iterator[InstalledHinge | None]:
     """Yields one hinge per height, each shifted along the pin where its place is taken; None where it finds none."""
-    size = hinge_size(model, search.frame, pin, count, search.request.choice.scale)
+    size = hinge_size(model, search.frame, pin, count, search.config.hinge, search.request.choice.scale)
     if size is None:
         return
     taken: list[float] = []

@@ -14,7 +14,6 @@ from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.candidates import (
     MAKESHIFT,
-    SMALLEST,
     PinCandidate,
     Tolerances,
     barrel_radius,
@@ -38,8 +37,6 @@ from grafu.joints.plan import PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Obstacle, Scene
 
-_NEARLY = 0.05  # a pin that leaves this fraction of the wanted opening blocked is still as good as free
-
 
 @final
 @dataclass(frozen=True)
@@ -47,7 +44,7 @@ class JudgedPin:
     """A pin with what the sweep of the bare door says of it; lower ranks are better.
 
     `free` is the opening before the door runs into the static body; `neighbours` are the moving bodies that it meets at
-    rest.
+    rest; `is_clear` says that the door opens about it as wanted, or nearly so, past everything.
     """
 
     pin: PinCandidate
@@ -55,11 +52,7 @@ class JudgedPin:
     free: float
     neighbours: tuple[str, ...]
     rank: tuple[float, int, int, float]
-
-    @property
-    def is_clear(self) -> bool:
-        """Whether the door opens about it as wanted, or nearly so, past everything."""
-        return self.rank[0] <= _NEARLY and not self.neighbours
+    is_clear: bool
 
 
 @final
@@ -110,7 +103,7 @@ class DoorSearch:
     @cached_property
     def ruled(self) -> list[JudgedPin]:
         """The pins of the hinge classes that the surroundings allow, best first."""
-        if turns_about_itself(self.frame, self.request.axis):
+        if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return []
         return self._judged(self._allowed)
 
@@ -118,7 +111,9 @@ class DoorSearch:
     def others(self) -> list[JudgedPin]:
         """Pivots and makeshift pins, best first."""
         tol = self._tolerances
-        return self._judged([*pivot_pins(self.frame, self.request.axis, tol), *makeshift_pins(self.frame, tol)])
+        return self._judged(
+            [*pivot_pins(self.frame, self.request.axis, tol, self.config.hinge), *makeshift_pins(self.frame, tol)]
+        )
 
     @cached_property
     def slim(self) -> list[JudgedPin]:
@@ -126,16 +121,18 @@ class DoorSearch:
 
         An inset one holds by a tongue of half a millimetre: it comes after the pivots.
         """
-        if turns_about_itself(self.frame, self.request.axis):
+        if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return []
-        tol = replace(self._tolerances, radius=max(self.config.hinge.slim * self._tolerances.radius, SMALLEST))
+        tol = replace(
+            self._tolerances, radius=max(self.config.hinge.slim * self._tolerances.radius, self.config.hinge.smallest)
+        )
         pins = self._ruled_pins(tol)
         return self._judged([replace(pin, preference=MAKESHIFT) if pin.inset else pin for pin in pins])
 
     @property
     def expected_axis(self) -> Axis:
         """The axis of the first hinge class about which the bare door is free; else the one that was asked for."""
-        if turns_about_itself(self.frame, self.request.axis):
+        if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return self.request.axis
         judged = (self._judge(pin) for pin in self._allowed)
         return next((j.axis for j in judged if j.is_clear), self.request.axis)
@@ -169,7 +166,7 @@ class DoorSearch:
     @property
     def _tolerances(self) -> Tolerances:
         extent = self.scene.extent
-        radius = barrel_radius(self.frame) * self.request.choice.scale
+        radius = barrel_radius(self.frame, self.config.hinge) * self.request.choice.scale
         return Tolerances(self.config.contact * extent, self.config.flush * extent, radius)
 
     def in_order(self) -> Iterator[JudgedPin]:
@@ -188,7 +185,7 @@ class DoorSearch:
         What is no board turns about the axis that was asked for, if anything can carry it there.
         """
         first = [judged for judged in self.ruled if judged.is_clear]
-        if turns_about_itself(self.frame, self.request.axis):
+        if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             first = [judged for judged in self.others if judged.pin.is_pivot]
         yield from first
         slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.inset]
@@ -227,7 +224,8 @@ class DoorSearch:
         neighbours = all_blockers(self.body, motion, self.wanted, in_the_way(self.neighbours, box), poses)
         shortfall = round(1.0 - free / self.wanted, 2) + round(ratio, 2)
         rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
-        return JudgedPin(pin, axis, free, neighbours, rank)
+        is_clear = shortfall <= self.config.hinge.nearly and not neighbours
+        return JudgedPin(pin, axis, free, neighbours, rank, is_clear)
 
 
 def door_search(

@@ -16,13 +16,11 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, transform_points
+from grafu.joints.config import DrawerConfig
 from grafu.scene.border import part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
 _FINER = 24  # rows between two of those, where a body begins and ends: to a thousandth of the depth
-_BOARD = 0.15  # what is less deep than this fraction of its smaller side is a front without a container
-_THICKEST, _SLAT = 0.03, 0.1  # metres, fraction of its longer side: low fronts are thick for their height
-_SHORTEST = 0.3  # a body shorter than this fraction of the drawer's depth is no container (official 7.4)
 
 
 @final
@@ -110,26 +108,28 @@ class BodyRegion:
         return (self.right - self.left) / 2
 
 
-def body_region(mesh: TriangleMesh, frame: DrawerFrame, tolerance: float) -> BodyRegion | None:
+def body_region(
+    mesh: TriangleMesh, frame: DrawerFrame, tolerance: float, config: DrawerConfig = DrawerConfig()
+) -> BodyRegion | None:
     """Returns the region around the median of the outer-width profile (supplement, eq. body region); None if no body.
 
     Each flank has its own profile: a front may stand out further on one side. `tolerance` is a fraction of the width. A
     board has no body, however long its edges are.
     """
-    if is_board(frame):
+    if is_board(frame, config):
         return None
     caster = RayCaster(mesh)
     y, z = _grid(frame)
     flanks = _flanks(caster, frame, y, z)
     columns = np.array([[_median(column) for column in flank] for flank in flanks])
-    if min(np.isfinite(columns).sum(axis=1)) < _SHORTEST * _SLIDE:
+    if min(np.isfinite(columns).sum(axis=1)) < config.shortest * _SLIDE:
         return None
     band = max(tolerance * frame.width, 2e-3)
     medians = np.nanmedian(columns, axis=1)
     in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
     enough = max(2.0, 0.2 * float(in_body.sum(axis=1).max()))
     run = _longest_run(in_body.sum(axis=1) >= enough)
-    if run[1] - run[0] + 1 < _SHORTEST * _SLIDE:
+    if run[1] - run[0] + 1 < config.shortest * _SLIDE:
         return None
     rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
     if rows[1] < rows[0]:
@@ -155,15 +155,15 @@ def _ends(first: float, last: float, depth: float, belongs: Callable[[np.ndarray
     return float(first - reaches[0] * run[0] / _FINER), float(last + reaches[1] * run[1] / _FINER)
 
 
-def is_board(frame: DrawerFrame) -> bool:
+def is_board(frame: DrawerFrame, config: DrawerConfig = DrawerConfig()) -> bool:
     """Whether a drawer is a mere front: much less deep than it is wide and high, or as thin as boards are."""
-    as_thin = min(_THICKEST, _SLAT * max(frame.width, frame.height))
-    return frame.depth < max(_BOARD * min(frame.width, frame.height), as_thin)
+    as_thin = min(config.thickest_board, config.slat * max(frame.width, frame.height))
+    return frame.depth < max(config.shallow * min(frame.width, frame.height), as_thin)
 
 
-def is_shallow(frame: DrawerFrame) -> bool:
+def is_shallow(frame: DrawerFrame, config: DrawerConfig = DrawerConfig()) -> bool:
     """Whether a drawer may be a mere front with its pull, drawn as one: much less deep than wide or high."""
-    return frame.depth < _BOARD * max(frame.width, frame.height)
+    return frame.depth < config.shallow * max(frame.width, frame.height)
 
 
 def _median(values: np.ndarray) -> float:

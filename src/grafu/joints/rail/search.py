@@ -12,7 +12,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
-from grafu.joints.config import RealizationConfig
+from grafu.joints.config import DrawerConfig, RealizationConfig
 from grafu.joints.limits import (
     PoseFunction,
     all_blockers,
@@ -28,9 +28,6 @@ from grafu.joints.rail.spots import front_only_region
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel
-
-_FLAT = 0.2  # a board is thinner than this fraction of its smaller side
-_FLUSH = 1e-3  # metres by which an attached part may stand out and still count as behind a drawer's front side
 
 
 @final
@@ -49,7 +46,7 @@ class DrawerSearch:
     @cached_property
     def mesh(self) -> TriangleMesh:
         """What rails may hold on to: the drawer, and what rides behind its front side (walls, runners of its own)."""
-        return carried_mesh(self.request, self.scene)
+        return carried_mesh(self.request, self.scene, self.config.drawer)
 
     @property
     def box(self) -> Box:
@@ -74,14 +71,14 @@ class DrawerSearch:
     def walls_of(self, parts: tuple[str, ...]) -> RayCaster:
         """Returns the static body around the drawer and behind it (or some parts of it alone), prepared for rays."""
         near = 0.5 * float(self.mesh.box.size.max())
-        margin = self.scene.extent if is_shallow(self.frame) else near
+        margin = self.scene.extent if is_shallow(self.frame, self.config.drawer) else near
         return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin, parts))
 
     @cached_property
     def region(self) -> BodyRegion | None:
         """Where rails may run: along the container, or behind a front that has none; None where there is no depth."""
-        container = body_region(self.mesh, self.frame, self.config.body_tolerance)
-        if container is not None and not is_shallow(self.frame):
+        container = body_region(self.mesh, self.frame, self.config.body_tolerance, self.config.drawer)
+        if container is not None and not is_shallow(self.frame, self.config.drawer):
             return container
         behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent, self.config.rail.common)
         if container is None or (behind is not None and behind.length > self.config.rail.deeper * container.length):
@@ -118,20 +115,20 @@ class DrawerSearch:
         return all_blockers(self.body, self.motion, reach, near, self.config.coarse_poses)
 
 
-def slides_in_its_plane(mesh: TriangleMesh, direction: Vec3) -> bool:
+def slides_in_its_plane(mesh: TriangleMesh, direction: Vec3, config: DrawerConfig = DrawerConfig()) -> bool:
     """Whether a part is an upright board that slides along itself: a sliding door."""
     axes = part_axes(mesh)
     size = np.ptp(mesh.vertices @ axes, axis=0)
     thin = int(np.argmin(size))
     is_upright = thin != int(np.argmax(np.abs(axes[2])))
-    is_flat = size[thin] < _FLAT * np.delete(size, thin).min()
-    return bool(is_upright and is_flat and abs(float(axes[:, thin] @ direction)) < _FLAT)
+    is_flat = size[thin] < config.flat * np.delete(size, thin).min()
+    return bool(is_upright and is_flat and abs(float(axes[:, thin] @ direction)) < config.flat)
 
 
-def carried_mesh(request: JointRequest, scene: Scene) -> TriangleMesh:
+def carried_mesh(request: JointRequest, scene: Scene, config: DrawerConfig = DrawerConfig()) -> TriangleMesh:
     """Returns a drawer with those attached parts that do not stand out before its front; handles never count."""
     drawer, slide = scene.parts[request.moving], np.asarray(request.axis.direction)
-    front = float((drawer.mesh.vertices @ slide).max()) + _FLUSH
+    front = float((drawer.mesh.vertices @ slide).max()) + config.stands_out
     attached = [
         scene.parts[member] for member in scene.moving_bodies[request.moving].members if member != request.moving
     ]
@@ -145,8 +142,8 @@ def drawer_search(
     """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle."""
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
-    lying = slides_in_its_plane(mesh, direction)
-    frame = drawer_frame(mesh if lying else carried_mesh(request, scene), direction, lying)
+    lying = slides_in_its_plane(mesh, direction, config.drawer)
+    frame = drawer_frame(mesh if lying else carried_mesh(request, scene, config.drawer), direction, lying)
     if frame is None:
         return None
     body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))

@@ -1,0 +1,82 @@
+"""Thresholds of joints are fields of configurations: the numbers that stand in modules are listed with a reason."""
+
+import ast
+from collections.abc import Iterator
+from dataclasses import fields, replace
+from pathlib import Path
+
+import pytest
+
+from grafu.joints import config
+from grafu.joints.config import DrawerConfig, HingeConfig, PlanConfig, RailConfig, RealizationConfig, TimeConfig
+
+JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
+
+SAMPLES = "how many rays, poses, heights or pieces an algorithm takes, or where they lie"
+TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
+EFFORT = "after how many tries, or beyond how many pieces, a search ends or is done in a simpler way"
+NUMBERING = "the rank of a row in a table, or a direction"
+LOOK = "the colour of hardware"
+
+REASONS = {
+    "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT},
+    "clearance/make.py": {"_STEPS": EFFORT},
+    "coupled.py": {"_ALIKE": TOLERANCE},
+    "hinge/candidates.py": {"MAKESHIFT": NUMBERING},
+    "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
+    "hinge/pivot.py": {"_SEGMENTS": SAMPLES},
+    "hinge/place.py": {"_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
+    "hinge/survey.py": {"_LEVELS": SAMPLES, "_ENDS": SAMPLES, "_START": SAMPLES},
+    "limits.py": {"_REST_DENSITY": SAMPLES},
+    "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},
+    "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
+    "order.py": {"_RATIOS": SAMPLES},
+    "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
+    "rail/spots.py": {"_GRID": SAMPLES, "_STEPS": SAMPLES, "_LEVELS": SAMPLES},
+    "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
+}
+CONFIGS = (RealizationConfig, HingeConfig, RailConfig, DrawerConfig, PlanConfig, TimeConfig)
+
+
+def numbers_in(source: str) -> Iterator[str]:
+    """Yields the names that a module gives to values with a number in them."""
+    for node in ast.parse(source).body:
+        if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
+            continue
+        if any(isinstance(n, ast.Constant) and type(n.value) in (int, float) for n in ast.walk(node.value)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            yield from (ast.unparse(target) for target in targets)
+
+
+def test_no_threshold_stands_in_a_module() -> None:
+    paths = {path.relative_to(JOINTS).as_posix(): path for path in sorted(JOINTS.rglob("*.py"))}
+    found = {name: set(numbers_in(path.read_text())) for name, path in paths.items()}
+
+    expected = {name: set(reasons) for name, reasons in REASONS.items()}
+
+    assert {name: names for name, names in found.items() if names} == expected
+
+
+@pytest.mark.parametrize("kind", CONFIGS, ids=lambda kind: kind.__name__)
+def test_every_field_has_a_line_that_explains_it(kind: type) -> None:
+    tree = next(
+        node
+        for node in ast.parse(Path(config.__file__).read_text()).body
+        if isinstance(node, ast.ClassDef) and node.name == kind.__name__
+    )
+    explained = {
+        a.target.id
+        for a, b in zip(tree.body, tree.body[1:], strict=False)
+        if isinstance(a, ast.AnnAssign) and isinstance(a.target, ast.Name) and isinstance(b, ast.Expr)
+    }
+    assert explained == {field.name for field in fields(kind)}
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [(kind, field.name) for kind in CONFIGS for field in fields(kind) if field.type in (float, int)],
+    ids=lambda value: value if isinstance(value, str) else value.__name__,
+)
+def test_a_number_below_0_is_refused(kind: type, name: str) -> None:
+    with pytest.raises(ValueError, match=name if not name.endswith("poses") else "poses"):
+        replace(kind(), **{name: type(getattr(kind(), name))(-1)})
