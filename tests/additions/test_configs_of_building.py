@@ -6,7 +6,7 @@ from math import nan
 import pytest
 
 from grafu.additions.carcass.config import CarcassConfig
-from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
 from grafu.additions.handle.config import FingerRoomConfig, GraspConfig, HandleConfig, HandleTrials, ReliefConfig
 from grafu.additions.interior.config import InteriorConfig, RoomConfig
@@ -21,13 +21,14 @@ from grafu.additions.top.config import (
 from grafu.joints.config import HingeConfig, RailConfig, RealizationConfig
 
 CONFIGS = (
-    CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig, GraspConfig, GripConfig, GripSizes,
-    GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, RailConfig,
-    RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, TopConfig,
+    BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig, GraspConfig,
+    GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig,
+    OutlineConfig, RailConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
 POSITIVE = [
+    (BoxProbeConfig, "touch"),
     (CarcassConfig, "back"),
     (CutoutConfig, "opening"),
     (DrawerBoxConfig, "wall"),

@@ -20,7 +20,7 @@ REASONS = {
     "carcass/missing_panels.py": {"RAY_GRID": SAMPLES},
     "drawer_box/boards.py": {"RAYS_PER_SIDE": SAMPLES},
     "drawer_box/room.py": {"COLUMNS": SAMPLES, "SLICES": SAMPLES, "DEPTH_QUANTILES": SAMPLES},
-    "drawer_box/verdict.py": {"COLUMNS": SAMPLES, "LEVELS": SAMPLES, "RAY_START": TOLERANCE},
+    "drawer_box/verdict.py": {"COLUMNS": SAMPLES, "FACE_RAYS": SAMPLES, "LEVELS": SAMPLES, "RAY_START": TOLERANCE},
     "grip/carve.py": {"BOX_TOLERANCE": TOLERANCE},
     "grip/ground.py": {"ASIDE": TOLERANCE, "OUTERMOST_LINES": SAMPLES},
     "grip/place.py": {"LINES": SAMPLES},

@@ -14,7 +14,7 @@ import numpy as np
 from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.closed_scene import ClosedScene, closed_part, closed_scene
 from grafu.additions.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
-from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.drawer_box.loose import loose_boards
 from grafu.additions.drawer_box.room import Room, find_room
 from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
@@ -173,7 +173,7 @@ def drawer_box(
     else:
         boards = boards_to_complete(verdict, mesh, caster, frame, config, room.box if room else None)
         if not isinstance(boards, Refusal):
-            boards = _free(boards, np.concatenate([still, others]))
+            boards = _free(boards, np.concatenate([still, others]), config.probe)
     if isinstance(boards, Refusal):
         return _of(request, boards)
     return _additions(boards, verdict, request, frame, closed, set(taken))
@@ -210,10 +210,12 @@ def _space_behind(frame: DrawerFrame, closed: ClosedScene, request: JointRequest
     return max(float(low[met, 1].min()) - frame.depth, 0.0) if met.any() else 0.0
 
 
-def _free(boards: Mapping[BoardName, Box], obstacles: np.ndarray) -> Mapping[BoardName, Box] | Refusal:
+def _free(
+    boards: Mapping[BoardName, Box], obstacles: np.ndarray, config: BoxProbeConfig
+) -> Mapping[BoardName, Box] | Refusal:
     """Returns the boards, or which of them something stands in the way of."""
     for name, board in boards.items():
-        inside = board.grown(-min(5e-4, 0.1 * float(board.size.min())))
+        inside = board.grown(-min(config.touch, config.touch_ratio * float(board.size.min())))
         if len(pieces_in(obstacles, inside, (4, 4, 4)).low):
             return Refusal("", Reason.IN_THE_WAY, f"something stands where its {name.replace('_', ' ')} would be")
     return boards

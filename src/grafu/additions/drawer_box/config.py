@@ -8,6 +8,43 @@ from grafu.scene.checks import require_positive
 
 @final
 @dataclass(frozen=True)
+class BoxProbeConfig:
+    """Where the boards of a drawer's box are looked for, and what a new board may touch. Lengths are metres.
+
+    Raises:
+        ValueError: if a length or a fraction is not above 0.
+    """
+
+    middle: float = 0.6
+    """Fraction of a front's width and height in which its inner face is looked for."""
+    front: float = 0.02
+    """Thickness of a front whose inner face is not seen ..."""
+    front_ratio: float = 0.1
+    """... and the most of the drawer's depth that it takes."""
+    thinnest: float = 1e-4
+    """Thickness up to which what is seen of a front is the outer face of a solid block."""
+    ends: float = 0.1
+    """Fraction of the room behind a front at either end in which no wall and no bottom is looked for ..."""
+    back: float = 0.02
+    """... at the back at least this length, where the back itself stands ..."""
+    back_ratio: float = 0.3
+    """... and of this at most this fraction of the room."""
+    touch: float = 5e-4
+    """Depth to which a new board may reach into what is there ..."""
+    touch_ratio: float = 0.1
+    """... and the most of the board's thickness that this takes."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+    def at_scale(self, metre: float) -> "BoxProbeConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("front", "thinnest", "back", "touch")
+        return replace(self, **{name: metre * getattr(self, name) for name in lengths})
+
+
+@final
+@dataclass(frozen=True)
 class DrawerBoxConfig:
     """Lengths are metres on furniture of usual size, on small fronts less; see `at_scale` for models in another scale.
 
@@ -79,12 +116,15 @@ class DrawerBoxConfig:
     """How far boards that are drawn with the case may stick out of the drawer's outline (metres)."""
     opposite: float = 0.9
     """Negative cosine between the directions of two drawers from which on they face away from each other (ratio)."""
+    probe: BoxProbeConfig = BoxProbeConfig()
+    """Where boards are looked for, and what a new one may touch."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
+        require_positive(self, *(name for name in self.__dataclass_fields__ if name != "probe"))
 
     def at_scale(self, metre: float) -> "DrawerBoxConfig":
         """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
         boards = ("side_gap", "under", "over", "behind", "wall", "bottom", "highest", "inset", "to_front")
         seen = ("rim", "drawn_in", "touch", "sticks_out")
-        return replace(self, **{name: metre * getattr(self, name) for name in (*boards, *seen)})
+        lengths = {name: metre * getattr(self, name) for name in (*boards, *seen)}
+        return replace(self, probe=self.probe.at_scale(metre), **lengths)

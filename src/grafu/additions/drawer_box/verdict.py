@@ -10,7 +10,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.additions.drawer_box.config import DrawerBoxConfig
+from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
@@ -27,6 +27,8 @@ BOARDS: tuple[BoardName, ...] = ("side_left", "side_right", "back", "bottom")
 
 COLUMNS = 16
 """Rays along a board."""
+FACE_RAYS = 9
+"""Rays along each side of a front that look for its inner face."""
 LEVELS = 32
 """Rays over the height of a wall."""
 RAY_START = 1e-3
@@ -68,7 +70,7 @@ def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: Dra
     if is_board(frame):
         return _front_only(drawer, frame, f"it is {frame.depth:.3f} m deep: a front")
     caster = RayCaster(mesh)
-    inner = _inner_front(caster, frame)
+    inner = _inner_front(caster, frame, config.probe)
     bottom, floor = _bottom(caster, frame, inner, config)
     if bottom >= config.covered and frame.height < config.tray * min(frame.width, frame.depth):
         return BoxVerdict(drawer, "whole", (("bottom", bottom),), (), inner, "it is a board or a tray")
@@ -76,7 +78,7 @@ def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: Dra
     if bottom >= config.covered and floor < (config.block - 0.5) * frame.height:
         rim = min(max(config.rim, config.rim_ratio * frame.height), 0.3 * frame.height)
         wall = replace(wall, above=floor, height=rim)
-    left, right = (_side(caster, frame, inner, sign, wall) for sign in (-1.0, 1.0))
+    left, right = (_side(caster, frame, inner, sign, wall, config.probe) for sign in (-1.0, 1.0))
     ratios = {"side_left": left, "side_right": right, "back": _back(caster, frame, inner, wall), "bottom": bottom}
     missing = tuple(name for name in BOARDS if ratios[name] < config.covered)
     if len(missing) == len(BOARDS):
@@ -99,16 +101,16 @@ def as_front_only(verdict: BoxVerdict, frame: DrawerFrame, behind: float) -> Box
     )
 
 
-def _inner_front(caster: RayCaster, frame: DrawerFrame) -> float:
+def _inner_front(caster: RayCaster, frame: DrawerFrame, config: BoxProbeConfig) -> float:
     """Returns the y of the front's inner face, seen from the middle of the box."""
-    middle = 0.5 * frame.depth
-    x, z = _grid(0.6 * frame.width / 2, 0.6 * frame.height / 2, 9, 9)
+    middle, unseen = 0.5 * frame.depth, min(config.front, config.front_ratio * frame.depth)
+    x, z = _grid(config.middle * frame.width / 2, config.middle * frame.height / 2, FACE_RAYS, FACE_RAYS)
     hits = caster.along(np.column_stack([x, np.full(x.size, middle), z]), vec3(0.0, -1.0, 0.0))
     found = hits[hits <= middle + RAY_START]
     if len(found) < 0.5 * len(hits):
-        return min(0.02, 0.1 * frame.depth)
+        return unseen
     inner = middle - float(np.median(found))
-    return inner if inner > 1e-4 else min(0.02, 0.1 * frame.depth)  # a solid block shows its outer face
+    return inner if inner > config.thinnest else unseen  # a solid block shows its outer face
 
 
 def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerBoxConfig) -> tuple[float, float]:
@@ -117,7 +119,7 @@ def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerB
         a.ravel()
         for a in np.meshgrid(
             np.linspace(-config.inner_ratio, config.inner_ratio, COLUMNS) * frame.width / 2,
-            _along(frame, inner),
+            _along(frame, inner, config.probe),
             indexing="ij",
         )
     )
@@ -127,9 +129,11 @@ def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerB
     return float(hit.mean()), float(np.median(above[hit])) if hit.any() else 0.0
 
 
-def _side(caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall: _Wall) -> float:
+def _side(
+    caster: RayCaster, frame: DrawerFrame, inner: float, sign: float, wall: _Wall, config: BoxProbeConfig
+) -> float:
     """Returns the fraction of one side's length at which a wall stands."""
-    y, z = (a.ravel() for a in np.meshgrid(_along(frame, inner), _levels(frame), indexing="ij"))
+    y, z = (a.ravel() for a in np.meshgrid(_along(frame, inner, config), _levels(frame), indexing="ij"))
     outside = frame.width / 2 + RAY_START
     origins = np.column_stack([np.full(y.size, sign * outside), y, z])
     hits = caster.along(origins, vec3(-sign, 0.0, 0.0)) <= outside - wall.outer * frame.width / 2
@@ -150,10 +154,11 @@ def _high_enough(hits: np.ndarray, frame: DrawerFrame, wall: _Wall) -> float:
     return float((heights > wall.height).mean())
 
 
-def _along(frame: DrawerFrame, inner: float) -> np.ndarray:
+def _along(frame: DrawerFrame, inner: float, config: BoxProbeConfig) -> np.ndarray:
     """Returns values of y behind the front, short of the back."""
     room = frame.depth - inner
-    return np.linspace(inner + 0.1 * room, frame.depth - max(0.1 * room, min(0.02, 0.3 * room)), COLUMNS)
+    back = max(config.ends * room, min(config.back, config.back_ratio * room))
+    return np.linspace(inner + config.ends * room, frame.depth - back, COLUMNS)
 
 
 def _levels(frame: DrawerFrame) -> np.ndarray:
