@@ -22,6 +22,8 @@ LEAST_UPRIGHT_PART = 0.02
 """Upright part of a triangle's unit normal below which its height over a point is not solved for (ratio)."""
 BORDER_TOLERANCE = 1e-6
 """Cells: what ends on a cell's border does not reach into the next."""
+CELLS_AT_ONCE = 1_000_000
+"""Cells that triangles are spread over at once: bounds the memory of many large triangles to some 100 MB."""
 
 
 @final
@@ -80,10 +82,18 @@ def heights_of(triangles: Float[np.ndarray, "n 3 3"], grid: Grid) -> Heights:
     inside = (high > 0).all(axis=1) & (low < grid.shape).all(axis=1)
     tiny, tall = (size < 1.0).all(axis=1), size[:, 1] > size[:, 0]
     _mark_tiny(field, flat[inside & tiny], triangles[inside & tiny, :, 2], grid)
+    covered = np.prod(np.minimum(np.ceil(size) + 1, grid.shape), axis=1)
     for turned in (False, True):  # along the axis on which fewer lines of cells are crossed
-        chosen = inside & ~tiny & (tall == turned)
-        _mark_large(field, flat[chosen], triangles[chosen, :, 2], grid, turned)
+        chosen = np.flatnonzero(inside & ~tiny & (tall == turned))
+        for batch in _batches(chosen, covered[chosen]):
+            _mark_large(field, flat[batch], triangles[batch, :, 2], grid, turned)
     return field.reshape(grid.shape)
+
+
+def _batches(chosen: Indices, covered: Scalars) -> list[Int[np.ndarray, " _"]]:
+    """Returns triangles in batches whose bounding boxes cover at most some `CELLS_AT_ONCE` cells together."""
+    number = np.cumsum(covered) // CELLS_AT_ONCE
+    return np.split(chosen, np.flatnonzero(np.diff(number)) + 1) if len(chosen) else []
 
 
 def _least(corners: Float[np.ndarray, "n 3 ..."]) -> Float[np.ndarray, "n ..."]:
