@@ -57,7 +57,7 @@ class MechanismClass(StrEnum):
     """How a mechanism meets its two parts (paper, figure Hinge Configurations).
 
     C (contact) joins two faces that touch, F (flush) two faces in one plane, P (perpendicular) two faces at a right
-    angle; rails are named by their mount.
+    angle; rails are named by their mount. NONE is a joint without hardware: it moves, and nothing is shown to carry it.
     """
 
     C = "C"
@@ -65,6 +65,7 @@ class MechanismClass(StrEnum):
     P = "P"
     CENTRE = "centre-mount"
     CORNER = "corner-mount"
+    NONE = "none"
 
     @property
     def in_words(self) -> str:

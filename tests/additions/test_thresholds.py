@@ -47,7 +47,7 @@ REASONS = {
     "interior/rooms.py": {"FRONTS": NUMBERING, "LID": NUMBERING, "SIDE_AXES": NUMBERING, "FRONT_FACES": NUMBERING},
     "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
     "top/cutouts.py": {"SWEEP_POSES": SAMPLES},
-    "top/height_map.py": {"LEAST_UPRIGHT_PART": TOLERANCE, "BORDER_TOLERANCE": TOLERANCE},
+    "top/height_map.py": {"LEAST_UPRIGHT_PART": TOLERANCE, "BORDER_TOLERANCE": TOLERANCE, "CELLS_AT_ONCE": LIMIT},
     "top/section.py": {
         "SHORTEST_LINE": TOLERANCE,
         "MOST_LINES": LIMIT,

@@ -37,7 +37,7 @@ BASE = Settings(MotionSource.ANNOTATION)
 
 choices = st.builds(
     JointChoice,
-    mechanism=st.sampled_from([None, *MechanismClass]),
+    mechanism=st.sampled_from([None, *(m for m in MechanismClass if m is not MechanismClass.NONE)]),
     scale=st.floats(0.25, 4.0),
     count=st.integers(0, 12),
     flipped=st.booleans(),

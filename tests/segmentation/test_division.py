@@ -116,3 +116,68 @@ def test_inset_fronts_leave_their_face_frame_behind():
     found = cut(merge_meshes([*CASE, *stiles, *rails, *doors]))
 
     assert boxes(found, "front") == rounded(doors)
+
+
+PLATE = board((-0.38, -0.22, 0.02), (0.38, -0.2, 0.96))
+BAR = board((0.3, -0.26, 0.4), (0.32, -0.22, 0.6))
+
+
+def roles(found, number):
+    return [role for role, _ in found[number]]
+
+
+@pytest.mark.parametrize("is_named", [True, False], ids=["called a door", "without a name"])
+def test_a_handle_drawn_in_a_front_becomes_a_part_and_the_front_stays_one(is_named):
+    found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR]), movers=[False, is_named])
+
+    assert list(found) == [1]
+    assert roles(found, 1) == ["body", "handle"]
+    assert boxes(found, "body") == rounded([PLATE])
+    assert boxes(found, "handle") == rounded([BAR])
+
+
+def sheet(xs, zs, depth, raised=()):
+    """A sheet of cells at y = depth(x), those that are `raised` drawn out to y = -0.26; and which faces these have."""
+    corners, is_raised = [], []
+    for i, j in np.ndindex(len(xs) - 1, len(zs) - 1):
+        (x0, x1), (z0, z1) = xs[i : i + 2], zs[j : j + 2]
+        ring = [np.array([x, depth(x), z]) for x, z in ((x0, z0), (x1, z0), (x1, z1), (x0, z1))]
+        out = [np.array([p[0], -0.26, p[2]]) for p in ring]
+        cells = [ring] if (i, j) not in raised else [out]
+        if (i, j) in raised:
+            cells += [[ring[k], ring[(k + 1) % 4], out[(k + 1) % 4], out[k]] for k in range(4)]
+        for a, b, c, d in cells:
+            corners += [a, b, c, a, c, d]
+            is_raised += 2 * [(i, j) in raised]
+    points = np.array(corners)
+    return TriangleMesh(points, np.arange(len(points)).reshape(-1, 3)), np.array(is_raised, dtype=np.int64)
+
+
+def test_a_handle_welded_to_its_front_is_known_by_its_material():
+    case = merge_meshes(CASE)
+    door, material = sheet([-0.38, 0.3, 0.32, 0.38], [0.02, 0.4, 0.6, 0.96], lambda _: -0.22, raised=[(1, 1)])
+    assert shell_numbers(door).max() == 0
+
+    one = [np.zeros(len(case.faces), np.int64)]
+    found = divided([case, door], [True, True], [False, True], [*one, material])
+    plain = divided([case, door], [True, True], [False, True], [*one, np.zeros_like(material)])
+
+    assert {k: [piece.role for piece in pieces] for k, pieces in found.items()} == {1: ["body", "handle"]}
+    assert found[1][1].faces.tolist() == np.flatnonzero(material).tolist()
+    assert plain == {}
+
+
+def test_a_front_with_many_pieces_on_it_keeps_them():
+    slats = [board((-0.3, -0.23, z), (0.3, -0.22, z + 0.01)) for z in (0.2, 0.4, 0.6, 0.8)]
+
+    assert cut(merge_meshes(CASE), merge_meshes([PLATE, *slats]), movers=[False, True]) == {}
+
+
+def test_a_handle_on_a_curved_front_stands_out_of_the_front_beside_it():
+    front, _ = sheet(np.linspace(-0.38, 0.38, 17), [0.02, 0.96], lambda x: -0.21 - 0.1 * np.cos(np.pi * x / 0.76))
+    bar = board((0.34, -0.28, 0.4), (0.36, -0.235, 0.6))
+    assert bar.box.low[1] > front.box.low[1] + 0.02, "it lies behind the front's middle"
+
+    found = cut(merge_meshes(CASE), merge_meshes([front, bar]), movers=[False, True])
+
+    assert boxes(found, "handle") == rounded([bar])

@@ -270,6 +270,7 @@ def _choice(**fields: object) -> JointChoice:
 def _mechanism(name: str | None) -> MechanismClass | None:
     if name is None:
         return None
-    if name not in {known.value for known in MechanismClass}:
-        raise OptionError(f"`mechanism` must be one of {', '.join(MechanismClass)}: got {name!r}")
+    known = [mechanism.value for mechanism in MechanismClass if mechanism is not MechanismClass.NONE]
+    if name not in known:
+        raise OptionError(f"`mechanism` must be one of {', '.join(known)}: got {name!r}")
     return MechanismClass(name)

@@ -4,6 +4,7 @@ Inputs whose makers divided them by what moves are left alone: parts segmented b
 What the input says of its motions is not asked: the parts are the same with joints and without.
 """
 
+from collections import Counter
 from dataclasses import replace
 from typing import Final
 
@@ -13,7 +14,7 @@ from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Frame, Part
 from grafu.asset.reading import Reading
-from grafu.geometry.arrays import Mat4
+from grafu.geometry.arrays import Indices, Mat4
 from grafu.segmentation.division import Piece, divided
 from grafu.vocabulary import PartLabel
 
@@ -28,7 +29,8 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame) -> Reading:
     T = _turn(frame)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
     open_to = [part.label in _OPEN and part.rides_on is None for part in reading.parts]
-    cuts = divided(meshes, open_to, [part.label.is_movable for part in reading.parts])
+    whole = [part.label.is_movable for part in reading.parts]
+    cuts = divided(meshes, open_to, whole, [_materials(part) for part in reading.parts])
     if not cuts:
         return reading
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
@@ -43,6 +45,11 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame) -> Reading:
 def _is_divided(reading: Reading) -> bool:
     by_hand = reading.grouped or reading.kind in ("partnet-mobility", "hssd")
     return by_hand or (reading.kind == "urdf" and len({part.source.link for part in reading.parts}) > 1)
+
+
+def _materials(part: Part) -> Indices:
+    """Returns the number of the surface of each face of the part's mesh."""
+    return np.repeat(np.arange(len(part.surfaces)), [len(surface.mesh.faces) for surface in part.surfaces])
 
 
 def _turn(frame: Frame) -> Mat4:
@@ -61,7 +68,7 @@ def _ids(pieces: list[tuple[Part, Piece | None]]) -> list[str]:
 
 
 def _is_new(piece: Piece | None) -> bool:
-    return piece is not None and piece.role != "rest"
+    return piece is not None and piece.role in ("front", "handle")
 
 
 def _freed(part: Part, cut: set[str]) -> Part:
@@ -70,7 +77,7 @@ def _freed(part: Part, cut: set[str]) -> Part:
 
 
 def _stem(part: Part, piece: Piece | None) -> str:
-    return part.id if piece is None or piece.role == "rest" else f"{part.id}_{piece.role}"
+    return part.id if piece is None or not _is_new(piece) else f"{part.id}_{piece.role}"
 
 
 def _is_handle(part: Part, piece: Piece | None) -> bool:
@@ -80,13 +87,15 @@ def _is_handle(part: Part, piece: Piece | None) -> bool:
 def _part(part: Part, piece: Piece | None, name: str) -> Part:
     if piece is None:
         return replace(part, id=name)
-    keeps = part.label.is_movable == (piece.role == "front") and piece.role != "handle"
+    keeps = piece.role == "body" or (part.label.is_movable == (piece.role == "front") and piece.role != "handle")
     label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
     return replace(part, id=name, surfaces=faces_of_part(part, piece.faces), label=label, labelled_by=by)
 
 
 def _note(part: Part, pieces: list[Piece]) -> str:
-    counts = {role: sum(piece.role == role for piece in pieces) for role in ("front", "handle", "rest")}
+    counts = Counter(piece.role for piece in pieces)
     found = [f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle") if counts[role]]
+    if counts["body"]:
+        return f"{part.source.name} holds {found[0]} drawn in it: parts of their own (--parts auto)"
     rest = " and the rest" if counts["rest"] else ""
     return f"{part.source.name} was cut into {', '.join(found)}{rest} (--parts auto)"

@@ -12,7 +12,7 @@ from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
-from grafu.pipeline.words import Colour, FaultKind, counted, cut_in_words, listed, percent
+from grafu.pipeline.words import Colour, FaultKind, counted, cut_in_words, hardware_in_words, listed, percent
 from grafu.viewer.wording import added, unused_joints
 
 _NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)
@@ -75,7 +75,7 @@ def print_place(what: str, path: Path) -> None:
 def _joints_table(report: Report) -> Table:
     table = plain_table("part", "joint", "mechanism", "opening", "notes")
     for joint in report.joints:
-        mechanism = f"{joint.count} x {joint.template} ({joint.mechanism.in_words})"
+        mechanism = hardware_in_words(joint.count, joint.template, joint.mechanism)
         table.add_row(
             joint.part,
             joint.type,

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.geometry.axis import Axis
+from grafu.joints.bare import bare_door, bare_drawer
 from grafu.joints.clearance.carve import Path
 from grafu.joints.clearance.make import make_clearance
 from grafu.joints.clearance.trim import trim
@@ -55,18 +56,34 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     search = door_search(request, scene, config)
     if not search.has_pins:
         return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")
-    clearances: tuple[Clearance, ...] = ()
-    ratio = search.best().free / search.wanted
-    if ratio < 1.0:
-        path = _path(request, scene, search.to_clear().axis, search.wanted)
-        cleared = make_clearance(scene, path, config)
-        again = door_search(request, cleared.scene, config)
-        if again.best().free / again.wanted > ratio:
-            search, scene, clearances = again, cleared.scene, cleared.clearances
-    placement = place_hinges(search, gallery) or _despite_doors(search, gallery)
+    found = _cleared(search) if search.best().free < search.wanted else (search, ())
+    placement = _hinged(found[0], gallery)
+    if found[0] is search and not _is_wide(placement, search) and search.free_ratio() < 1.0:
+        again = _cleared(search)  # something blocks it between the poses in which pins were compared
+        wider = None if again[0] is search else _hinged(again[0], gallery)
+        found, placement = (again, wider) if _is_wide(wider, search) else (found, placement)
+    search, clearances = found
+    placement = placement or bare_door(search)
     if placement is None:
-        return _skipped(request, search.best().free / search.wanted, scene, config)
-    return _built(request, (placement, scene, clearances), search.wanted)
+        return _skipped(request, search.best().free / search.wanted, search.scene, config)
+    return _built(request, (placement, search.scene, clearances), search.wanted)
+
+
+def _is_wide(placement: Placement | None, search: DoorSearch) -> bool:
+    return placement is not None and placement.upper >= search.config.restricted * search.wanted
+
+
+def _cleared(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
+    """Returns the search in the scene with clearance made for the door, if it opens wider there; else as it was."""
+    path = _path(search.request, search.scene, search.to_clear().axis, search.wanted)
+    cleared = make_clearance(search.scene, path, search.config)
+    again = door_search(search.request, cleared.scene, search.config)
+    is_wider = again.best().free > search.best().free or again.free_ratio() > search.free_ratio()
+    return (again, cleared.clearances) if is_wider else (search, ())
+
+
+def _hinged(search: DoorSearch, gallery: Gallery) -> Placement | None:
+    return place_hinges(search, gallery) or _despite_doors(search, gallery)
 
 
 def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
@@ -88,6 +105,8 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
             search, scene, clearances = again, cleared.scene, cleared.clearances
     placement = place_rails(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
+    bare = None if found else bare_drawer(search)
+    found = (bare, scene, clearances) if bare else found
     if found is None:
         return _skipped(request, search.free_ratio(), scene, config)
     return _built(request, found, request.reference or search.wanted)

@@ -210,6 +210,8 @@ class RealizationConfig:
     """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a fraction of the width."""
     least_opening: float = 0.3
     """An opening below this fraction of the wanted one is no motion."""
+    bare_gap: float = 0.005
+    """Widest gap (extent) to static parts at which a door or drawer moves without hardware: wider ones come loose."""
     kept: float = 0.4
     """Fraction of its own thickness that a trimmed piece keeps at least."""
     rail: RailConfig = RailConfig()
@@ -227,6 +229,7 @@ class RealizationConfig:
         require_positive(
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
+        require_positive(self, "bare_gap")
         require_ratios(
             self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
         )

@@ -55,6 +55,8 @@ class JointChoice:
             raise ValueError(f"`JointChoice.count` must be in 0..12: got {self.count}")
         if self.opening is not None and not (isfinite(self.opening) and self.opening > 0):
             raise ValueError(f"`JointChoice.opening` must be above 0: got {self.opening}")
+        if self.mechanism is MechanismClass.NONE:
+            raise ValueError("`JointChoice.mechanism` must be a class of hinges or rails: got none")
         if self.template == PIVOT and self.mechanism is not None:
             raise ValueError(f"pivots are of no class: got {self.mechanism}")
 

@@ -33,6 +33,8 @@ class FaultKind(StrEnum):
         works = self not in (FaultKind.STILL, FaultKind.COLLIDES, FaultKind.LOOSE, FaultKind.SHUT)
         return Colour.YELLOW if works else Colour.RED
 
+from grafu.vocabulary import MechanismClass
+
 
 def counted(count: int, what: str) -> str:
     """Returns `1 hinge`, `2 hinges`."""
@@ -52,6 +54,11 @@ def percent(ratio: float) -> str:
     if 0 < ratio < 0.005:
         return "under 1 %"
     return "over 99 %" if 0.995 <= ratio < 1 else f"{100 * ratio:.0f} %"
+
+
+def hardware_in_words(count: int, template: str, mechanism: MechanismClass) -> str:
+    """Returns what a joint runs on, such as `2 × butt (contact)`."""
+    return "no hardware" if mechanism is MechanismClass.NONE else f"{count} × {template} ({mechanism.in_words})"
 
 
 def cut_in_words(kind: str) -> str:

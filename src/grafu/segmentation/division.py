@@ -1,10 +1,14 @@
-"""Which objects of an input are cut, and into what: only where fronts appear that an object hides. Geometry alone."""
+"""Which objects of an input are cut, and into what: where an object hides fronts, or a front has a handle drawn in it.
+
+It asks geometry alone.
+"""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Final, final
+from dataclasses import dataclass, replace
+from typing import Final, Literal, final
 
 import numpy as np
+from jaxtyping import Bool, Int
 
 from grafu.geometry.arrays import Indices, Mat3
 from grafu.geometry.components import shell_numbers
@@ -21,6 +25,11 @@ _PANEL = 0.1  # of a plate's outline: what a fixed panel beside one front covers
 _FLUSH = 0.2  # of an object's depth: how far inside its front a front of it lies
 _LID = 0.4  # of its footprint: how much of a case is closed from above
 _SMALL = 0.02  # of the whole's largest side: a front's shorter side
+_SINGLE = 0.8  # of an object's outline: what its one front covers
+_MOST_HANDLES = 2  # drawn in one front: more are mouldings or slats
+
+MaskOfObjects = Bool[np.ndarray, " objects"]
+Faces = Int[np.ndarray, " _"]
 
 _Z: Final = np.array([0.0, 0.0, 1.0])
 
@@ -28,9 +37,13 @@ _Z: Final = np.array([0.0, 0.0, 1.0])
 @final
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Faces of one object that become a part; `role` says as what."""
+    """Faces of one object that become a part, and its role in that object.
 
-    role: str  # "front", "handle" or "rest"
+    "front" and "handle" are new parts; "rest" is what is left of an object that hid fronts, and "body" a door or drawer
+    without the handles that were drawn in it.
+    """
+
+    role: Literal["front", "handle", "rest", "body"]
     faces: Indices
 
 
@@ -44,11 +57,14 @@ class Shells:
     owner: OfShells
 
     @classmethod
-    def of(cls, meshes: Sequence[TriangleMesh]) -> "Shells":
-        """Returns the shells of some meshes."""
+    def of(cls, meshes: Sequence[TriangleMesh], materials: Sequence[Indices] | None = None) -> "Shells":
+        """Returns the shells of some meshes; with the material of each face, these are parted by material too."""
         numbers, owner, count = [], [], 0
         for k, mesh in enumerate(meshes):
             found = shell_numbers(mesh)
+            if materials is not None:
+                pairs = np.column_stack([found, materials[k]])
+                found = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
             numbers.append(found + count)
             here = int(found.max()) + 1 if len(found) else 0
             owner += [k] * here
@@ -56,43 +72,76 @@ class Shells:
         return cls(merge_meshes(meshes), np.concatenate(numbers), np.array(owner, dtype=np.int64))
 
 
-def divided(meshes: Sequence[TriangleMesh], open_to: Sequence[bool], whole: Sequence[bool]) -> dict[int, list[Piece]]:
+def divided(
+    meshes: Sequence[TriangleMesh],
+    open_to: Sequence[bool],
+    whole: Sequence[bool],
+    materials: Sequence[Indices] | None = None,
+) -> dict[int, list[Piece]]:
     """Returns for each mesh that is cut what it is cut into.
 
     Args:
         meshes: the objects of an input, Z up, their front most likely at -Y; any unit.
         open_to: which of them may be cut.
         whole: which of them are said to be one door or drawer: they are cut where they hold several fronts.
+        materials: for each mesh the number of each face's material: a handle welded to a front is known by it.
     """
-    counts = [len(mesh.faces) for mesh in meshes]
+    may = np.asarray(open_to, dtype=bool)
     shells = Shells.of(meshes)
-    several = np.bincount(shells.owner, minlength=len(meshes)) > 1
-    may = (several & np.asarray(open_to, dtype=bool))[shells.owner]
-    if not may.any():
-        return {}
     found = _from_the_best_side(shells, may, whole)
-    starts = np.cumsum([0, *counts])
-    return {owner: _pieces(shells, owner, int(starts[owner]), fronts) for owner, fronts in sorted(found.items())}
+    pieces = found.pieces(shells)
+    if materials is not None:
+        left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
+        parted = Shells.of(meshes, materials) if left.any() else shells
+        pieces |= replace(_from_the_best_side(parted, left, whole), hidden={}).pieces(parted)
+    return dict(sorted(pieces.items()))
 
 
-def _from_the_best_side(shells: Shells, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[FrontShells, ...]]:
+@final
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """What one side shows, by object: fronts that objects hide, and objects that are one front with handles on it."""
+
+    hidden: dict[int, tuple[FrontShells, ...]]
+    with_handles: dict[int, FrontShells]
+
+    @property
+    def clear(self) -> dict[int, tuple[FrontShells, ...]]:
+        """Returns the hidden fronts that are clear: several of one object, or one with a handle."""
+        return {o: fronts for o, fronts in self.hidden.items() if len(fronts) > 1 or any(f.handles for f in fronts)}
+
+    def pieces(self, shells: Shells) -> dict[int, list[Piece]]:
+        """Returns what each object is cut into."""
+        counts = np.bincount(shells.owner[shells.shell])
+        starts = np.cumsum([0, *counts])
+        pieces = {owner: _pieces(shells, owner, int(starts[owner]), fronts) for owner, fronts in self.hidden.items()}
+        apart = {o: _handles_apart(shells, o, int(starts[o]), front) for o, front in self.with_handles.items()}
+        return pieces | apart
+
+
+def _from_the_best_side(shells: Shells, may_be_cut: MaskOfObjects, whole: Sequence[bool]) -> _Found:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
-    Fronts are clear where an object has several, or a handle on one: a side or the back is a plate without either.
+    A side or the back is a plate that is alone and has no handle, so such a front is not clear.
     """
-    ahead: dict[int, tuple[FrontShells, ...]] = {}
-    clear: dict[int, tuple[FrontShells, ...]] = {}
+    several = np.bincount(shells.owner, minlength=len(whole)) > 1
+    may = (several & may_be_cut)[shells.owner]
+    if not may.any():
+        return _Found({}, {})
+    ahead = clear = _Found({}, {})
+    handled: dict[int, FrontShells] = {}
     most = 0.0
     for turn in range(4):
         view = view_of(shells.mesh, shells.shell, shells.owner, _axes(turn))
         found = _by_owner(view, may, whole)
-        surer = {o: fronts for o, fronts in found.items() if len(fronts) > 1 or any(f.handles for f in fronts)}
-        if turn == 0 and surer:
+        if turn == 0 and found.clear:
             return found
-        area = sum(_outline(view, front) for fronts in surer.values() for front in fronts)
+        area = sum(_outline(view, front) for fronts in found.clear.values() for front in fronts)
         ahead = found if turn == 0 else ahead
-        clear, most = (surer, area) if area > most else (clear, most)
-    return clear or ahead
+        clear, most = (_Found(found.clear, found.with_handles), area) if area > most else (clear, most)
+        handled = handled or found.with_handles
+    chosen = clear if clear.hidden else ahead
+    return chosen if chosen.hidden else _Found({}, handled)
 
 
 def _axes(turn: int) -> Mat3:
@@ -108,8 +157,8 @@ def _outline(view: View, front: FrontShells) -> float:
     return float(size[0] * size[1])
 
 
-def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> dict[int, tuple[FrontShells, ...]]:
-    """Returns the fronts of each object that hides some."""
+def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> _Found:
+    """Returns the fronts of each object that hides some, and of each that is one with handles."""
     view, members = merged(view, framed(view))
     may = may[[shells[0] for shells in members]]
     found: dict[int, list[FrontShells]] = {}
@@ -117,13 +166,27 @@ def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> dict[int,
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
     flush = {owner: tuple(f for f in fronts if _is_flush(view, f)) for owner, fronts in found.items()}
     hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o])}
-    return {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()}
+    single = {o: fronts[0] for o, fronts in flush.items() if o not in hidden and _is_one_with_handles(view, o, fronts)}
+    return _Found(
+        {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
+        {o: front.made_of(members) for o, front in single.items()},
+    )
+
+
+def _is_one_with_handles(view: View, owner: int, fronts: tuple[FrontShells, ...]) -> bool:
+    """Whether an object is one front, or a drawer behind one, with a handle or two."""
+    if len(fronts) != 1 or not 0 < len(fronts[0].handles) <= _MOST_HANDLES:
+        return False
+    own = view.owner == owner
+    size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
+    return _outline(view, fronts[0]) >= _SINGLE * float(size[0] * size[1])
 
 
 def _is_flush(view: View, front: FrontShells) -> bool:
-    """Whether a front lies near the front of its object and is no trifle."""
+    """Whether a front lies near the front of its object, its handles left out, and is no trifle."""
     plate = front.shells[0]
-    own = np.flatnonzero(view.owner == view.owner[plate])
+    handles = [shell for handle in front.handles for shell in handle]
+    own = np.setdiff1d(np.flatnonzero(view.owner == view.owner[plate]), handles)
     depth = float(view.high[own, 2].max() - view.low[own, 2].min())
     extent = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
     inside = float(view.high[own, 2].max() - view.high[plate, 2])
@@ -176,11 +239,24 @@ def _is_case(view: View, rest: Indices, fronts: tuple[FrontShells, ...]) -> bool
 
 
 def _pieces(shells: Shells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[Piece]:
+    """Returns what is left of an object, its fronts, and their handles."""
+    plates = [front.shells for front in fronts]
+    handles = [handle for front in fronts for handle in front.handles]
+    rest, found = _split(shells, owner, start, [*plates, *handles])
+    new = [Piece("front", faces) for faces in found[: len(plates)]]
+    new += [Piece("handle", faces) for faces in found[len(plates) :]]
+    return [*([Piece("rest", rest)] if len(rest) else []), *new]
+
+
+def _handles_apart(shells: Shells, owner: int, start: int, front: FrontShells) -> list[Piece]:
+    """Returns a front without its handles, and these."""
+    body, found = _split(shells, owner, start, front.handles)
+    return [Piece("body", body), *(Piece("handle", faces) for faces in found)]
+
+
+def _split(shells: Shells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> tuple[Faces, list[Faces]]:
+    """Returns the faces of an object that are in none of some groups of shells, and those of each group."""
     faces = np.flatnonzero(shells.owner[shells.shell] == owner)
     of = shells.shell[faces]
-    groups = [("front", front.shells) for front in fronts]
-    groups += [("handle", handle) for front in fronts for handle in front.handles]
-    pieces = [Piece(role, faces[np.isin(of, group)] - start) for role, group in groups]
-    taken = [shell for _, group in groups for shell in group]
-    rest = faces[~np.isin(of, taken)] - start
-    return [*([Piece("rest", rest)] if len(rest) else []), *pieces]
+    taken = [shell for group in groups for shell in group]
+    return faces[~np.isin(of, taken)] - start, [faces[np.isin(of, group)] - start for group in groups]

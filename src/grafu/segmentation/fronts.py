@@ -20,6 +20,7 @@ _HALF = 0.5  # of a fixed front: what the fronts on it cover
 _HANDLE_SIDE = 0.1  # of its object's largest side: the shorter side of a handle
 _HANDLE_AREA = 0.25  # of its front's outline: that of a handle
 _HANDLE_OUT = 0.25  # of its object's largest side: how far a handle stands out
+_RING_CELLS = 3  # rays around a handle that show where its front lies
 _LINER = 1.5  # of a front's thickness: how far behind it its liners lie, and how thick they are
 _ON_FRONT = 0.6  # of a handle's outline: what lies on its front
 
@@ -121,10 +122,21 @@ class _Look:
             0.0,
         ).prod(axis=1)
         on = shared >= _ON_FRONT * self._area
-        front = view.high[plate, 2]
+        front = np.array([self._level_near(k, plate) if s else 0.0 for k, s in enumerate(small & on)])
         out = (view.high[:, 2] > front + 0.2 * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
         starts = (view.low[:, 2] <= front + 8 * near) & (view.high[:, 2] <= front + _HANDLE_OUT * extent)
         return np.asarray(small & on & out & starts)
+
+    def _level_near(self, shell: int, plate: int) -> float:
+        """Returns how far the plate comes forward around a shell: curved fronts come farther elsewhere."""
+        view = self._view
+        rows, columns = view.window(shell)
+        ring = (
+            slice(max(rows.start - _RING_CELLS, 0), rows.stop + _RING_CELLS),
+            slice(max(columns.start - _RING_CELLS, 0), columns.stop + _RING_CELLS),
+        )
+        seen = view.depth[ring][view.seen[ring] == plate]
+        return float(seen.max() if len(seen) else view.high[plate, 2])
 
     def _lies_in(self, plate: int) -> MaskOfShells:
         """Whether each shell within the outline is a pane, a moulding, a lock or a liner of the plate."""

@@ -12,7 +12,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
 from grafu.pipeline.verdict import reason_of, stopped, verdict_of
-from grafu.pipeline.words import FaultKind, counted, cut_in_words, listed, percent
+from grafu.pipeline.words import FaultKind, counted, cut_in_words, hardware_in_words, listed, percent
 from grafu.refusal import Reason
 from grafu.viewer.shell import Html, joined, tag
 from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
@@ -67,6 +67,7 @@ def added_table(report: Report) -> Html:
     rows = [
         (part_button(j.part), _hardware(j), f"carries {j.part} on {j.mount}", f"{j.count} × {j.template}", j.part)
         for j in report.joints
+        if j.count
     ]
     rows += [(part_button(a.part), a.category, a.why, a.style, a.link) for a in report.added]
     columns = ("part", "category", "why", "style", "moves with")
@@ -112,7 +113,7 @@ def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ..
     return (
         part_button(joint.part),
         lines([*moves, flag("restricted")] if joint.restricted else moves),
-        lines([f"{joint.count} × {joint.template}", joint.mechanism.in_words, f"on {joint.mount}"]),
+        lines([hardware_in_words(joint.count, joint.template, joint.mechanism), f"on {joint.mount}"]),
         lines([
             f"stated {axis_words(joint.initial_axis, joint.type)} ({joint.motion_source})",
             f"built {axis_words(joint.rectified_axis, joint.type)}",

@@ -197,6 +197,11 @@ class DoorSearch:
         """Returns the best pin by the sweep alone."""
         return next(self.in_order())
 
+    def free_ratio(self) -> float:
+        """Returns the fraction of the wanted opening that the bare door turns freely about its best pin, 0..1."""
+        best = self.best()
+        return min(best.free, self.widest(best.axis, self.wanted)) / self.wanted
+
     def to_clear(self) -> JudgedPin:
         """Returns the pin to make clearance for where none is free: of a hinge class, or the axis as asked for."""
         pivots = [judged for judged in self.others if judged.pin.is_pivot]
@@ -212,6 +217,11 @@ class DoorSearch:
         near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
         return widest_free(self.body, motion, reach, near, self.config.fine_poses)
 
+    def bodies_in_the_way(self, axis: Axis, reach: float) -> tuple[str, ...]:
+        """Returns the other moving bodies, at rest, that the door runs into about an axis."""
+        near = in_the_way(self.neighbours, swept_box(self.box, axis.rotation, reach))
+        return all_blockers(self.body, axis.rotation, reach, near, self.config.coarse_poses)
+
     def _judged(self, pins: list[PinCandidate]) -> list[JudgedPin]:
         return sorted((self._judge(pin) for pin in pins), key=lambda judged: judged.rank)
 
@@ -221,7 +231,7 @@ class DoorSearch:
         box = swept_box(self.box, motion, self.wanted)
         poses = self.config.coarse_poses
         free, ratio = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
-        neighbours = all_blockers(self.body, motion, self.wanted, in_the_way(self.neighbours, box), poses)
+        neighbours = self.bodies_in_the_way(axis, self.wanted)
         shortfall = round(1.0 - free / self.wanted, 2) + round(ratio, 2)
         rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
         is_clear = shortfall <= self.config.hinge.nearly and not neighbours

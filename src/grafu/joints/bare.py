@@ -1,0 +1,84 @@
+"""Joints without hardware: the last resort for a door or drawer that moves freely where no hinge or rail finds room."""
+
+import numpy as np
+
+from grafu.geometry.axis import Axis
+from grafu.joints.hinge.search import DoorSearch
+from grafu.joints.limits import PoseFunction
+from grafu.joints.placement import Placement
+from grafu.joints.rail.search import DrawerSearch
+from grafu.scene.scene import Scene
+from grafu.vocabulary import MechanismClass
+
+NO_HARDWARE = "none"
+"""`Placement.template` of a joint without hardware."""
+_NOTE = "no hinge or rail finds room: it moves without hardware"
+_DEPTHS = (0.0, 0.25, 0.5, 0.75, 1.0)  # of a door's thickness, from its front, at which an axis runs along its border
+_POSES = 5  # from closed to open in which it must be near what stands around it
+
+_Search = DoorSearch | DrawerSearch
+
+
+def bare_door(search: DoorSearch) -> Placement | None:
+    """Returns the joint about the axis as asked for, or one along the door's border; None where the door is not free.
+
+    It is None too where hardware was chosen, and where the door would come away from all static parts.
+    """
+    frame = search.frame
+    border = [frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS]
+    placements = (_about(axis, search) for axis in (search.request.axis, *border))
+    return next((placement for placement in placements if placement is not None), None)
+
+
+def _about(axis: Axis, search: DoorSearch) -> Placement | None:
+    upper = search.widest(axis, search.config.door_opening)
+    in_way = search.bodies_in_the_way(axis, upper)
+    if in_way or upper < search.config.restricted * search.wanted:
+        return None
+    return _bare(search, axis, axis.rotation, upper, ())
+
+
+def bare_drawer(search: DrawerSearch) -> Placement | None:
+    """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
+
+    It is None too where hardware was chosen, where the drawer would come away from all static parts, and where only a
+    guess says that the part is a drawer: the case that drawers are in slides as freely.
+    """
+    if not search.scene.parts[search.request.moving].label.is_movable:
+        return None
+    upper = search.travel(search.reach)
+    if upper < search.config.restricted * (search.request.reference or search.wanted):
+        return None
+    return _bare(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+
+
+def _bare(search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...]) -> Placement | None:
+    request, scene = search.request, search.scene
+    near = search.config.bare_gap * scene.extent
+    if str(request.choice) or not _stays_near(scene, request.moving, motion, upper, near):
+        return None
+    return Placement(
+        axis=axis,
+        upper=upper,
+        mechanism=MechanismClass.NONE,
+        template=NO_HARDWARE,
+        mount=_nearest(scene, request.moving, near, request.mounts),
+        count=0,
+        dynamic=(),
+        static=(),
+        in_way=in_way,
+        notes=(_NOTE,),
+    )
+
+
+def _stays_near(scene: Scene, moving: str, motion: PoseFunction, upper: float, near: float) -> bool:
+    """Whether a moving body stays within a distance of some static part, in metres, from closed to open."""
+    mesh = scene.moving_mesh(moving)
+    return all(scene.is_near_static(mesh.transformed(motion(value)), near) for value in np.linspace(0, upper, _POSES))
+
+
+def _nearest(scene: Scene, moving: str, near: float, mounts: tuple[str, ...]) -> str:
+    """Returns the static part that a moving body is nearest to, of equally near ones a wanted mount."""
+    mesh = scene.moving_mesh(moving)
+    names = [obstacle.id for obstacle in scene.static_obstacles if scene.is_near_static(mesh, near, obstacle.id)]
+    return min(names, key=lambda name: (name not in mounts, name), default="")

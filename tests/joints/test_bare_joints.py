@@ -1,0 +1,84 @@
+"""Doors and drawers that move freely where no hardware finds room: they get their joint, and the report says so."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.joints.bare import NO_HARDWARE
+from grafu.joints.config import RealizationConfig
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.plan import JointChoice
+from grafu.joints.realize import realize
+from grafu.refusal import Reason
+from grafu.vocabulary import MechanismClass, PartLabel
+from judging import GALLERY, hardware, installed, realized
+from small_scenes import DOOR, box, hinged, scene, sliding
+
+NO_HINGES = replace(GALLERY, hinges=())
+# It ends far below the door's upper end and above its lower one: pivots find no hold there.
+POST = box("post", (-0.02, 0.0, 0.2), (0.0, 0.4, 0.4))
+CASE = (
+    box("left", (-0.02, -0.4, 0.0), (0.0, 0.0, 0.3)),
+    box("right", (0.4, -0.4, 0.0), (0.42, 0.0, 0.3)),
+    box("bottom", (-0.02, -0.4, -0.02), (0.42, 0.0, 0.0)),
+    box("top", (-0.02, -0.4, 0.3), (0.42, 0.0, 0.32)),
+    box("back", (-0.02, 0.0, -0.02), (0.42, 0.02, 0.32)),
+)
+# It fills its opening to the last tenth of a millimetre, and nothing may be trimmed.
+DRAWER = box("drawer", (0.0, -0.4, 0.0), (0.4, 0.0, 0.3))
+UNTRIMMED = RealizationConfig(trim=False)
+
+
+def skipped(result) -> dict[str, Reason]:
+    return {s.part: s.reason for s in result.report.skipped}
+
+
+def hung(*parts, choice: JointChoice | None = None):
+    asset = scene(*parts, joints=(hinged(),))
+    plan = plan_from_annotation(asset)
+    chosen = tuple(replace(joint, choice=choice or joint.choice) for joint in plan.joints)
+    return realize(replace(plan, joints=chosen), asset, NO_HINGES)
+
+
+def test_a_door_for_which_no_hinge_fits_turns_without_one():
+    result = hung(DOOR, POST)
+
+    joint = installed(result)["door"]
+    assert (joint.template, joint.mechanism, joint.count) == (NO_HARDWARE, MechanismClass.NONE, 0)
+    assert hardware(result, "door") == ([], [])
+    assert joint.mount == "post"
+    assert joint.opening > 1.5
+    assert joint.collision_share == 0
+    assert joint.largest_gap < 0.001
+    assert joint.notes == ("no hinge or rail finds room: it moves without hardware",)
+
+
+def test_a_drawer_without_room_for_rails_slides_without_them():
+    result = realized(scene(DRAWER, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)
+
+    joint = installed(result)["drawer"]
+    assert (joint.template, joint.count, joint.restricted) == (NO_HARDWARE, 0, False)
+    assert joint.opening >= 0.3
+
+
+def test_what_is_only_guessed_to_be_a_drawer_is_none_without_rails():
+    guessed = replace(DRAWER, label=PartLabel.UNKNOWN, labelled_by="none")
+    result = realized(scene(guessed, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)
+
+    assert skipped(result) == {"drawer": Reason.NO_ROOM}
+
+
+def test_a_door_that_would_come_away_from_everything_gets_no_joint():
+    away = box("post", (-0.02, 0.006, 0.2), (0.0, 0.4, 0.4))
+
+    assert skipped(hung(DOOR, away)) == {"door": Reason.NO_ROOM}
+
+
+@pytest.mark.parametrize("choice", [JointChoice(count=3), JointChoice(template="butt")])
+def test_hardware_that_was_chosen_is_not_left_out(choice):
+    assert skipped(hung(DOOR, POST, choice=choice)) == {"door": Reason.NO_ROOM}
+
+
+def test_hardware_cannot_be_chosen_away():
+    with pytest.raises(ValueError, match="must be a class of hinges or rails"):
+        JointChoice(mechanism=MechanismClass.NONE)
