@@ -5,8 +5,8 @@ import numpy as np
 from grafu.geometry.axis import Axis
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
-from grafu.joints.placement import Placement
 from grafu.joints.rail.search import DrawerSearch
+from grafu.joints.report import Placement
 from grafu.scene.scene import Scene
 from grafu.vocabulary import MechanismClass
 

@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from enum import StrEnum
 
+from grafu.vocabulary import MechanismClass
+
 
 class Colour(StrEnum):
     """A traffic light."""
@@ -32,8 +34,6 @@ class FaultKind(StrEnum):
         """How bad it is: red where a part does not work, else yellow."""
         works = self not in (FaultKind.STILL, FaultKind.COLLIDES, FaultKind.LOOSE, FaultKind.SHUT)
         return Colour.YELLOW if works else Colour.RED
-
-from grafu.vocabulary import MechanismClass
 
 
 def counted(count: int, what: str) -> str:
