@@ -61,7 +61,7 @@ class GRAFU_OT_furnish(Adds, bpy.types.Operator):
 
     number: IntProperty(
         name="Compartment",
-        description="From 0; -1: as `compartment` says",
+        description="From 0; -1: as `compartment` states",
         default=-1,
         min=-1,
         options={"HIDDEN", "SKIP_SAVE"},

@@ -29,7 +29,7 @@ class GRAFU_UL_additions(bpy.types.UIList):
         names = row.split(factor=_LONG_NAMES, align=True)
         names.active = item.accepted
         names.label(text=item.part)
-        names.label(text=item.about.split(": ")[-1])  # the part's name says what it is
+        names.label(text=item.about.split(": ")[-1])  # the part's name states what it is
 
 
 class GRAFU_UL_parts(bpy.types.UIList):

@@ -1,4 +1,4 @@
-"""How a part moves, said by hand: it turns about a border, slides, or stands still, whatever was read or predicted."""
+"""How a part moves, said by hand: it turns about a border, slides, or is static, whatever was read or predicted."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty

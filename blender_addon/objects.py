@@ -107,7 +107,7 @@ def place_of(input_to_output):
 
 
 def show_result(session, articulated, place) -> None:
-    """Puts a model's result where `place` says (None: where the one before stands), and hides its sources."""
+    """Puts a model's result where `place` states (None: where the one before stands), and hides its sources."""
     from grafu.export.blend.objects import build_object
 
     scene, marked = session.id_data, _marked(session)
@@ -202,7 +202,7 @@ def joint_part_of(session, thing) -> str:
 
 
 def moving_part_of(thing) -> str:
-    """Returns the id of the moving part whose joint carries an object of the result; empty: it stands still."""
+    """Returns the id of the moving part whose joint carries an object of the result; empty: it is static."""
     while thing is not None:
         if thing.get(KIND) == JOINT:
             return thing["child"]

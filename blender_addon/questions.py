@@ -4,7 +4,7 @@ from bpy.props import BoolProperty
 
 
 def own_switch():
-    """Returns the property that says whether a number is chosen; it is where the user was not asked."""
+    """Returns the property that states whether a number is chosen; it is where the user was not asked."""
     return BoolProperty(
         name="Chosen",
         description="Whether you choose it; off: automatic",

@@ -1,6 +1,6 @@
 """Running: every operator that changes what is built edits the settings, runs `grafu`, and shows what comes back.
 
-A change that does not fit leaves everything as it was, and says why. In a window the run goes on behind it, with its
+A change that does not fit leaves everything as it was, and states why. In a window the run goes on behind it, with its
 stage in the sidebar and Escape to stop it; without a window (and with `wait`) the operator waits.
 """
 
@@ -30,7 +30,7 @@ def active_run():
 class Applies:
     """The base of all operators that start a run.
 
-    Each says what it changes, `changed(context, settings)`, and may say what makes a change unfit.
+    Each states what it changes, `changed(context, settings)`, and may say what makes a change unfit.
     """
 
     bl_options = {"REGISTER", "UNDO"}
@@ -181,7 +181,7 @@ def _redraw(context):
 
 
 class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
-    """Makes the selected objects work: each is a part, its name says what. Objects of a model give that model anew"""
+    """Makes the selected objects work: each is a part, its name states what. Objects of a model give that model anew"""
 
     bl_idname = "grafu.functionalize"
     bl_label = "Functionalize"

@@ -238,7 +238,7 @@ def _fill_joints(session, settings, report, made) -> None:
         motion = motions.get(state.part)
         if motion is not None:
             row.moves, row.side, row.inwards = motion.moves.value, motion.side.value, motion.inwards
-        row.mechanism = "stands still" if state.level is Level.OK else ""
+        row.mechanism = "is static" if state.level is Level.OK else ""
         record = records.get(state.part)
         if record is not None:
             row.type, row.template = record.type.value, record.template

@@ -38,7 +38,7 @@ class Failed(Exception):
 
 
 class _Process:
-    """A process and its folder; what it says goes to a file there."""
+    """A process and its folder; what it states goes to a file there."""
 
     def __init__(self) -> None:
         leftovers.clear()
@@ -63,7 +63,7 @@ class _Process:
         return self._running.poll() if self._running is not None else None
 
     def ask(self, line: str) -> None:
-        """Gives it one line; one that is gone says so by its code."""
+        """Gives it one line; one that is gone states it by its code."""
         try:
             self._running.stdin.write(line.encode() + b"\n")
             self._running.stdin.flush()

@@ -6,7 +6,7 @@ MODELS are inputs with annotated joints; without any, those in the folder that G
 ../shared/models. Every model runs in a fresh process on one core, once to warm up (and to import) and then `--repeats`
 times, from reading to writing. Bars are held against the processor's own time, which on one core is the clock's on a
 machine that does nothing else; the clock's spread stands beside it. `--quick` runs each once and leaves out what takes
-longest. Made furniture is timed by the model (`bench_synth.py`), the network by the graph (`bench_network.py`).
+longest. Synthetic furniture is timed by the model (`bench_synth.py`), the network by the graph (`bench_network.py`).
 """
 
 import argparse

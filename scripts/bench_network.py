@@ -1,6 +1,6 @@
 """How long the network takes to complete a graph: features, ONNX and decode together, on one core.
 
-`bench.py` runs it. The graphs are of made furniture of about `PARTS` parts, as found,
+`bench.py` runs it. The graphs are of synthetic furniture of about `PARTS` parts, as found,
 and with their labels hidden; points are drawn beforehand.
 """
 

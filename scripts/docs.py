@@ -4,7 +4,7 @@ A table within a page stands between `<!-- NAME: drawn by scripts/docs.py ... --
 between `<!-- figure: MEASURE: ROW / COLUMN -->` and `<!-- end -->`. How to state a number: docs/figures.md.
 
 python scripts/docs.py            write the pages
-python scripts/docs.py --check    exit 1 where a page is out of date, says another number than the code, or states a
+python scripts/docs.py --check    exit 1 where a page is out of date, states another number than the code, or states a
                                   figure that no command is named for
 """
 
@@ -192,8 +192,8 @@ def errors_page() -> str:
 
 def branch(error: type[Exception], depth: int) -> list[str]:
     """Returns the lines of an exception and those below it."""
-    says = (error.__doc__ or "").splitlines()[0]
-    line = f"{'  ' * depth}{error.__name__}".ljust(32) + says
+    states = (error.__doc__ or "").splitlines()[0]
+    line = f"{'  ' * depth}{error.__name__}".ljust(32) + states
     return [line, *(below for child in error.__subclasses__() for below in branch(child, depth + 1))]
 
 

@@ -264,6 +264,6 @@ def spread_of(weights: Mapping[float, float]) -> str:
 
 
 def said(doc: str | None) -> str:
-    """Returns what a drawing function says that it returns."""
+    """Returns what a drawing function states that it returns."""
     first = (doc or "").splitlines()[0].removeprefix("Returns ").removesuffix(".")
     return first[:1].upper() + first[1:]

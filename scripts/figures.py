@@ -2,7 +2,7 @@
 
     python scripts/figures.py [--list] [--only NAME ...] [--page PAGE ...] [--quick] [--write] [--again] [--jobs 2]
 
-Without a choice all commands run, one after the other (--list says how long each takes). What was printed lies in
+Without a choice all commands run, one after the other (--list states how long each takes). What was printed lies in
 build/figures; a command that ended is not run again for the same code and weights (--again), and one that was stopped
 goes on where it can. --write puts the figures into docs/figures.json and the pages; without it they are only
 compared. --quick shows that the commands work, on few models; its figures are not kept. Real models are those of
@@ -46,7 +46,7 @@ def main() -> int:
     if options.write:
         write_pages()
     for name in failed:
-        print(f"failed: {name}; {KEPT / slug(name) / 'errors.txt'} says why", file=sys.stderr)
+        print(f"failed: {name}; {KEPT / slug(name) / 'errors.txt'} states why", file=sys.stderr)
     return 1 if failed else 0
 
 
@@ -99,7 +99,7 @@ def age_of(measure: Measure, kept: Stored | None) -> str:
 
 
 def printed_by(measure: Measure, quick: bool, again: bool, jobs: int) -> str | None:
-    """Returns what a measure's command says, kept from an earlier run of the same code or new; None where it failed."""
+    """Returns what a measure's command prints, kept from an earlier run of the same code or new; None if it failed."""
     folder = KEPT / (slug(measure.name) + ("_quick" if quick else ""))
     folder.mkdir(parents=True, exist_ok=True)
     state = state_of_code()

@@ -2,8 +2,8 @@
 
     python scripts/judge_additions.py [FOLDER] [--made 60] [--seed 990003] [--kinds] [--jobs 1] [--log FILE]
 
-FOLDER holds pieces of furniture, one folder each; --made judges made furniture with its true joints and all hardware,
---kinds the catalogue of hard kinds, its moving bodies' own handles taken away.
+FOLDER holds pieces of furniture, one folder each; --made judges synthetic furniture with its true joints and all
+hardware, --kinds the catalogue of hard kinds, its moving bodies' own handles taken away.
 All is measured on the objects that come out, by rays and sweeps that share nothing with what made them. Prints a table
 in Markdown, one line per piece (of random furniture only those with a fault), and sums it up. --log keeps each piece's
 figures in a file as they come; started again with the same file, it goes on where it stopped. --only interior (or

@@ -39,7 +39,7 @@ def grasp_faults(result: Functionalized) -> Iterator[str]:
 
 
 def handle_faults(result: Functionalized) -> Iterator[str]:
-    """Yields added handles that cut into anything on their way, or that other moving bodies run into on theirs.
+    """Yields added handles that cut into anything along their path, or that other moving bodies run into on theirs.
 
     What a joint waits for is open as far as it goes; all else rests.
     """

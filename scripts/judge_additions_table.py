@@ -26,7 +26,7 @@ class Verdict:
     handles: int
     grips: int
     grasp_faults: list[str]  # not graspable, or several handles where one is enough
-    handle_faults: list[str]  # cut into something on the way
+    handle_faults: list[str]  # cut into something along the path
     panels: list[int]  # per request of `INTERIORS`
     refusals: list[str]  # why something that was asked for inside was not built
     rooms: list[str]  # empty rooms that rays find where no request brought any panel

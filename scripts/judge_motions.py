@@ -33,14 +33,14 @@ from grafu.metrics.motion import Motion, compare_motions
 from grafu.pipeline.complete import complete_by_weights
 from grafu.vocabulary import PartLabel
 
-GONE = 0.25  # of the parts that stand still
+GONE = 0.25  # of the parts that are static
 Change = Callable[[Asset, Asset, int], Asset]
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One way in which a model is asked about; `drawn` says whether chance decides what it lacks."""
+    """One way in which a model is asked about; `drawn` states whether chance decides what it lacks."""
 
     name: str
     change: Change

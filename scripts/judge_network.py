@@ -1,4 +1,4 @@
-"""Judges weights on made furniture that no training saw: what the whole completion gets right, decode included.
+"""Judges weights on synthetic furniture that no training saw: what the whole completion gets right, decode included.
 
     python scripts/judge_network.py [--rule] [--weights FILE] [--count 200] [--jobs 2] [--seed 990002]
 
@@ -46,7 +46,7 @@ PAPER = {
     "joint": 0.899,
     "slide": 0.997,
 }
-OFF_MIDDLE = 0.1  # of a door's width: a handle nearer its middle says nothing of the hinge's side
+OFF_MIDDLE = 0.1  # of a door's width: a handle nearer its middle states nothing about the hinge's side
 DOOR_KINDS = ("a handle off the middle", "a handle in the middle", "its handle missing", "no handle")
 Accuracies = Mapping[str, GraphAccuracy]
 Doors = Mapping[str, tuple[int, int]]

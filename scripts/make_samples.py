@@ -1,4 +1,4 @@
-"""Writes samples/*.glb: made furniture without joints, its parts named nodes, as an artist's file would hold it.
+"""Writes samples/*.glb: synthetic furniture without joints, its parts named nodes, as an artist's file would hold it.
 
     python scripts/make_samples.py [FOLDER]
 

@@ -1,4 +1,4 @@
-"""Draws the pictures of README and docs from our own samples and made furniture: docs/images.
+"""Draws the pictures of README and docs from our own samples and synthetic furniture: docs/images.
 
 python scripts/pictures.py                              all of them
 python scripts/pictures.py before_after --sample FILE   one, from a sample of one's own

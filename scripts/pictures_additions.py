@@ -1,6 +1,7 @@
 """The contact sheets of docs/additions.md: furniture that we make, before and after something was added to it.
 
-Motions are the made furniture's own, so no weights change a picture. `python scripts/pictures.py` writes the sheets.
+Motions are the synthetic furniture's own, so no weights change a picture. `python scripts/pictures.py` writes the
+sheets.
 """
 
 from collections.abc import Callable

@@ -83,13 +83,13 @@ def pictures(folder: Path) -> dict[str, np.ndarray]:
 
     found = {}
     for about in sorted(folder.glob("*.json")):
-        name, says = about.stem, json.loads(about.read_text())
+        name, states = about.stem, json.loads(about.read_text())
         if not (folder / f"{name}.xwd").exists() or name.endswith("_before"):
             continue
         seen = read_screen(folder / f"{name}.xwd")
         before = folder / f"{name}_before.xwd"
-        box = says["box"] or difference(seen, read_screen(before))
-        found[name] = upper_part(cut(seen, box)) if says["whole"] else cut(seen, box)
+        box = states["box"] or difference(seen, read_screen(before))
+        found[name] = upper_part(cut(seen, box)) if states["whole"] else cut(seen, box)
     return found
 
 

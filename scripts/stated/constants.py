@@ -82,7 +82,7 @@ def evaluation() -> Iterator[Sentence]:
     yield page, "more than its paired {:g} % interval", (level,)
     yield page, "Candidates agree within {:g} % in seven numbers", (per_cent(twins.ALIKE),)
     yield page, "lie within {} of the other's surface", (twins.ON,)
-    yield page, "what stands still are within {}", (plausible.NEAR,)
+    yield page, "what is static are within {}", (plausible.NEAR,)
     yield page, "opens to {:g} % of the reference", (per_cent(plausible.OPENS),)
     yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, methods.LEVELS))
     yield (

@@ -64,7 +64,7 @@ def copied(kept: Stored, number: int) -> str:
 
 
 def beside(store: Store) -> str:
-    """Returns the network's figures on made furniture beside the rules'."""
+    """Returns the network's figures on synthetic furniture beside the rules'."""
     rows = [
         [name, *(f"{bare(store['made'], name, k)} / {bare(store['made by rules'], name, k)}" for k in KINDS)]
         for name in BESIDE_RULES
@@ -99,7 +99,7 @@ def figures_page(store: Store) -> str:
     rows = [
         [
             f"`{m.name}`",
-            m.says,
+            m.states,
             ", ".join(f"[{p}]({p})" for p in m.pages),
             f"`{m.command}`",
             f"{m.minutes} min",

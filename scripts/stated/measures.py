@@ -40,7 +40,7 @@ class Measure:
     name: str
     command: str
     quick: str
-    says: str
+    states: str
     pages: tuple[str, ...]
     minutes: int  # about, on two cores
     read: Read = printed
@@ -61,7 +61,7 @@ MEASURES = (
         "made",
         "python scripts/judge_network.py --count 600 --jobs {jobs}",
         "python scripts/judge_network.py --count 4 --jobs {jobs}",
-        "the network on made furniture that nothing was trained on",
+        "the network on synthetic furniture that nothing was trained on",
         ("network.md",),
         25,
         weights=True,
@@ -133,7 +133,7 @@ MEASURES = (
         "made and real",
         "grafu synth --stats {models}/pnm --count 4000 --jobs {jobs}",
         "grafu synth --stats {models}/pnm --count 20 --jobs {jobs}",
-        "statistics of made furniture beside real ones",
+        "statistics of synthetic furniture beside real ones",
         ("synthetic.md",),
         5,
         whole=True,

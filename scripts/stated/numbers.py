@@ -36,7 +36,7 @@ def unbound(page: str, text: str, stated: Iterable[str]) -> list[str]:
     hidden = BOUND.sub(blank, hidden)
     return [
         f"docs/{page}:{number}: `{found[0].strip()}` looks measured: bind it to the command that prints it or the "
-        "constant that it is, or mark the paragraph `<!-- no figure: why -->` (docs/figures.md says how)"
+        "constant that it is, or mark the paragraph `<!-- no figure: why -->` (docs/figures.md states how)"
         for number, line in enumerate(hidden.splitlines(), 1)
         if (found := LOOKS_MEASURED.search(line))
     ]

@@ -69,7 +69,7 @@ class Refusal:
     """Something that was asked for and not made.
 
     `part` is the id of the part that it was for, or what was to be added ("top panel", "shelf of compartment 2"); it is
-    empty where only the caller knows. `why` says in words what was found (empty: the reason's sentence says all).
+    empty where only the caller knows. `why` states in words what was found (empty: the reason's sentence states all).
     """
 
     part: str

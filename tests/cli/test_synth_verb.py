@@ -140,7 +140,7 @@ def test_a_gallery_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]
 def test_statistics_are_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = ["synth", "--points", "8", "--count", "3", "--jobs", "1", "--stats"]
     assert main(command) == 0
-    assert "3 made models" in capsys.readouterr().out
+    assert "3 synthetic models" in capsys.readouterr().out
     (tmp_path / "broken.glb").write_bytes(b"no model")
     assert main([*command, str(tmp_path)]) == 0
     assert "not read: broken.glb" in capsys.readouterr().out

@@ -41,7 +41,7 @@ def test_the_other_border_is_plausible_too() -> None:
         (turning(0.0, -0.271, 1.0), "hinge line"),
         (turning(-0.5, -0.5, -1.0), "hinge line"),
         (sliding((0.0, -1.0, 0.0), DOOR), "a door that is prismatic"),
-        (RealizationPlan(), "stands still"),
+        (RealizationPlan(), "is static"),
     ],
 )
 def test_what_speaks_against_a_door(plan: RealizationPlan, why: str) -> None:

@@ -185,7 +185,7 @@ def test_the_worst_models_come_first() -> None:
     rows = [r for r in models_table(results()).rows if r[0] == "rule"]
     assert [r[1] for r in rows] == [MODELS[2].id, MODELS[1].id, MODELS[0].id]
     assert rows[0][-1] == "failed: it did not work"
-    assert "door_2: stands still (blocked: by x)" in str(rows[1][-1])
+    assert "door_2: is static (blocked: by x)" in str(rows[1][-1])
     assert "collides in 50% of the poses" in str(rows[1][-1])
 
 

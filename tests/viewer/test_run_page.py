@@ -127,7 +127,7 @@ def test_what_somebody_stopped_is_no_fault(made):
     assert {name for name, row in rows.items() if not row.flagged} == {Reason.REJECTED}
     assert rows[Reason.REJECTED].cells[1:3] == ("green", "")
     assert (figures["green"], figures["red"]) == ("1", str(len(REASONS) - 1))
-    assert figures["doors and drawers that stand still"] == str(len(REASONS) - 1)
+    assert figures["doors and drawers that are static"] == str(len(REASONS) - 1)
 
 
 def test_a_run_without_rows_is_a_page():

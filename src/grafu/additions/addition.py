@@ -14,7 +14,7 @@ from grafu.vocabulary import PartLabel
 class Addition:
     """A new part at rest in the object frame, why it was added, and in which style (a template's id, an outline).
 
-    `part.rides_on` is the door or drawer that it is fixed to; None: it stands still.
+    `part.rides_on` is the door or drawer that it is fixed to; None: it is static.
     """
 
     part: Part

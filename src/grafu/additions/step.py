@@ -50,7 +50,7 @@ class Grasp(ArrayValue):
     """How a moving body can be grasped. `confidence` is in [0, 1]; of "none" it is 1.
 
     `part` is the id of the handle (empty: it is geometry of the moving body itself), `center` the middle of the grip in
-    the object frame (None: there is none), `length` metres of it that fingers can use, and `why` says what was found.
+    the object frame (None: there is none), `length` metres of it that fingers can use, and `why` states what was found.
     """
 
     moving: str

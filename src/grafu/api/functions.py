@@ -45,7 +45,7 @@ def load(
         path: a GLB, glTF, URDF or OBJ file, or a folder of meshes, of PartNet-Mobility or of HSSD.
         up: the input's axis that points up, such as `+Y`; None: it is detected.
         front: the input's axis that points out of the front; None: it is detected.
-        scale: metres per unit of the input; None: as the format says, or estimated.
+        scale: metres per unit of the input; None: as the format states, or estimated.
         height: the real height in metres; wins over `scale`.
         labels: `input` takes categories from names, `none` ignores them.
         parts: `auto` takes the objects of the input as parts but cuts those that hide doors or drawers, `input` takes
@@ -80,7 +80,7 @@ def functionalize(
         source: a path, as for `grafu.load`, or the asset that it returned.
         motion: where motions come from: `auto`, `network`, `rule`, `annotation`, or another system's file such as
             `particulate:FILE`.
-        motions: by the id of a part, how it moves, whatever the source says; see `Result.with_motion`.
+        motions: by the id of a part, how it moves, whatever the source states; see `Result.with_motion`.
         weights: a file of trained weights (ONNX) for the network; None: those that came with the package.
         top: whether a missing top is added, or its shape: `rectangle`, `rounded`, `chamfered`.
         handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`.

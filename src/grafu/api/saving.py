@@ -78,7 +78,7 @@ def _page(made: Functionalized, report: Report) -> tuple[Report, ExportFiles, by
 
 
 def _page_of_words(made: Functionalized, report: Report, why: str) -> tuple[Report, ExportFiles, bytes]:
-    """Returns the report, which says what its page lacks, the page without anything drawn of the model, no picture."""
+    """Returns the report, which states what its page lacks, the page without pictures of the model, and no picture."""
     from grafu.viewer.model_page import model_page
 
     noted = with_notes(report, f"{MODEL_PAGE} has no 3D view and no pictures: {why}")

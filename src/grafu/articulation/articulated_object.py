@@ -182,7 +182,7 @@ class ArticulatedObject:
 
     Raises:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
-            exists, or a link cannot be reached from the root; if a joint follows one that is not there, stands still or
+            exists, or a link cannot be reached from the root; if a joint follows one that is not there, is static or
             follows it in turn, waits for others by itself, or has limits that do not follow from its leader's.
     """
 

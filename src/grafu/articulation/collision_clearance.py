@@ -47,7 +47,7 @@ _REST: Mat4 = np.eye(4)
 @final
 @dataclass(frozen=True, slots=True)
 class _JointPath:
-    """One joint's way from rest to full.
+    """One joint's path from rest to full.
 
     `Ts_object_carried` are the poses of each link that moves with it, (poses, 4, 4); `T_object_still` is where every
     other link stands meanwhile, links at rest left out; `Ts_object_coupled` are the poses of links that it does not
@@ -70,7 +70,7 @@ class _JointPath:
 class _Conflict:
     """Two bodies that meet, and the pose of the second against the first in each pose where they do.
 
-    `still_moves` says that the second moves with another joint.
+    `still_moves` states that the second moves with another joint.
     """
 
     moving: ShapeBody
@@ -101,7 +101,7 @@ def cleared(
 
 
 def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
-    """Returns the way of a joint: what hangs on it moves as one body with its child, unless joints are coupled."""
+    """Returns the path of a joint: what hangs on it moves as one body with its child, unless joints are coupled."""
     if any(articulated.leader_of(other) is articulated.leader_of(joint) for other in _others(articulated, joint)):
         return _coupled_motion(articulated, joint, poses)
     start = link_poses(articulated, values_before(articulated, joint.id))
@@ -118,7 +118,7 @@ def _others(articulated: ArticulatedObject, joint: Joint) -> list[Joint]:
 
 
 def _coupled_motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
-    """Returns the way of a joint that moves together with others."""
+    """Returns the path of a joint that moves together with others."""
     frames = [link_poses(articulated, values) for values in rest_to_full(articulated, joint.id, poses)]
     Ts = {link.id: np.stack([frame[link.id] for frame in frames]) for link in articulated.links}
     carried = _carried(articulated, joint)
@@ -139,7 +139,7 @@ def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
 def _conflicts(
     motion: _JointPath, bodies: list[ShapeBody], settled: frozenset[ShapeBody], root: str
 ) -> Iterator[_Conflict]:
-    """Yields the pairs that meet on one joint's way, except those of which both are settled: they have been asked."""
+    """Yields the pairs that meet along one joint's path, except those of which both are settled: they were tested."""
     moving = [body for body in bodies if body.link in motion.Ts_object_carried]
     still = [body for body in bodies if body.link not in motion.Ts_object_carried]
     met: dict[tuple[ShapeBody, ShapeBody], list[Mat4]] = {}

@@ -15,7 +15,7 @@ _ALIKE = 1e-6  # radians or metres
 
 
 def all_before(name: str, waits: Mapping[str, Iterable[str]]) -> set[str]:
-    """Returns what a part waits for, what that waits for, and so on; `waits` says what each waits for by itself."""
+    """Returns what a part waits for, what that waits for, and so on; `waits` states what each waits for by itself."""
     found: set[str] = set()
     queue = [name]
     while queue:

@@ -1,8 +1,8 @@
 """Mass, centre and inertia of links, from the volume of their parts and stated densities.
 
-Volume is found for any mesh, however untidy. Closed surfaces count by what they enclose. Open ones, and sheets without
-thickness, count as shells: their area, doubled faces once, times a board's thickness. Nothing counts for more than the
-box around it.
+Volume is found for any mesh, also with modelling errors. Watertight surfaces count by what they enclose. Open ones, and
+sheets without thickness, count as shells: their area, doubled faces once, times a board's thickness. Nothing counts for
+more than the box around it.
 """
 
 from collections.abc import Callable, Mapping

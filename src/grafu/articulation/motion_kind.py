@@ -48,7 +48,7 @@ class MotionKind:
         shown: the unit in which people read a value.
         verb: what a part with this joint does, for people.
         hardware: what such a joint runs on, for people.
-        label: what a part that moves so is, where nothing else says it.
+        label: what a part that moves so is, where nothing else states it.
         words: what formats call it; the first word is written, all are read.
     """
 
@@ -148,7 +148,7 @@ _ROWS = (
         shift=0.0,
         unit="",
         shown=ShownUnit(1.0, 0, ""),
-        verb="stands still",
+        verb="is static",
         hardware="",
         label=PartLabel.UNKNOWN,
         words=MappingProxyType({"urdf": ("fixed",), "usd": ("FixedJoint",), "singapo": ("fixed",)}),

@@ -16,7 +16,7 @@ from grafu.geometry.budget import require_time
 
 Shapes = Mapping[str, tuple[CollisionShape, ...]]
 Pairs = tuple[tuple[str, str], ...]
-_STEPS = 20  # a twentieth of a door's way is some 5 degrees, of a drawer's 2 cm
+_STEPS = 20  # a twentieth of a door's path is some 5 degrees, of a drawer's 2 cm
 
 
 def met_at_rest(articulated: ArticulatedObject, shapes: Shapes) -> Pairs:

@@ -119,7 +119,7 @@ class PhysicsModel:
     """The physics of an object at rest, in the object frame; tables by the ids of links and of moving joints.
 
     `origins` is where the frame of each link stands, parallel to the object frame. `touching` names the pairs of links
-    whose shapes meet at rest all the same. `notes` say what was found in a simpler way, because there was no time.
+    whose shapes meet at rest all the same. `notes` state what was found in a simpler way, because there was no time.
     """
 
     origins: Mapping[str, Vec3]

@@ -65,7 +65,7 @@ class StatedMotion:
 class Body:
     """Links that hang together rigidly; `parent` is the link of the body that carries it.
 
-    A body with a `motion` moves so. One without stands still, unless it `is_loose`: then the input says that it moves,
+    A body with a `motion` moves so. One without is static, unless it `is_loose`: then the input states that it moves,
     but not how.
     """
 
@@ -162,14 +162,14 @@ def _moving(body: Body, carrier: str | None, up: int) -> list[_Draft]:
 
 
 def _moving_label(body: Body, rest: tuple[Visual, ...], up: int) -> tuple[PartLabel, str]:
-    """Returns whether a moving body is a door or a drawer, and what says so: its names, or else its joint."""
+    """Returns whether a moving body is a door or a drawer, and what states it: its names, or else its joint."""
     spoken = _spoken_label(body, rest)
     stated = spoken if body.motion is None else _label_of_motion(spoken, rest, body.motion, up)
     return stated, "name" if stated is spoken else "joint"
 
 
 def _spoken_label(body: Body, rest: tuple[Visual, ...]) -> PartLabel:
-    """Returns the label that most names of a body give, of door and drawer; `unknown` where none says either."""
+    """Returns the label that most names of a body give, of door and drawer; `unknown` where none states either."""
     names = (body.name, *(v.name for v in rest))
     spoken = Counter(label_of(name) for name in names)
     if spoken[PartLabel.DOOR] or spoken[PartLabel.DRAWER]:

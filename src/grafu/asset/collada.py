@@ -218,7 +218,7 @@ def _colour(value: Any) -> tuple[float, float, float] | None:
 
 
 def _opacity(effect: Any) -> float:
-    """Returns how opaque an effect is, 0..1; 1 where it says that nothing would be seen, as some exporters do."""
+    """Returns how opaque an effect is, 0..1; 1 where it states that nothing would be seen, as some exporters do."""
     tint, factor = effect.transparent, effect.transparency
     if not isinstance(tint, tuple | list) or len(tint) < 4 or not isinstance(factor, float | int):
         return 1.0

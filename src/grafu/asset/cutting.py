@@ -1,7 +1,7 @@
-"""Objects that hide doors or drawers are cut into parts. What a front is, `segmentation` says.
+"""Objects that hide doors or drawers are cut into parts. What a front is, `segmentation` states.
 
 Inputs whose makers divided them by what moves are left alone: parts segmented by hand, and robots of several links.
-What the input says of its motions is not asked: the parts are the same with joints and without.
+What the input states about its motions is not asked: the parts are the same with joints and without.
 """
 
 from collections import Counter
@@ -72,7 +72,7 @@ def _is_new(piece: Piece | None) -> bool:
 
 
 def _freed(part: Part, cut: set[str]) -> Part:
-    """Returns the part riding on nothing where what it rode on was cut: contact says on what, once labels are known."""
+    """Returns the part attached to nothing where its carrier was cut: contact then decides on what."""
     return replace(part, rides_on=None) if part.rides_on in cut else part
 
 

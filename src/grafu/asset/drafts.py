@@ -1,6 +1,6 @@
 """Unannotated inputs: named pieces to parts. Pieces that share a group become one door or drawer.
 
-It reads no files. A piece belongs to a group where the input's hierarchy says so, or where its name is a piece's name
+It reads no files. A piece belongs to a group where the input's hierarchy states it, or where its name is a piece's name
 after a common, numbered beginning (`drawer_1_front`, `drawer_1_side`).
 """
 

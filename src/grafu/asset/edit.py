@@ -15,7 +15,7 @@ from grafu.geometry.transform import from_rotation, reflection, rotation_matrix,
 
 
 def moved(asset: Asset, T: Mat4) -> Asset:
-    """Returns the asset mapped by a similarity T: parts, joints (lengths scaled) and the way back to the input.
+    """Returns the asset mapped by a similarity T: parts, joints (lengths scaled) and the transform back to the input.
 
     A rotation axis is a pseudovector: a mirror image reverses its sense, so that positive still opens.
 

@@ -1,4 +1,4 @@
-"""The one door between input coordinates and the object frame: decides up, front, scale and place, and says why.
+"""The one door between input coordinates and the object frame: decides up, front, scale and place, and states why.
 
 Object frame: metres, Z up, front -Y, standing on z = 0, centred in x and y. Up and front are found from labelled boxes;
 no joint is asked.

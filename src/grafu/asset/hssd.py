@@ -113,7 +113,7 @@ def _up_axis(annotation: HssdAnnotation) -> int:
 def _fitting(nodes: tuple[tuple[Surface, ...], ...], annotation: HssdAnnotation, path: Path) -> list[_Mesh]:
     """Returns the meshes as the annotation counts them: each primitive one, or each node's as one.
 
-    Where both may be meant, the one counts that puts more parts where the annotation says that they are.
+    Where both may be meant, the one counts that puts more parts where the annotation states that they are.
 
     Raises:
         UnreadableAsset: if it names a mesh or triangle that is there in neither way of counting.

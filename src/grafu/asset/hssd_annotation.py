@@ -238,7 +238,7 @@ def _direction(axis: Any) -> str | None:
 
 
 def _neighbours(graph: Any, known: set[str]) -> Mapping[str, frozenset[str]]:
-    """Returns which parts touch, both ways, from a list of pids by pid; what is no such list says nothing."""
+    """Returns which parts touch, both ways, from a list of pids by pid; what is no such list states nothing."""
     found: dict[str, set[str]] = {pid: set() for pid in known}
     for place, others in enumerate(graph if isinstance(graph, list) else ()):
         for other in others if isinstance(others, list) else ():

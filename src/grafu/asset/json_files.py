@@ -1,6 +1,6 @@
 """JSON from anybody to plain and typed values: no names that stand twice, no nesting without end, no half characters.
 
-What should be an object, a list or a number is, or one line says that not; NaN is refused for a number.
+What should be an object, a list or a number is, or one line states that not; NaN is refused for a number.
 """
 
 import json
@@ -166,7 +166,7 @@ _HALF = re.compile(rb"\\u[dD][89a-fA-F]")  # half of a character, which JSON can
 
 
 def read_json(path: Path, files: ModelFiles, expected: str) -> Any:
-    """Returns the values in a JSON file of a model; `expected` says in words what the file should be.
+    """Returns the values in a JSON file of a model; `expected` states in words what the file should be.
 
     Raises:
         UnreadableAsset: if it is missing, cannot be read, or is no JSON.
@@ -176,7 +176,7 @@ def read_json(path: Path, files: ModelFiles, expected: str) -> Any:
 
 
 def parse_json(data: bytes, where: object, expected: str, limits: Limits = _LIMITS) -> Any:
-    """Returns the values in JSON; `where` names the file, `expected` says in words what it should be.
+    """Returns the values in JSON; `where` names the file, `expected` states in words what it should be.
 
     Raises:
         UnreadableAsset: if it is no JSON, names a value twice, or is nested too deeply.

@@ -95,11 +95,11 @@ _CONTAINERS = word_set(
 @final
 @dataclass(frozen=True, slots=True)
 class Sense:
-    """What a name says: the label, whether it is a piece of a door or drawer, and whether nothing blurs it.
+    """What a name states: the label, whether it is a piece of a door or drawer, and whether nothing blurs it.
 
     A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
-    `is_container` says that it is the name of a whole piece of furniture or of its body, `mention` which door or drawer
-    it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like.
+    `is_container` states that it is the name of a whole piece of furniture or of its body, `mention` which door or
+    drawer it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like.
     """
 
     label: PartLabel
@@ -112,7 +112,7 @@ class Sense:
 
 @lru_cache(maxsize=20_000)
 def sense_of(name: str) -> Sense:
-    """Returns what a name says; where it says nothing, the label is `unknown`."""
+    """Returns what a name states; where it states nothing, the label is `unknown`."""
     for phrase in _phrases(spoken(name)):
         found = _sense(tuple(singular(w) for w in phrase))
         if found.label is not PartLabel.UNKNOWN or found.is_container:
@@ -172,7 +172,7 @@ def _sense(said: tuple[str, ...]) -> Sense:
 
 
 def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sense | None:
-    """Returns what a name with a door or drawer in it says, None where another noun is its head."""
+    """Returns what a name with a door or drawer in it states, None where another noun is its head."""
     start, end, label = moving
     tail = said[end:]
     if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:

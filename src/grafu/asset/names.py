@@ -145,7 +145,7 @@ def _ranked(found: list[str]) -> tuple[str, ...]:
 
 
 def _han(text: str) -> tuple[str, ...]:
-    """Returns the English words of signs written without spaces, the longest known word first; `OF` says nothing."""
+    """Returns the English words of signs written without spaces, the longest known word first; `OF` states nothing."""
     found: list[str] = []
     i = 0
     while i < len(text):

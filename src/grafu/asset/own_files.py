@@ -17,7 +17,7 @@ MOST_BYTES: Final = 64 * 2**20
 
 
 def read_own(path: Path, expected: str, most: int = MOST_BYTES) -> bytes:
-    """Returns the content of a file that grafu wrote; `expected` says in words what it should be.
+    """Returns the content of a file that grafu wrote; `expected` states in words what it should be.
 
     Raises:
         UnreadableAsset: if it is missing, cannot be read, is no regular file, or leads out of its folder.

@@ -44,9 +44,9 @@ class PartSource:
 class Part:
     """One part, its surfaces in the object frame (metres, Z up, front -Y).
 
-    `id` is unique and safe in URDF and USD. `labelled_by` says what the label rests on ("joint": what the input says of
-    its motion; "added": the part is new). `rides_on` is the id of the moving part that carries this one, where the
-    input says so (a handle in a door's link, a knob on a drawer).
+    `id` is unique and safe in URDF and USD. `labelled_by` states what the label rests on ("joint": what the input
+    states about its motion; "added": the part is new). `rides_on` is the id of the moving part that carries this one,
+    where the input states it (a handle in a door's link, a knob on a drawer).
     """
 
     id: str
@@ -76,8 +76,8 @@ class AnnotatedJoint:
     """A joint that the input itself states: the moving part, the axis in the object frame, limits as stated.
 
     Limits are radians or metres along `axis`; unlike a `Joint`'s they may be negative, reversed or not start at 0,
-    and `limited=False` says that the input states none. `stated_by` names who predicted it, where the input did not
-    state it. With a `coupling` the input says that it follows the joint of another part, which it names.
+    and `limited=False` states that the input states none. `stated_by` names who predicted it, where the input did not
+    state it. With a `coupling` the input states that it follows the joint of another part, which it names.
     """
 
     part: str
@@ -93,9 +93,9 @@ class AnnotatedJoint:
 @final
 @dataclass(frozen=True)
 class Annotation:
-    """What an input says of its motions: its parts as its moving bodies group, label and carry them, and their joints.
+    """What an input states about its motions: its parts as its moving bodies group, label and carry them; their joints.
 
-    The pieces of a body that moves are one part here, whatever they are called. `notes` says what was decided.
+    The pieces of a body that moves are one part here, whatever they are called. `notes` states what was decided.
 
     Raises:
         AssetError: if part ids repeat, or `rides_on` or a joint names a part that is not there.
@@ -116,7 +116,7 @@ class Frame(ArrayValue):
 
     `input_to_output` is a similarity (4x4, row-major): from the coordinates of the input's mesh files (for a URDF: its
     static root link's) to the object frame. `up` and `front` are directions in the input's coordinates, spelled
-    like `+Y`; `scale` is metres per input unit; `assumed` says in words what was decided and why.
+    like `+Y`; `scale` is metres per input unit; `assumed` states in words what was decided and why.
     """
 
     input_to_output: Mat4
@@ -137,8 +137,8 @@ IDENTITY_FRAME = Frame(np.eye(4), "+Z", "-Y", 1.0)
 class Asset:
     """A part-segmented model in the object frame.
 
-    Of a file, `parts` are read without its joints: the same with them and without. What it says of its motions is the
-    `annotation`, in the same frame, and `as_annotated` is how that sees it. `joints` are those of an asset that was
+    Of a file, `parts` are read without its joints: the same with them and without. What it states about its motions is
+    the `annotation`, in the same frame, and `as_annotated` is how that sees it. `joints` are those of an asset that was
     read so, that was made with joints, or that another system's were attached to.
 
     Name, path and notes are kept as UTF-8 can hold them (`writable`).

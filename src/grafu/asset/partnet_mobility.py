@@ -1,7 +1,7 @@
 """PartNet-Mobility folders: `mobility_v2.json` with `result.json`, or `mobility.urdf` alone, to rigid bodies.
 
 Mesh files are Y up, front +Z, scaled to about a unit sphere. JSON hinge limits are degrees. It settles no frame. Other
-makers' `mobility.urdf` is read by what it says.
+makers' `mobility.urdf` is read by what it states.
 """
 
 from collections import Counter

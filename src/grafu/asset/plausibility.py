@@ -1,7 +1,7 @@
-"""What a name says, held against the shape of what it names. It reads no files.
+"""What a name states, held against the shape of what it names. It reads no files.
 
 A word is evidence: a `drawer` that holds the rest of the object is its body, a strip of a few millimetres is no door, a
-`slide` as large as a door is no hardware. A name that mentions a door or drawer beside what it says it is
+`slide` as large as a door is no hardware. A name that mentions a door or drawer beside what it states it is
 (`drawer_stairs`, `drawer_sprocket`) is believed where the part is a plate at the outside.
 """
 
@@ -79,7 +79,7 @@ def with_plausible_labels(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], li
 
 
 def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
-    """Returns an unlabelled panel on which buttons or a display sit as one that stands still."""
+    """Returns an unlabelled panel on which buttons or a display sit as one that is static."""
     if part.label is not PartLabel.UNKNOWN or "panel" not in spoken(part.source.name) or not controls:
         return part
     if _is_body(part.box, scene) or not any(part.box.overlaps(box, _TOUCH * scene.extent) for box in controls):
@@ -88,9 +88,7 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
 
 
 def _said(label: PartLabel) -> str:
-    return (
-        "it stands still" if label is PartLabel.MISC else f"it may be a {label.value}" if label.is_movable else "open"
-    )
+    return "it is static" if label is PartLabel.MISC else f"it may be a {label.value}" if label.is_movable else "open"
 
 
 def _judged(part: Part, scene: _Scene) -> Part:

@@ -40,7 +40,7 @@ class MeshFile:
 
 
 class Placing:
-    """Maps what was read by one frame; a mesh that parts and annotation fraction is mapped once, and shared again."""
+    """Maps what was read by one frame; a mesh that parts and annotation share is mapped once, and is shared again."""
 
     def __init__(self, frame: Frame) -> None:
         self._frame = frame
@@ -48,7 +48,7 @@ class Placing:
         self._made: dict[tuple[int, int], tuple[Surface, Surface]] = {}  # by ids, with what they are the ids of
 
     def parts(self, parts: tuple[Part, ...]) -> tuple[Part, ...]:
-        """Returns parts in the object frame, handles riding on what they touch where nothing says on what."""
+        """Returns parts in the object frame, handles riding on what they touch where nothing states on what."""
         placed = (replace(part, surfaces=tuple(map(self._surface, part.surfaces))) for part in parts)
         return with_attached(tuple(placed))
 
@@ -70,10 +70,10 @@ Furniture = Literal["storage", "table"]
 @final
 @dataclass(frozen=True, slots=True)
 class Convention:
-    """What the format or the dataset says about its coordinates; None where it says nothing.
+    """What the format or the dataset states about its coordinates; None where it states nothing.
 
-    `unit` is metres per input unit. `normalised` says that the unit has no meaning, because the dataset scales every
-    model to one size. `origin` names who says so, in words for the report.
+    `unit` is metres per input unit. `normalised` states that the unit has no meaning, because the dataset scales every
+    model to one size. `origin` names who states it, in words for the report.
     """
 
     origin: str
@@ -89,8 +89,9 @@ class Convention:
 class Reading:
     """An input in its own coordinates: every `Part` and joint here is still to be mapped to the object frame.
 
-    `parts` are what it holds without its joints; the `annotation` is what it says of its motions, None where nothing.
-    `grouped` says that the parts are segmented by hand: pieces of doors and drawers are not joined by where they lie.
+    `parts` are what it holds without its joints; the `annotation` is what it states about its motions, None where
+    nothing. `grouped` states that the parts are segmented by hand: pieces of doors and drawers are not joined by where
+    they lie.
     """
 
     kind: AssetKind

@@ -26,7 +26,7 @@ _CHUNK: Final = 16 * 2**20
 
 
 class NotRegular(OSError):
-    """What is at a path is no regular file; `strerror` says in words what it is."""
+    """What is at a path is no regular file; `strerror` states in words what it is."""
 
 
 class TooManyBytes(Exception):

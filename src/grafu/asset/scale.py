@@ -1,6 +1,6 @@
 """The metric size of furniture from its shape and labels. The estimate ignores the input's unit, yaw and handedness.
 
-Each measure that is found (depth, door width, drawer height, ...) says how large the unit is, within a spread; the
+Each measure that is found (depth, door width, drawer height, ...) states how large the unit is, within a spread; the
 estimate is their weighted mean on a logarithmic scale, so scaling the input scales nothing but the result's inverse.
 """
 
@@ -68,7 +68,7 @@ def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furn
         parts: labelled parts in input coordinates.
         whole: the box around them.
         up: the index of the vertical axis.
-        furniture: what kind it is, where the input says so.
+        furniture: what kind it is, where the input states it.
     """
     kind = furniture or _kind(parts, whole, up)
     usual = TABLE if kind == "table" else STORAGE

@@ -45,7 +45,7 @@ def library_call(where: object, expected: str) -> Iterator[None]:
 
 
 def parse_xml(data: bytes, path: Path, expected: str, limits: Limits) -> Any:
-    """Returns the root element of XML; `expected` says in words what the file at `path` should be.
+    """Returns the root element of XML; `expected` states in words what the file at `path` should be.
 
     Raises:
         UnreadableAsset: if it is not XML, nested more than 255 elements deep, or declares a document type: its entities
@@ -74,7 +74,7 @@ def array_from(data: bytes) -> np.ndarray:
     """Returns the array in the bytes of a `.npy` file; it cannot be written to.
 
     Raises:
-        ValueError: if they are no such file, hold objects, or another array than the header says; NumPy raises other
+        ValueError: if they are no such file, hold objects, or another array than the header states; NumPy raises other
             exceptions for headers that are no Python.
     """
     stream = io.BytesIO(data)
@@ -84,7 +84,7 @@ def array_from(data: bytes) -> np.ndarray:
     shape, fortran, dtype = _HEADERS[version](stream)
     size = math.prod(shape) * dtype.itemsize
     if dtype.hasobject or min(shape, default=0) < 0 or size != len(data) - stream.tell():
-        raise ValueError("it holds another array than it says")
+        raise ValueError("it holds another array than it states")
     if not size:
         return np.zeros(shape, dtype)
     return np.frombuffer(data, dtype, offset=stream.tell()).reshape(shape, order="F" if fortran else "C")
@@ -96,7 +96,7 @@ _ELEMENT = re.compile(rb"^element[ \t]+(\S+)[ \t]+(\d{1,18})[ \t\r]*$", re.MULTI
 
 
 def read_with_trimesh(path: Path, data: bytes, files: ModelFiles) -> MeshFile:
-    """Returns the one piece of a PLY or STL file, read before; `path` says which.
+    """Returns the one piece of a PLY or STL file, read before; `path` states which.
 
     Raises:
         UnreadableAsset: if it is damaged.

@@ -40,7 +40,7 @@ def _draft(node: SceneNode, file: str, wholes: set[int]) -> PartDraft:
     group = next(((i, name) for i, name in node.chain if i in wholes), None)
     if group is not None:
         return PartDraft(node.name, node.surfaces, group=f"node {group[0]}", group_name=group[1], file=file)
-    # Exporters often name a mesh's parent and not the mesh; the scene's own root says nothing of its parts.
+    # Exporters often name a mesh's parent and not the mesh; the scene's own root states nothing about its parts.
     parent = node.chain[-2][1] if len(node.chain) > 2 else ""
     borrowed = parent if label_of(node.name) is PartLabel.UNKNOWN else ""
     return PartDraft(node.name, node.surfaces, label_name=borrowed, file=file)

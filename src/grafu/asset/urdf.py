@@ -176,7 +176,7 @@ def _joint_element(element: Any, path: Path) -> _JointElement:
 
 
 def _mimic(element: Any, path: Path) -> Coupling | None:
-    """Returns which joint a joint follows; None where it follows none, or would stand still (a multiplier of 0)."""
+    """Returns which joint a joint follows; None where it follows none, or would be static (a multiplier of 0)."""
     mimic = element.find("mimic")
     if mimic is None:
         return None
@@ -224,7 +224,7 @@ def _upward(tree: _Tree, link: str) -> list[str]:
 
 
 def _group(tree: _Tree, link: str) -> str:
-    """Returns the nearest link, itself or above it, that is named as one whole door or drawer; the root says nothing.
+    """Returns the nearest link, itself or above it, that is named as one whole door or drawer; the root states nothing.
 
     Links count as the nodes of a scene do, by their names alone: a joint that is made fixed changes nothing.
     """

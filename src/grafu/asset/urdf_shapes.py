@@ -84,7 +84,7 @@ def find_in_package(name: str, urdf: Path, files: ModelFiles) -> Sought:
         tails.insert(0, f"/{rest.lstrip('/')}")
     tried = [files.seek(tail, folder) for tail in tails for folder in _bases(urdf, files)]
     found = next((sought for sought in tried if sought.path is not None), None)
-    # that a name leads out at one of several places says nothing while it leads nowhere at the others
+    # that a name leads out at one of several places states nothing while it leads nowhere at the others
     return found or Sought(None, OUTSIDE if tried and all(s.why == OUTSIDE for s in tried) else MISSING)
 
 

@@ -26,10 +26,10 @@ DIR/table.csv, anew after each that is finished. Stopped or killed, the same com
 trained again, so that another seed may be asked for later.
 
 losses: the paper's six hold-outs of loss terms; then the choices in which paper, authors' code and `base` differ
-folds:  0, 5, 10, 17, 20 corrupted copies of each of 200 made models, and new copies every time
+folds:  0, 5, 10, 17, 20 corrupted copies of each of 200 synthetic models, and new copies every time
 
-The default, config `small` for 2000 steps, takes about an hour on two cores for `losses`, and shows which way things
-go; for the last figure train longer: --config base --steps 20000.
+The default, config `small` for 2000 steps, takes about an hour on two cores for `losses`, and shows the
+trend; for the last figure train longer: --config base --steps 20000.
 """
 _EXAMPLES = """\
 examples:
@@ -42,7 +42,10 @@ examples:
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
     """Adds the verb and returns its parser."""
     parser = verbs.add_parser(
-        "ablate", help="see what each loss and copy is good for", description=_DESCRIPTION, epilog=_EXAMPLES
+        "ablate",
+        help="measure the effect of each loss and of corrupted copies",
+        description=_DESCRIPTION,
+        epilog=_EXAMPLES,
     )
     parser.add_argument("kind", choices=KINDS, metavar="{losses,folds}", help="what is varied")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="the folder of all runs and tables")

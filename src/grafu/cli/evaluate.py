@@ -28,13 +28,12 @@ _METHODS = "annotation,rule,network"
 _SECONDS = 900.0  # for a task: to make a model and to measure it
 
 _DESCRIPTION = """\
-Has each method make each model, measures every part that counts, and writes tables to DIR/tables as Markdown, CSV,
-JSON and LaTeX, with index.md that says how each figure was measured, and DIR/index.html to sort and look at. What is
-done stands in DIR/rows.jsonl: stopped or
-killed, the same command goes on.
+Runs each method on each model, measures every part that counts, and writes tables to DIR/tables as Markdown, CSV,
+JSON and LaTeX, with index.md that states how each figure was measured, and DIR/index.html to sort and look at.
+Finished work is kept in DIR/rows.jsonl: after it was stopped or killed, the same command resumes.
 
 data:    a folder of models whose joints are annotated (PartNet-Mobility, HSSD with S2O annotations, URDF, the authors'
-         releases), or synth:SEED:COUNT for made furniture
+         releases), or synth:SEED:COUNT for synthetic furniture
 methods: annotation, rule, network, and what others predicted: particulate:DIR, singapo:DIR, grafu-pred:DIR, urdf:DIR,
          where DIR holds one entry per model id
 tables:  motion, masking (labels hidden), static (tops, grasps, interiors), models (worst first), ood (farthest from

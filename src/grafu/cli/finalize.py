@@ -39,7 +39,7 @@ class Order:
 
 
 def finalize(order_file: Path) -> str:
-    """Does what an order says; returns why it could not be done, empty where it was."""
+    """Does what an order states; returns why it could not be done, empty where it was."""
     try:
         order = _order(order_file)
         settings = settings_from_bytes(read_own(order.settings, "settings of grafu"), order.settings)

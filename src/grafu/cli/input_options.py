@@ -49,7 +49,7 @@ DIVISIONS = ("auto", "input", "loose")
 
 def add_input_options(parser: argparse.ArgumentParser) -> None:
     """Adds --labels, --parts, --up, --front, --scale and --height."""
-    group = parser.add_argument_group("how the input is read (by default it is detected, and the report says how)")
+    group = parser.add_argument_group("how the input is read (by default it is detected, and the report states how)")
     group.add_argument(
         "--labels",
         choices=LABELS,

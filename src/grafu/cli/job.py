@@ -38,7 +38,7 @@ def _default_settings() -> "Settings":
 @final
 @dataclass(frozen=True)
 class JobOptions:
-    """What all inputs of one call fraction; `alone` says that there is one only.
+    """What all inputs of one call share; `alone` states that there is one only.
 
     `templates` is a folder of the user's own, or None. `prediction` is the file of another system's motions, which no
     setting names; None: motions come from the source of the settings.
@@ -83,7 +83,7 @@ class Succeeded:
     """The report of a job that is done, and how long it took from reading to writing, in seconds.
 
     `picture` is a small picture of the result for the page of the run; empty where no page was asked for. `earlier`
-    says that an earlier run made it.
+    states that an earlier run made it.
     """
 
     job: Job

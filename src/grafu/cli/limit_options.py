@@ -38,7 +38,7 @@ def limits_of(options: argparse.Namespace) -> Limits:
 
 
 def why_stopped(ending: Ending, limits: Limits) -> str:
-    """Returns one line that says why there is no result, and what to do."""
+    """Returns one line that states why there is no result, and what to do."""
     if ending is Ending.LATE and limits.seconds is not None:
         return (
             f"it was not done after {PATIENCE * limits.seconds:g} s, {PATIENCE:g} times its --timeout, and stopped: "
@@ -50,7 +50,7 @@ def why_stopped(ending: Ending, limits: Limits) -> str:
 
 
 def too_large(limits: Limits) -> str:
-    """Returns one line that says that a model needed more memory than there was, and what to do."""
+    """Returns one line that states that a model needed more memory than there was, and what to do."""
     needed = f"more than {size_said(limits.memory)} of memory" if limits.memory else "more memory than there is"
     return f"it needed {needed} and was stopped: give --memory more, or simplify the input"
 

@@ -70,7 +70,7 @@ def build_parser() -> argparse.ArgumentParser:
     """Returns the parser of all verbs."""
     parser = _Parser(
         prog="grafu",
-        description="Furniture that only looks right goes in; furniture that works comes out.",
+        description="Makes part-segmented 3D furniture work: hinges, rails, limits, handles, physics.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -1,4 +1,4 @@
-"""The lines that the command says: errors go to stderr. It decides no exit code.
+"""The lines that the command states: errors go to stderr. It decides no exit code.
 
 What steers a terminal is shown as an escape in all of them: names of files and parts are others' text.
 """

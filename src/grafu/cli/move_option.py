@@ -47,7 +47,7 @@ def part_move(text: str) -> Move:
 def with_moves(
     settings: "Settings", moves: "Sequence[Move]", alone: bool, prediction: "SourceOption | None"
 ) -> "Settings":
-    """Returns the settings in which these parts move so; `alone` says that there is one input only.
+    """Returns the settings in which these parts move so; `alone` states that there is one input only.
 
     Raises:
         OptionError: if there are several inputs, or the motions are another system's.

@@ -24,7 +24,7 @@ _CLEAR_LINE = "\r\x1b[2K\x1b[?25h"  # the line of a progress bar that was not cl
 
 
 def run_supervised(options: argparse.Namespace) -> int:
-    """Runs the verb within the limits that the options state; returns its exit code, or says why it was stopped."""
+    """Runs the verb within the limits that the options state; returns its exit code, or states why it was stopped."""
     limits = limits_of(options)
     try:
         with closing(run_each([options], 1, run_verb, limits, prepare_verb, quick_start())) as ended:

@@ -93,7 +93,7 @@ def _joints_table(report: Report) -> Table:
 
 
 def _not_built(report: Report) -> dict[str, list[str]]:
-    """Returns what was not built, doors and drawers that stand still among it, by why it was not."""
+    """Returns what was not built, doors and drawers that are static among it, by why it was not."""
     by_reason = defaultdict[str, list[str]](list)
     for line in verdict_of(report).lines:
         if line.kind in _NOT_BUILT:

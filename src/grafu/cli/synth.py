@@ -21,9 +21,10 @@ FORMATS = ("shards", "furfun")
 _COUNTS = {"data set": 1000, "gallery": 24, "stats": 500}  # a gallery of 24 is one page, 500 models steady percentiles
 
 _DESCRIPTION = """\
-Makes furniture: labelled, articulated, untidy as real models are, each with the graph of its repaired version. It
-writes a data set to DIR; run again, it goes on where it was stopped. With --gallery it writes DIR/gallery.html and
-DIR/gallery.png instead, with --stats it prints how made furniture compares with a folder of real models.
+Generates synthetic furniture: labelled and articulated, with modelling noise as in real models, each with the graph
+of its repaired version. It writes a data set to DIR; run again, it resumes where it was stopped. With --gallery it
+writes DIR/gallery.html and DIR/gallery.png instead, with --stats it prints how synthetic furniture compares with a
+folder of real models.
 
 The same seed makes the same models, whatever the number of --jobs.
 """
@@ -38,7 +39,9 @@ examples:
 
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
     """Adds the verb and returns its parser."""
-    parser = verbs.add_parser("synth", help="make furniture to learn from", description=_DESCRIPTION, epilog=_EXAMPLES)
+    parser = verbs.add_parser(
+        "synth", help="generate synthetic furniture to train on", description=_DESCRIPTION, epilog=_EXAMPLES
+    )
     parser.add_argument(
         "--count",
         type=positive_count,
@@ -170,7 +173,7 @@ def write_gallery(options: argparse.Namespace) -> int:
 
 
 def print_statistics(options: argparse.Namespace) -> int:
-    """Prints the statistics of made furniture, beside those of a folder of real models where one is given; returns 0.
+    """Prints the statistics of synthetic furniture, beside those of a folder of real models if one is given; returns 0.
 
     Raises:
         UnreadableAsset: if the folder is none.
@@ -198,7 +201,9 @@ def _print_comparison(comparison: "Comparison") -> None:
     from grafu.cli.tables import plain_table, wide_console
     from grafu.evaluation.statistics import number_text
 
-    table = plain_table("measure", "made: 5 · 50 · 95 %", "real: 5 · 50 · 95 %", "real within", "verdict", "outside")
+    table = plain_table(
+        "measure", "synthetic: 5 · 50 · 95 %", "real: 5 · 50 · 95 %", "real within", "verdict", "outside"
+    )
     for row in comparison.rows:
         within = "" if row.within is None else f"{row.within:.0%}"
         names = [f"{name} {number_text(value, row.is_ratio)}" for name, value in row.outliers[:_OUTLIERS]]
@@ -213,7 +218,7 @@ def _print_comparison(comparison: "Comparison") -> None:
 
 
 def _sum(comparison: "Comparison") -> str:
-    made = f"{comparison.synthetic} made models"
+    made = f"{comparison.synthetic} synthetic models"
     if not comparison.real:
         return made
     inside = len(comparison.rows) - len(comparison.failing)

@@ -141,7 +141,7 @@ _TOLD = ("category", "hinge", "rail", "attached", "joint")
 
 
 def run_training(options: argparse.Namespace) -> int:
-    """Trains, and says how it goes; returns the exit code, 130 where it was stopped before its end.
+    """Trains, and states how it goes; returns the exit code, 130 where it was stopped before its end.
 
     Raises:
         FunctionalizationError: if the run cannot be begun or gone on with.

@@ -53,7 +53,7 @@ def run_verb(options: argparse.Namespace) -> int:
 
 
 def exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], int]) -> int:
-    """Returns what `run` returns, or says in one line what it raises."""
+    """Returns what `run` returns, or states in one line what it raises."""
     try:
         return int(run(options))
     except FunctionalizationError as error:

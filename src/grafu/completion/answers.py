@@ -37,7 +37,7 @@ class Motions:
 def move_parts(
     scene: RuleScene, hang: Callable[[PartNode], MotionAnswer], run: Callable[[PartNode], MotionAnswer]
 ) -> Motions:
-    """Returns what `hang` says of each door and `run` of each drawer; those whose motion an edge states are passed by.
+    """Returns what `hang` states about each door and `run` of each drawer; those with a motion edge are left out.
 
     A door that slides past another is refused unasked; so are those that come when time is up.
     """

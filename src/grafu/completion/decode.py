@@ -47,7 +47,7 @@ def decode_graph(
 ) -> DecodedGraph:
     """Returns a graph of labelled parts with its handles settled.
 
-    `given` are the ids of the input's own parts; `parents` says for which door or drawer a handle was added.
+    `given` are the ids of the input's own parts; `parents` states for which door or drawer a handle was added.
     """
     view = View(graph, probabilities, given, config)
     decisions: tuple[Decision, ...] = ()

@@ -150,7 +150,7 @@ def _vote_handle(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) ->
 
 
 def _least_flap_aspect(door: PartNode, scene: RuleScene, aloft: float) -> float:
-    """Returns from which width to height on a handle in the middle says flap; doors of a row often have it there."""
+    """Returns from which width to height on a handle in the middle states flap; doors of a row often have it there."""
     if row_size(door, scene) > 1:
         return _WIDE_IN_ROW
     return _UPRIGHT if abs(aloft) > _EDGE else _WIDE

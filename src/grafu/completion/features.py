@@ -8,7 +8,7 @@ Points of parts in groups, many parts at once: spread anchors, and the nearest p
 
 Everything is the same for the same points, and for one part alone as for many.
 
-What the network says about one graph, as plain arrays.
+What the network states about one graph, as plain arrays.
 """
 
 from dataclasses import dataclass, fields, replace

@@ -6,7 +6,7 @@ of two forward passes, on the graph and on its mirror image: their errors differ
 
 Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part.
 
-Labels that the input states are kept, whatever the network says.
+Labels that the input states are kept, whatever the network states.
 """
 
 import numpy as np
@@ -86,7 +86,7 @@ def complete_by_network(
 ) -> GraphCompletion:
     """Returns the graph with labels, handles, missing parts, and a motion or a refusal for each door and drawer.
 
-    `features` says how many points the network takes. Nodes should have points; those without are sampled on their
+    `features` states how many points the network takes. Nodes should have points; those without are sampled on their
     boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen.
 
     Raises:

@@ -1,7 +1,7 @@
 """Exclusive choices from probabilities: a mount for a door, two rails for a drawer, a parent for a handle.
 
 A motion is a property of the part, while the network answers for each pair: answers are averaged over the parts that
-may carry it, each by how likely it does. A score is the network's own, or its decision says that it is a rule's. What
+may carry it, each by how likely it does. A score is the network's own, or its decision states that it is a rule's. What
 moves ends with its edges or with the reason why not.
 
 The direction in which a door or drawer opens: a rule of geometry weighs the network's choice.
@@ -34,13 +34,13 @@ _LEAST = 1e-3  # what the rule did not vote for stays possible
 
 
 def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleScene) -> np.ndarray:
-    """Returns what the network says of a door's border and sign (4, 2), weighed by the face that leads then."""
+    """Returns what the network states about a door's border and sign (4, 2), weighed by the face that leads then."""
     front, thin = _opinion(vote_front(door, scene), power), door.box.thin_axis
     return motion * np.array([[front[opening_face(thin, border, sign)] for sign in SIGNS] for border in BORDERS])
 
 
 def leaned_way(drawer: PartNode, ratios: Scalars, power: float, scene: RuleScene) -> Scalars:
-    """Returns what the network says of the signed axes along which a drawer opens (6), weighed by the way out."""
+    """Returns what the network states about the signed axes along which a drawer opens (6), weighed by the way out."""
     return ratios * _opinion(vote_direction(drawer, scene), power)
 
 
@@ -54,7 +54,7 @@ def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
 
 
 _NO_SUPPORT = "there is no static part that could carry it: label the static parts"
-SOME_CHANCE = 0.05  # of being the parent, where no edge says so
+SOME_CHANCE = 0.05  # of being the parent, where no edge states it
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -90,7 +90,7 @@ def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
     missing it never saw any, and the rule hangs them on what there is. Where it is of two minds, the door opens
-    outwards. `scene` is the same graph with its handles attached: where they sit says which face is the front.
+    outwards. `scene` is the same graph with its handles attached: where they sit states which face is the front.
     """
     if not len(view.supports):
         return Refusal(door.id, Reason.NO_MOTION, _NO_SUPPORT)
@@ -158,7 +158,7 @@ def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
 
 
 def _plain_flap(door: PartNode, said: HingeBorder, scene: RuleScene) -> Ranking[HingeBorder] | None:
-    """Returns the rule's border of a door that is plainly a flap where the network says another one, else None."""
+    """Returns the rule's border of a door that is plainly a flap where the network states another one, else None."""
     flap = plain_flap(door, scene)
     if flap is None or flap == said:
         return None

@@ -42,8 +42,8 @@ _INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
 class NetworkSession:
     """A network that is ready to be asked.
 
-    `features` says how many points it wants to see: the file's word, the default number where an older file is silent.
-    One thread by default, because inputs run in parallel.
+    `features` states how many points it wants to see: the file's word, the default number where an older file is
+    silent. One thread by default, because inputs run in parallel.
 
     Raises:
         WeightsError: if the file is missing, damaged, or made for other inputs, outputs or labels.
@@ -64,7 +64,7 @@ class NetworkSession:
         self.features = self._checked(path)
 
     def __call__(self, features: GraphFeatures) -> Scores:
-        """Returns what the network says about a graph of at least one node."""
+        """Returns what the network states about a graph of at least one node."""
         found: list[Any] = self._session.run(list(SCORE_NAMES), {name: getattr(features, name) for name in _INPUTS})
         values: list[Any] = [array if array.ndim else float(array) for array in map(np.asarray, found)]
         return Scores(*values)

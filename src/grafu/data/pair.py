@@ -57,7 +57,7 @@ class GraphPair:
 
 
 def specimen_pair(specimen: Specimen) -> GraphPair:
-    """Returns the natural pair of made furniture: as it was modelled, and its true graph."""
+    """Returns the natural pair of synthetic furniture: as it was modelled, and its true graph."""
     return GraphPair(specimen.given, specimen.truth, NATURAL, specimen.id)
 
 

@@ -1,8 +1,8 @@
-"""Shards: a thousand models in one file, read one by one and in any order (docs/dataset.md says what it holds).
+"""Shards: a thousand models in one file, read one by one and in any order (docs/dataset.md states what it holds).
 
 All models' arrays stand one after the other in columns, with the places where each model begins. The graphs of a shard
 are a few megabytes and are read when it is opened; the points stay on disk until they are asked for. Everything but the
-points comes back exactly; `shards_points` says how near these do.
+points comes back exactly; `shards_points` states how near these do.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

@@ -40,7 +40,7 @@ _OUTSIDE_METRES = 1e-5
 
 
 def points_to_codes(points: Points, boxes: Boxes, counts: Counts) -> Codes:
-    """Returns the codes of all points; `counts` says how many points belong to each box in turn (low, high; metres).
+    """Returns the codes of all points; `counts` states how many points belong to each box in turn (low, high; metres).
 
     Raises:
         GraphError: if a point lies outside its box.

@@ -221,7 +221,7 @@ def _map_member(path: Path, info: ZipInfo, verify: bool) -> np.ndarray:
         file.seek(start)
         shape, fortran, dtype = _header(file, info)
         if fortran or dtype.hasobject or file.tell() - start + math.prod(shape) * dtype.itemsize != info.file_size:
-            raise ValueError(f"`{info.filename}` holds another array than it says")
+            raise ValueError(f"`{info.filename}` holds another array than it states")
         if not math.prod(shape):
             return np.zeros(shape, dtype)
         return np.memmap(path, dtype, "r", file.tell(), shape)

@@ -31,7 +31,7 @@ _AHEAD = 3  # chunks for each process that are made before they are asked for
 def stream_synth(
     seed: int, start: int = 0, jobs: int = 1, points: int = 512, stop: int | None = None
 ) -> Iterator[Record]:
-    """Yields the made models of `seed` from index `start` on, without end or up to `stop` (not included).
+    """Yields the synthetic models of `seed` from index `start` on, without end or up to `stop` (not included).
 
     With `jobs` above 1 so many processes make them; a script must then start under `if __name__ == "__main__"`, as with
     every use of multiprocessing. They end with the iterator (close it, or let go of it).

@@ -1,4 +1,4 @@
-"""Writes a data set of made models in either format, and goes on where it was stopped. It prints nothing.
+"""Writes a data set of synthetic models in either format, and goes on where it was stopped. It prints nothing.
 
 As shards; the bytes depend on the seed and the points alone, not on the number of processes or of stops:
 
@@ -155,7 +155,7 @@ def write_dataset(
 
     Of shards the models of earlier runs are summed up first; FurFun's files do not say enough for that. Stopping the
     iterator, or the process, loses the shard or the model in work and nothing else. With `overwrite` the models of an
-    earlier run are removed first; with `check` each new model is judged, and its summary says what is wrong with it.
+    earlier run are removed first; with `check` each new model is judged, and its summary states what is wrong with it.
 
     Raises:
         ExportError: if the folder holds another data set or other things, or cannot be written.

@@ -1,8 +1,8 @@
-"""What a data set of made models is asked to be, and the manifest that keeps runs of different ones apart.
+"""What a data set of synthetic models is asked to be, and the manifest that keeps runs of different ones apart.
 
     DIR/dataset.json   seed, points, models in each shard, format, version, and a digest of the first model
 
-The digest tells another generator, whatever its version says. This module writes the manifest and no model.
+The digest tells another generator, whatever its version states. This module writes the manifest and no model.
 """
 
 import json
@@ -116,7 +116,7 @@ def begin_dataset(plan: DatasetPlan, folder: Path, overwrite: bool = False) -> N
 
 
 def made_with(folder: Path) -> int | None:
-    """Returns the seed that a folder of made models states, None where it states none.
+    """Returns the seed that a folder of synthetic models states, None where it states none.
 
     Raises:
         UnreadableAsset: if its manifest is damaged, or of another form.
@@ -158,7 +158,7 @@ def _manifest(plan: DatasetPlan) -> dict[str, Any]:
 
 
 def _digest(arrays: ModelArrays) -> str:
-    """Returns a digest of a model: another generator makes another, whatever its version says."""
+    """Returns a digest of a model: another generator makes another, whatever its version states."""
     words = [arrays.model_id, arrays.family, *arrays.node_ids, *map(str, arrays.defects)]
     columns = (arrays.labels, arrays.given_labels, arrays.boxes, arrays.edges, arrays.given_edges, arrays.points)
     return blake2b("\n".join(words).encode() + b"".join(c.tobytes() for c in columns), digest_size=16).hexdigest()

@@ -31,8 +31,8 @@ class GraspChange:
 class Completeness:
     """What of a model's statics was missing, and what is there now.
 
-    `topped` says of a topless model that the coverage test finds a top afterwards. `compartments` counts the rooms that
-    are large enough for shelves or dividers, `filled` those that take one when it is asked for.
+    `topped` states about a topless model that the coverage test finds a top afterwards. `compartments` counts the rooms
+    that are large enough for shelves or dividers, `filled` those that take one when it is asked for.
     """
 
     topless: bool

@@ -25,7 +25,7 @@ from grafu.synth.specimen import Specimen
 
 ModelKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh", "furfun", "pnm_clean", "hssd_test", "made"]
 KINDS: Final[tuple[ModelKind, ...]] = get_args(ModelKind)
-TEST_SEED = 990_002  # of the made furniture that nothing is trained on or chosen by
+TEST_SEED = 990_002  # of the synthetic furniture that nothing is trained on or chosen by
 _MADE = "synth"
 _TEST_COUNT = 100
 _MOST_MADE = 1_000_000  # more are a slip of the pen: a month of work
@@ -74,7 +74,9 @@ class ModelRef:
         made = (self.seed, self.number)
         if self.kind == "made":
             if self.path is not None or any(value is None or value < 0 for value in made):
-                raise OptionError(f"a made model has a seed and a number from 0, and no path: got {made}, {self.path}")
+                raise OptionError(
+                    f"a synthetic model has a seed and a number from 0, and no path: got {made}, {self.path}"
+                )
         elif self.path is None or made != (None, None):
             raise OptionError(f"a {self.kind} model has a path, and no seed or number: got {self.path}, {made}")
 
@@ -118,7 +120,7 @@ def load_model(ref: ModelRef) -> Asset:
 
 
 def category_of(ref: ModelRef) -> str:
-    """Returns the category of a model: what its data set says (`Table`), a made one's family, or its kind."""
+    """Returns the category of a model: what its data set states (`Table`), a made one's family, or its kind."""
     if ref.kind == "made":
         return _specimen(ref).family
     stated = _stated_category(_path(ref)) if ref.kind == "partnet-mobility" else ""
@@ -177,7 +179,7 @@ def _with_unique_ids(refs: list[ModelRef]) -> tuple[ModelRef, ...]:
 def _made_models(data: str) -> tuple[ModelRef, ...]:
     numbers = data.split(":")[1:] if data != _MADE else [str(TEST_SEED), str(_TEST_COUNT)]
     if len(numbers) != 2 or not all(n.isascii() and n.isdigit() for n in numbers) or int(numbers[1]) < 1:
-        raise OptionError(f"made furniture must be asked for as {_MADE}:SEED:COUNT: got {data!r}")
+        raise OptionError(f"synthetic furniture must be asked for as {_MADE}:SEED:COUNT: got {data!r}")
     seed, size = (int(n) for n in numbers)
     if size > _MOST_MADE:
         raise OptionError(f"at most {_MOST_MADE:,} models are made: got {data!r}")
@@ -186,7 +188,7 @@ def _made_models(data: str) -> tuple[ModelRef, ...]:
 
 @lru_cache(maxsize=2)  # asked for its category right after it was read
 def _specimen(ref: ModelRef) -> Specimen:
-    assert ref.seed is not None  # a made model has both
+    assert ref.seed is not None  # a synthetic model has both
     assert ref.number is not None
     return make_specimen(ref.seed, ref.number)
 

@@ -35,7 +35,7 @@ def graph_features(graph: FunctionalGraph) -> tuple[float, ...]:
     return (float(count), *counts, degree, *(float(side) for side in np.asarray(graph.box.size)))
 
 
-TRAINING_SEED = 0  # of the made furniture that stands for what is trained on; tests of weights use others
+TRAINING_SEED = 0  # of the synthetic furniture that stands for what is trained on; tests of weights use others
 TRAINING_COUNT = 300
 
 

@@ -10,7 +10,7 @@ Score = Callable[[PartOutcome], float | None]
 
 
 def _ratio(name: str, fixed: bool) -> Score:
-    """Returns a score that nothing gives to a part which stands still (collision, touch)."""
+    """Returns a score that nothing gives to a part which is static (collision, touch)."""
 
     def score(outcome: PartOutcome) -> float | None:
         measure = measured(outcome, fixed)
@@ -21,7 +21,7 @@ def _ratio(name: str, fixed: bool) -> Score:
 
 
 def _verdict(name: str, fixed: bool) -> Score:
-    """Returns a score that is 0 for a part which stands still (aligned, connected, opening, works)."""
+    """Returns a score that is 0 for a part which is static (aligned, connected, opening, works)."""
     ratio = _ratio(name, fixed)
     return lambda outcome: ratio(outcome) or 0.0
 

@@ -28,7 +28,7 @@ class PartMeasure:
 
     `found` is how it moves there. `collision` and `touch` are fractions of 50 poses, cut deeper than the tolerance and
     touching at all; `gap` is the widest distance to the static body over the input's largest side; `opening` is the
-    fraction of the reference, at most 1. Of a part that stands still `found`, `collision`, `touch` and `gap` are None:
+    fraction of the reference, at most 1. Of a part that is static `found`, `collision`, `touch` and `gap` are None:
     nothing was made of it, so that it is neither aligned nor connected, but collides with nothing either.
     """
 

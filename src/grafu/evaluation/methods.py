@@ -81,7 +81,7 @@ class Method:
 
     @property
     def can_be_masked(self) -> bool:
-        """Whether it answers from labels, so that hiding them says something."""
+        """Whether it answers from labels, so that hiding them states something."""
         return self.name in ("rule", "network")
 
 

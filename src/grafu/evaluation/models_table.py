@@ -60,7 +60,7 @@ def _faults_of(outcome: PartOutcome) -> list[str]:
     """Returns in words what one part does not do as it should."""
     fixed = outcome.record.fixed
     if fixed is None or fixed.found is None:
-        return [f"stands still ({outcome.record.skipped or 'no reason is known'})"]
+        return [f"is static ({outcome.record.skipped or 'no reason is known'})"]
     told = []
     if not fixed.aligned:
         kind = "reasonable" if outcome.reasonable else "wrong"

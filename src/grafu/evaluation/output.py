@@ -1,4 +1,4 @@
-"""All tables of a run in all forms, and the page that says how each figure was measured.
+"""All tables of a run in all forms, and the page that states how each figure was measured.
 
 Nothing in them depends on the day, the machine's speed or the order of work: the same rows give the same bytes.
 
@@ -58,7 +58,7 @@ def ood_table(results: Results, method: str, top: int = TOP) -> Table:
         rows.append((rank, model, facts.category, *figures))
     far_out = {model: distance.from_nearest for model, distance in distances.items()}
     notes = (
-        f"Features: {', '.join(FEATURE_NAMES)}; each less the mean of {len(results.training)} made models (seed "
+        f"Features: {', '.join(FEATURE_NAMES)}; each less the mean of {len(results.training)} synthetic models (seed "
         f"{TRAINING_SEED}), over their standard deviation; distances are Euclidean. Success is that of `{method}`.",
         f"Rank correlation (Spearman) over {len(far_out)} models of the distance from the nearest with GT-aligned: "
         f"{_correlation(far_out, aligned)}; with what works: {_correlation(far_out, works)}.",
@@ -92,22 +92,23 @@ _BUILDERS: Final[dict[str, Callable[[Results], Table]]] = {
 _HOW = f"""\
 ## How it was measured
 
-- **Parts that count**: annotated hinges and slides that hang on what stands still, whose largest side is at least 8 %
+- **Parts that count**: annotated hinges and slides that hang on what is static, whose largest side is at least 8 %
   of the object's and whose second largest at least 2 %.
-- **GT-aligned**: same type, signed direction within 10 degrees, and for hinges the same border as the annotation says.
-- **Reasonable (twins)**: aligned, or what another annotation of the same geometry in this data says. **(or physical)**:
-  or a motion that fits the part's category, is held along its hinge line or slide, leads outwards, can be pulled by its
-  handle, and opens freely to 70 %.
+- **GT-aligned**: same type, signed direction within 10 degrees, and for hinges the same border as the annotation
+states.
+- **Reasonable (twins)**: aligned, or what another annotation of the same geometry in this data states. **(or
+  physical)**: or a motion that fits the part's category, is held along its hinge line or slide, leads outwards, can be
+  pulled by its handle, and opens freely to 70 %.
 - **Collision**: fraction of 50 poses from rest to full in which the part, without hardware, cuts into static parts by
-  more than 0.0005 of the largest side; **touch**: the same without tolerance. Parts that stand still have neither.
-- **Connected**: never farther from what stands still than 0.005 of the largest side, anchored hardware counted in. A
-  part that stands still is not connected.
+  more than 0.0005 of the largest side; **touch**: the same without tolerance. Parts that are static have neither.
+- **Connected**: never farther from what is static than 0.005 of the largest side, anchored hardware counted in. A
+  part that is static is not connected.
 - **Opening**: achieved over annotated range, this at most 90 degrees or 75 % of the part's depth. **Works**: aligned,
   no collision, connected, opening 70 % or more.
 - **Plain columns** are of the stated axes and ranges on the meshes as they are, **+ fix** of what was built of them.
 - **Intervals**: 95 %, {RESAMPLES:,} resamples of the objects.
 
-Parts of a model on which a method failed count as standing still.
+Parts of a model on which a method failed count as static.
 """
 
 

@@ -43,7 +43,7 @@ def judge_motion(raw: ArticulatedObject, asset: Asset, part: MovingPart) -> Plau
     """Returns whether the motion of a part in a raw object is plausible."""
     joint = joints_by_part(raw).get(part.id)
     if joint is None:
-        return Plausibility(False, "it stands still")
+        return Plausibility(False, "it is static")
     case = _Case(raw, asset, part, joint)
     for objection in (case.wrong_type, case.not_held, case.not_outwards, case.handle_at_the_pin, case.not_free):
         if why := objection():
@@ -111,7 +111,7 @@ class _Case:
         return "its handle sits beside the pin" if levers and max(levers) < LEVER * far else ""
 
     def not_free(self) -> str:
-        """Returns why it does not open: it cuts into the body on the way."""
+        """Returns why it does not open: it cuts into the body along the path."""
         body, obstacle = SweptBody(self._moving, TOLERANT.tolerance * self._asset.extent), MeshCollider(self._static)
         for value in np.linspace(0.0, self._reach, _POSES):
             body.place(self._joint.motion(float(value)))

@@ -53,7 +53,7 @@ class MotionRecord(Record):
 
 
 class MeasureRecord(Record):
-    """What was measured on one part of one result (see `PartMeasure`); null where it stands still."""
+    """What was measured on one part of one result (see `PartMeasure`); null where it is static."""
 
     found: MotionRecord | None
     aligned: bool
@@ -162,7 +162,7 @@ class TwinFacts(Record):
 
 
 class MadeFacts(Record):
-    """The features of one made model of the training distribution."""
+    """The features of one synthetic model of the training distribution."""
 
     kind: Literal["made"] = "made"
     features: tuple[FiniteFloat, ...]
@@ -172,7 +172,7 @@ Facts = Annotated[ModelFacts | MethodFacts | TwinFacts | MadeFacts, Field(discri
 
 
 class Row(Record):
-    """One line: which task (its key says all that determines it), what it found, or why it failed."""
+    """One line: which task (its key states all that determines it), what it found, or why it failed."""
 
     key: str
     task: dict[str, str]

@@ -47,7 +47,7 @@ class PartOutcome:
 
     @property
     def agrees_with_a_twin(self) -> bool:
-        """Whether the stated motion is what another annotation of the same geometry says."""
+        """Whether the stated motion is what another annotation of the same geometry states."""
         raw = self.record.raw
         if raw is None or raw.found is None:
             return False

@@ -33,8 +33,8 @@ class MeasuredFront:
     """A door or a drawer as seen from in front of it: sizes in metres, `depth` across the front.
 
     `handles` are the boxes of its handles. `hinge_side` is where a door hangs, seen from outside (a lid's is `lid`);
-    None for drawers and for doors whose motion is not stated. `along` holds for each handle how far it sits on the way
-    from the pin (0) to the free edge (1); empty without a hinge.
+    None for drawers and for doors whose motion is not stated. `along` holds for each handle how far it sits along the
+    path from the pin (0) to the free edge (1); empty without a hinge.
     """
 
     node: PartNode

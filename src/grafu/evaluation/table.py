@@ -21,7 +21,7 @@ Cell = str | int | float | bool | Figure | None
 class Column:
     """A column: its name in CSV and JSON, its heading, and how its cells are shown (`ratio`: in per cent).
 
-    `better` says which way is better, for the arrow in its heading.
+    `better` states which way is better, for the arrow in its heading.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Column:
 @final
 @dataclass(frozen=True)
 class Table:
-    """A named table; `notes` say what its figures mean.
+    """A named table; `notes` state what its figures mean.
 
     Raises:
         ValueError: if a row is not as long as the columns are many, or two columns have one name.

@@ -1,6 +1,6 @@
 """The work of a run: the tables that are asked for, of which methods, cut into tasks that know nothing of one another.
 
-A task has a key that says what determines it. None is done here.
+A task has a key that states what determines it. None is done here.
 """
 
 import json

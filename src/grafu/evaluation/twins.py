@@ -1,7 +1,7 @@
 """Models of one geometry whose annotations differ: found by numbers that no turn changes, confirmed on the surfaces.
 
-The dataset of the paper holds many models several times. What another annotation of the same geometry says of a part is
-a reasonable motion of it. It compares no predictions.
+The dataset of the paper holds many models several times. What another annotation of the same geometry states about a
+part is a reasonable motion of it. It compares no predictions.
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,7 +29,7 @@ _POINTS = 30  # on each part
 @final
 @dataclass(frozen=True)
 class Twins:
-    """Whether two models are one geometry, and what each one's annotation says of the other's parts (by part id)."""
+    """Whether two models are one geometry, and what each one's annotation states of the other's parts (by part id)."""
 
     same: bool
     for_first: Mapping[str, Motion]

@@ -31,9 +31,9 @@ def not_coupled(articulated: ArticulatedObject, file: str) -> tuple[str, ...]:
 @final
 @dataclass(frozen=True)
 class ExportFiles:
-    """Relative names (with `/`) and the bytes of each file; `formats` says which files a format consists of.
+    """Relative names (with `/`) and the bytes of each file; `formats` states which files a format consists of.
 
-    `notes` say what was written in a simpler way or left out: because there was no time for more, or because the
+    `notes` state what was written in a simpler way or left out: because there was no time for more, or because the
     format cannot say it.
 
     Raises:

@@ -131,7 +131,7 @@ def export(articulated: "ArticulatedObject", formats: Sequence[str]) -> "ExportF
     """Returns the files of all the formats named, together; their `formats` say which are whose.
 
     Where the budget in force holds no more, the first is written all the same, and the others are left out: the files'
-    `notes` say which.
+    `notes` state which.
 
     Raises:
         ExportError: if a format is unknown or cannot say what the object holds.

@@ -90,7 +90,7 @@ class _Reader:
         return Visual(node.text("name"), moved, VisualRole(said["role"]), PartLabel(said["label"]))
 
     def _said(self, index: Any) -> dict[str, Any]:
-        """Returns what a node says of itself, empty where it is none of ours."""
+        """Returns what a node states about itself, empty where it is none of ours."""
         return dict(self._file.item("nodes", index).member("extras").member("grafu").data)
 
 

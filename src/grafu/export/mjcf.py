@@ -1,7 +1,7 @@
 """An articulated object as MuJoCo's own format: one body per link, each part its own geom, joints as the URDF has them.
 
 Body frames stand on their joints' axes, parallel to the object frame at rest; the root's is the object frame (metres,
-radians, Z up, front -Y), and it stands still. What must open first is text that MuJoCo keeps and does not obey.
+radians, Z up, front -Y), and it is static. What must open first is text that MuJoCo keeps and does not obey.
 The XML is written here: MuJoCo's `MjSpec` writes MJCF too, but needs MuJoCo (99 MB), which the base install leaves out.
 """
 

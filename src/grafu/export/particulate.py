@@ -24,7 +24,7 @@ Direction = Literal["X", "-X", "Y", "-Y", "Z", "-Z"]
 @final
 @dataclass(frozen=True, eq=False)
 class ParticulateConfig(ArrayValue):
-    """`T_file_object` is the way from the object frame to the coordinates of `pred.obj`; `up_dir` counts in these.
+    """`T_file_object` maps the object frame to the coordinates of `pred.obj`; `up_dir` counts in these.
 
     Raises:
         ExportError: if the way is a mirror image, or the direction none.

@@ -1,7 +1,7 @@
 """Single files, never half-written: each is written beside its place and put there by one rename.
 
-Until then it has a hidden name, which says which process of which machine makes it: what is left when a process dies is
-found by it, and what others are still making is never touched.
+Until then it has a hidden name, which states which process of which machine makes it: what is left when a process dies
+is found by it, and what others are still making is never touched.
 """
 
 import os

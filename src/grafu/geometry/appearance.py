@@ -54,7 +54,7 @@ class Surface(ArrayValue):
     """A mesh with one material; per-vertex attributes are optional.
 
     `uv` follows OBJ and OpenGL (origin bottom left); `normals` are unit vectors in the object frame; `colors` is
-    8-bit RGBA. `name` is what the input calls it, empty where it says nothing.
+    8-bit RGBA. `name` is what the input calls it, empty where it states nothing.
 
     Raises:
         ValueError: if an attribute's length is not the number of vertices.

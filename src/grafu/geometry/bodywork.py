@@ -27,9 +27,9 @@ _NOTHING = 1e-12  # of a patch's volume: what the boolean takes away by rounding
 class Bodywork(ArrayValue):
     """The distinct faces of some surfaces.
 
-    `faces` index `mesh`, all surfaces as one, and are turned as `patches_of` says; `source` is the face of `mesh` that
-    each looks like, `is_turned` whether that one is drawn the other way round; `owner` is the surface of each face of
-    `mesh`, and `group` numbers the faces of `mesh` that lie on the same three corners as one of `faces` (-1: none).
+    `faces` index `mesh`, all surfaces as one, and are turned as `patches_of` states; `source` is the face of `mesh`
+    that each looks like, `is_turned` whether that one is drawn the other way round; `owner` is the surface of each face
+    of `mesh`, and `group` numbers the faces of `mesh` that lie on the same three corners as one of `faces` (-1: none).
     """
 
     surfaces: tuple[Surface, ...]

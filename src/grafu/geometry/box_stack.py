@@ -1,6 +1,6 @@
 """Many oriented boxes at once: what encloses them, how they move, and how deep pairs of them cut into one another.
 
-A solid is here its box alone; `box_frames` says which meshes are boxes.
+A solid is here its box alone; `box_frames` states which meshes are boxes.
 """
 
 from dataclasses import dataclass

@@ -163,7 +163,7 @@ def _left_of_batch(
 class _Taken:
     """What solids take of faces, by pairs: triangles with the number of their pair, and which pairs take anything.
 
-    `is_whole` says that the solid takes all of the face.
+    `is_whole` states that the solid takes all of the face.
     """
 
     inside: Float[np.ndarray, "m 3 k"]

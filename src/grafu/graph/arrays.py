@@ -31,8 +31,9 @@ DOOR, DRAWER, HANDLE, UNKNOWN = (
 class GraphArrays(ArrayValue):
     """A graph of n nodes. `boxes` are centres and half sizes.
 
-    `edges` are codes, symmetric, null where there is none; `child[i, j]` says that i hangs on j: it is the door, drawer
-    or handle of their edge. `border`, `sign` and `slide` are motion codes, `NONE` for parts without such a motion.
+    `edges` are codes, symmetric, null where there is none; `child[i, j]` states that i hangs on j: it is the door,
+    drawer or handle of their edge. `border`, `sign` and `slide` are motion codes, `NONE` for parts without such a
+    motion.
     """
 
     labels: Int64[np.ndarray, " n"]

@@ -1,4 +1,4 @@
-"""Reads typed values out of decoded JSON and says where one is wrong."""
+"""Reads typed values out of decoded JSON and states where one is wrong."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -58,7 +58,7 @@ def counters(counts: Indices) -> np.ndarray:
 class _Flats:
     """Rectangles and loose corners of all but large meshes, those of mesh k from `starts[k]` to `starts[k + 1]`.
 
-    `is_whole` says of each mesh whether it is rectangles and nothing else.
+    `is_whole` states about each mesh whether it is rectangles and nothing else.
     """
 
     low: np.ndarray

@@ -1,7 +1,7 @@
 """Builds one joint on a scene: clearance where it is needed, then hinges or rails, then the outcome.
 
 A part that keeps cutting into its neighbours at rest, because clearance is not allowed or would cost too much, still
-gets its joint; what it cuts into is left out of account, and the report says in how many poses it collides.
+gets its joint; what it cuts into is left out of account, and the report states in how many poses it collides.
 """
 
 from collections.abc import Callable

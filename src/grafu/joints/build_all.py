@@ -73,7 +73,7 @@ def build_fairly(
 ) -> Outcomes:
     """Returns the outcomes of all requests, each joint keeping out of the expected motions of those built after it.
 
-    Doors for which that left no place are given the way that was asked for, and all is built again; the first try
+    Doors for which that left no place are expected to move as was asked for, and all is built again; the first try
     stands unless the second builds more.
     """
     find = partial(cache.value, "ways", expected_motions, tuple(requests), scene, config)

@@ -1,6 +1,6 @@
 """What hangs on a door or drawer alone moves with it: posts of a bar, a pane, a knob's rose, boards of a drawer.
 
-Whatever a part is called, it falls if nothing holds it. Parts that touch each other, but nothing that stands still
+Whatever a part is called, it falls if nothing holds it. Parts that touch each other, but nothing that is static
 other than small things like themselves, are carried by the moving part that they touch: from its outer side or within
 it, and no larger than it.
 """

@@ -151,7 +151,7 @@ class Builder:
         return levels.with_level(measured, whole, carrier)
 
     def _with_coupling(self, levels: Levels, request: JointRequest) -> Levels:
-        """Returns the levels in which a joint follows its leader; a note says why where it cannot."""
+        """Returns the levels in which a joint follows its leader; a note states why where it cannot."""
         moving, coupling = request.moving, request.coupling
         if coupling is None or moving not in levels.built or moving in levels.couplings:
             return levels
@@ -172,7 +172,7 @@ class Builder:
 
 
 def _riding(levels: Levels, moving: str, carrier: str) -> Levels:
-    """Returns the levels in which a part without a joint moves with its carrier; its refusal says so."""
+    """Returns the levels in which a part without a joint moves with its carrier; its refusal states it."""
     rides = f"; it moves with {carrier}" if carrier else ""
     told = tuple(replace(r, why=f"{r.why}{rides}") if r.part == moving else r for r in levels.skipped)
     parent_of = {
@@ -212,6 +212,6 @@ def _built_joint(built: Built) -> BuiltJoint:
 
 
 def _without_order(built: Sequence[Built], why: str) -> dict[str, Order]:
-    """Returns for each moving body an order without waiting; a note says that neighbours may meet, and why."""
+    """Returns for each moving body an order without waiting; a note states that neighbours may meet, and why."""
     note = f"whether it must wait for its neighbours was not found out: {why}"
     return {b.request.moving: Order((), b.placement.upper, note) for b in built}

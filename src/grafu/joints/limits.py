@@ -40,7 +40,7 @@ def _ratios(poses: int) -> Scalars:
 
 
 def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = 9) -> Box:
-    """Returns a box around a box's whole way from 0 to `reach` (slightly grown for what lies between poses)."""
+    """Returns a box around a box's whole path from 0 to `reach` (slightly grown for what lies between poses)."""
     corners = np.vstack([transform_points(motion(v), box.corners()) for v in np.linspace(0.0, reach, poses)])
     return Box.around(corners).grown(0.02 * float(box.size.max()))
 

@@ -26,8 +26,8 @@ from grafu.refusal import Reason, Refusal
 def plan_from_annotation(asset: Asset, config: PlanConfig = PlanConfig()) -> RealizationPlan:
     """Returns what the input states: a request per annotated joint, a refusal per door or drawer without one.
 
-    Joints that another system predicted count as stated; each request's source says who stated it. A part that rides on
-    a moving part is carried by it; a joint that follows another is coupled to it.
+    Joints that another system predicted count as stated; each request's source states who stated it. A part that rides
+    on a moving part is carried by it; a joint that follows another is coupled to it.
     """
     others = {joint.stated_by for joint in asset.joints} - {"annotation"}
     who = " and ".join(sorted(others)) or "the input"
@@ -93,7 +93,7 @@ def _descendants(parent: str, below: dict[str, list[str]]) -> list[str]:
 
 
 def _from_joint(joint: AnnotatedJoint, asset: Asset, config: PlanConfig) -> JointRequest:
-    """Returns the request of one annotated joint: signed so that positive opens, drawn ajar where its range says so."""
+    """Returns the request of one annotated joint: signed so that positive opens, drawn ajar if its range shows it."""
     lower, upper = (joint.lower, joint.upper) if joint.limited else (0.0, pi / 2)
     lower, upper = min(lower, upper), max(lower, upper)
     opens_up = abs(upper) >= abs(lower)

@@ -1,8 +1,8 @@
 """Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
 
 A joint that runs into a closed neighbour waits for it, if the neighbour, open, does not block it and does not itself
-wait; else its opening ends where the neighbour begins, and the report says so. Beyond a quarter turn a door opens only
-as far as it blocks no open neighbour, unless a wider opening was chosen.
+wait; else its opening ends where the neighbour begins, and the report states it. Beyond a quarter turn a door opens
+only as far as it blocks no open neighbour, unless a wider opening was chosen.
 """
 
 from collections.abc import Mapping, Sequence

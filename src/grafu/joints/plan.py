@@ -84,8 +84,9 @@ class JointRequest:
     `axis` is an initial guess in the object frame; positive motion along or about it opens. `reference` is the
     opening that was asked for (radians or metres; None: as far as the mechanism goes). `mounts` are the static parts
     that should carry it, best first; empty leaves the choice to the geometry. `attached` move with the part (handles).
-    `source` says where the motion came from. `drawn_at` is the joint value at which the input draws the part: where it
-    is not 0 the part is drawn ajar, and is closed before anything is built. `choice` narrows the search for hardware.
+    `source` states where the motion came from. `drawn_at` is the joint value at which the input draws the part: where
+    it is not 0 the part is drawn ajar, and is closed before anything is built. `choice` narrows the search for
+    hardware.
 
     `parent` is the moving part that carries the joint ("": the static body); the part is among what is `attached` to
     it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.

@@ -15,7 +15,7 @@ class Placement:
     """The hardware of one joint in the object frame at rest: rectified axis, opening (radians or metres), both ends.
 
     `in_way` names the moving bodies that the part meets at rest along its path, `struck_by` those that run into the
-    hardware on theirs; `notes` say what was left out for their sake.
+    hardware on theirs; `notes` state what was left out for their sake.
     """
 
     axis: Axis
@@ -36,7 +36,7 @@ class Placement:
 class Clearance:
     """Material taken away so that a part can move: which part, how, and how much.
 
-    `kind` says how: joined (it lay enclosed in the moving part and moves with it now), closed (it was drawn ajar and
+    `kind` states how: joined (it lay enclosed in the moving part and moves with it now), closed (it was drawn ajar and
     was moved by `amount`), trimmed (pressed back by up to `amount`, `share` of a side), eased (shrunk on all sides
     by `amount`, `share` of the volume) or carved (cut out; `amount` is the square root of the surface that went,
     `share` the larger of `surface_share`, of what is seen of the part, and `volume_share`, of the volume of its pieces'

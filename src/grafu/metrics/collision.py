@@ -1,4 +1,4 @@
-"""Fraction of the poses between rest and full opening in which a moving body cuts into what stands still.
+"""Fraction of the poses between rest and full opening in which a moving body cuts into what is static.
 
 The paper counts, of 50 frames from rest to full extent, those in which moving and static parts intersect, and states no
 tolerance. Touching counts there, so a door that lies flush on its carcass collides at rest: `tolerance=0` is that

@@ -79,7 +79,7 @@ class GraphAccuracy:
 
 
 def graph_accuracy(found: GraphCompletion | FunctionalGraph, truth: FunctionalGraph) -> GraphAccuracy:
-    """Returns how well `found` says what `truth` says.
+    """Returns how well `found` states what `truth` states.
 
     Nodes with one id are one part. The others are added parts: each answers for the missing part that it is most like
     in label and place, one to one.

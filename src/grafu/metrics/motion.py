@@ -23,7 +23,7 @@ ANGLE = radians(10)
 class Motion:
     """How one part moves: positive motion along or about `axis` opens. `center` is the middle of its box, metres.
 
-    `both_ways` says of a true motion that the part was drawn half open: either sense agrees with it.
+    `both_ways` states about a true motion that the part was drawn half open: either sense agrees with it.
     """
 
     type: JointType

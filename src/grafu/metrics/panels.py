@@ -1,11 +1,11 @@
 """Whether shelves and dividers that were added stand and leave all motions free, and which rooms could hold some.
 
 They are measured on an articulated object and share nothing with what makes panels and finds compartments; they know
-no scene. trimesh's collision manager looks for panels that float (an end does not rest on anything that stands still),
+no scene. trimesh's collision manager looks for panels that float (an end does not rest on anything that is static),
 pierce (cut into anything at rest) or block (stand in the way of what moves).
 
 Empty rooms are found by rays: points in a grid look along the axes at what is at rest. A room has walls on both sides,
-a floor, a ceiling and a back that stand still; in front of it is nothing, or a door. Its middle, a cube, must be empty,
+a floor, a ceiling and a back that are static; in front of it is nothing, or a door. Its middle, a cube, must be empty,
 and half of all faces but the front be covered. What a drawer takes of a room, with all that lies behind it, is no room.
 """
 

@@ -1,4 +1,4 @@
-"""The padded batch of graphs that the network reads, and what it says about them.
+"""The padded batch of graphs that the network reads, and what it states about them.
 
 Parts' points stand in a table of their own, and nodes point into it: several corrupted copies of one model share its
 rows, so that each part's points are encoded once. Predictions are logits and boxes by slot and by pair of slots.

@@ -24,7 +24,7 @@ class GraFuConfig:
 
     Departures:
         points_frame: the authors encode points where they stand in the object. "part" takes each part about its own
-            middle, in the object's scale: the same leaf is the same shape wherever it hangs, the box says where.
+            middle, in the object's scale: the same leaf is the same shape wherever it hangs, the box states where.
         pair_features: "signed" gives the pair heads the direction from one part to the other, "unsigned" only how far
             apart they are; both are switches of the authors' code, and a pin's side needs the direction. "faces" adds,
             to pair heads and to the edge encoder, how the faces of two boxes lie to each other, down to millimetres.

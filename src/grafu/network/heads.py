@@ -60,7 +60,7 @@ class SlotAnswers(NamedTuple):
 
 @final
 class SlotHeads(nn.Module):
-    """Four perceptrons; a slot of an input node says how far its centre is from the node's.
+    """Four perceptrons; a slot of an input node states how far its centre is from the node's.
 
     Free slots say theirs beside the nodes that they point at, or else in the object's frame.
     """

@@ -68,7 +68,7 @@ def _panel_hints(completion: GraphCompletion) -> tuple[PanelHint, ...]:
 
 
 def without_idle(made: StepResult, realized: Realized) -> tuple[StepResult, Realized]:
-    """Returns both without what was added to a door or drawer that then got no joint: it would stand still."""
+    """Returns both without what was added to a door or drawer that then got no joint: it would be static."""
     moving = {joint.child for joint in realized.object.joints}
     idle = {a.part.id for a in made.additions if a.part.rides_on is not None and a.part.rides_on not in moving}
     if not idle:

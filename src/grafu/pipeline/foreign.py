@@ -45,7 +45,7 @@ def read_foreign(path: Path, source: ForeignSource | None = None, limits: Limits
 
     Args:
         path: what the other system wrote.
-        source: whose it is said to be; None: whatever its content says.
+        source: whose it is said to be; None: whatever its content states.
         limits: what is read at most, of all its files together.
 
     Raises:

@@ -61,7 +61,7 @@ class PipelineConfig:
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
     """By the id of a part, its category where the user corrects the input's."""
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)
-    """By the id of a part, how it moves, or that it does not, whatever the motion source says."""
+    """By the id of a part, how it moves, or that it does not, whatever the motion source states."""
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     """By the id of a moving part, what is decided about its joint."""
     weights: Path | None = None
@@ -76,7 +76,7 @@ class Functionalized:
     `asset` is the input as the motion source saw it, `source` that source (never `auto`). `completion` is the graph as
     it was built, additions included. `body` and `fittings` say what was missing and what was
     added, before joints were built and after; `before_panels` is the scene before shelves and dividers. `timings` are
-    seconds per stage, in order. `notes` say what was done in a simpler way, or left out, because the budget did not
+    seconds per stage, in order. `notes` state what was done in a simpler way, or left out, because the budget did not
     hold it. `stated_joints` counts the joints that the input states, whether they were read or not.
     `decided` are the parts whose motion the user stated or rejected.
     """
@@ -119,7 +119,7 @@ class Functionalized:
 class MotionMethod:
     """How one source of motions completes a graph and plans what to build.
 
-    `answers` says whether it can do so for an asset. Where `reads_annotation` is false the source is given the parts
+    `answers` states whether it can do so for an asset. Where `reads_annotation` is false the source is given the parts
     alone, as they are read without joints, so that what the input states of its motions cannot show.
     """
 
@@ -169,10 +169,10 @@ def functionalize(
     """Returns the asset as an object that works, and how it came about.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
-    that cannot be made to move is no error: the report says which, and why. `on_stage` is called with each stage as it
-    begins. What the `cache` holds of earlier runs is not computed again; the result is the same. What `budget` does not
-    hold is left out: joints are skipped as too complex, `notes` say what was done in a simpler way. Where it holds all,
-    nothing changes.
+    that cannot be made to move is no error: the report states which, and why. `on_stage` is called with each stage as
+    it begins. What the `cache` holds of earlier runs is not computed again; the result is the same. What `budget` does
+    not hold is left out: joints are skipped as too complex, `notes` state what was done in a simpler way. Where it
+    holds all, nothing changes.
 
     Raises:
         OptionError: if what is chosen for a part or joint does not exist.

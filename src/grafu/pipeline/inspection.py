@@ -37,7 +37,7 @@ class InspectedPart(ReportRecord):
     source: SourceRecord = Field(description="where it came from")
     category: PartLabel = Field(description="its category")
     labelled_by: str = Field(description="what the category rests on")
-    rides_on: str | None = Field(description="the moving part that carries it, where the input says so")
+    rides_on: str | None = Field(description="the moving part that carries it, where the input states it")
     low: Vector = Field(description="the low corner of its box, metres")
     high: Vector = Field(description="the high corner of its box, metres")
     faces: int = Field(description="the number of triangles")

@@ -1,6 +1,6 @@
 """How else a part may move, as options of `grafu functionalize`: the other side, sliding, or not. It moves none.
 
-For what stands still the first option makes it move. The last one always says that a part shall stand still.
+For what is static the first option makes it move. The last one always states that a part must be static.
 """
 
 from collections.abc import Iterator

@@ -28,7 +28,7 @@ class ResultFolder:
     """What a folder of results holds.
 
     `source` is the input that was functionalized, None where it is gone; `settings` what was chosen for it. Where a
-    change cannot be built from them `fixed` says why, in one line; it is empty otherwise.
+    change cannot be built from them `fixed` states why, in one line; it is empty otherwise.
     """
 
     object: ArticulatedObject

@@ -69,7 +69,7 @@ class Settings:
         return replace(self, labels={**self.labels, part: label})
 
     def with_motion(self, part: str, choice: MotionChoice | None) -> "Settings":
-        """Returns the settings in which a part moves so, or stands still; None: as the motion source says."""
+        """Returns the settings in which a part moves so, or is static; None: as the motion source states."""
         motions: dict[str, MotionChoice] = {k: v for k, v in self.motions.items() if k != part}
         if choice is not None:
             motions[part] = choice

@@ -3,7 +3,7 @@
 Fractions are of the time that is left when a stage begins, so that a stage that needs little leaves its rest to the
 next.
 
-What is done where a stage is more than the budget holds: less, but whole. Each says in words what was left out.
+What is done where a stage is more than the budget holds: less, but whole. Each states in words what was left out.
 """
 
 from collections.abc import Callable, Mapping
@@ -94,7 +94,7 @@ _INSTEAD: Mapping[str, str] = MappingProxyType(
 class Stages:
     """Runs stages and keeps what they took; not a value.
 
-    `laps` are seconds per stage, in order; `notes` say which stages were given up, why, and what was done instead.
+    `laps` are seconds per stage, in order; `notes` state which stages were given up, why, and what was done instead.
     """
 
     def __init__(self, on_stage: Callable[[str], None], budget: Budget) -> None:

@@ -34,7 +34,7 @@ class JointState:
 
 
 def joint_states(report: Report) -> tuple[JointState, ...]:
-    """Returns the state of every joint that was built, then of the parts that should move and stand still.
+    """Returns the state of every joint that was built, then of the parts that should move and are static.
 
     What the user fixed is no fault. Levels are the colours of the report's verdict.
     """

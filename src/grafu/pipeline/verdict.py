@@ -56,7 +56,7 @@ def not_built(report: Report) -> tuple[SkippedRecord, ...]:
 
 
 def stopped(report: Report) -> tuple[str, ...]:
-    """Returns the parts that stand still because the user fixed them."""
+    """Returns the parts that are static because the user fixed them."""
     return tuple(skip.request for skip in report.skipped if skip.reason is Reason.REJECTED)
 
 
@@ -155,7 +155,7 @@ def _carved(report: Report) -> Iterator[FaultRecord]:
 
 
 def _sentence(report: Report, faults: tuple[FaultRecord, ...]) -> str:
-    """Returns one sentence that says the same as the faults: what works, what to look at, or what does not work."""
+    """Returns one sentence that states the same as the faults: what works, what to look at, or what does not work."""
     fronts = _fronts_words(report)
     if not fronts:
         return f"Nothing moves: {'the user fixed all parts' if stopped(report) else 'no part is a door or a drawer'}."

@@ -18,7 +18,7 @@ from grafu.processes.limits import descendants
 
 
 def scratch_folder() -> "tempfile.TemporaryDirectory[str]":
-    """Returns a new folder in the system's temporary folder, to be used in a `with`; its name says whose it is."""
+    """Returns a new folder in the system's temporary folder, to be used in a `with`; its name states whose it is."""
     return tempfile.TemporaryDirectory(prefix=_prefix(os.getpid()))
 
 

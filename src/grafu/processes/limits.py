@@ -1,6 +1,6 @@
 """How much time and memory one piece of work may take, how much it holds, and how it ended. It enforces nothing.
 
-Memory is what the system counts as really there, not what was asked for. The size of the address space says nothing:
+Memory is what the system counts as really there, not what was asked for. The size of the address space states nothing:
 libraries reserve gigabytes that they never touch.
 """
 

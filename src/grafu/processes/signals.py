@@ -63,6 +63,6 @@ def interrupts_later() -> Iterator[None]:
 
 
 def leave_interrupts_to_parent() -> None:
-    """Has a worker ignore Ctrl-C, and end at once when it is asked to: its parent says what there is to say."""
+    """Has a worker ignore Ctrl-C, and end at once when it is asked to: its parent states what there is to say."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)

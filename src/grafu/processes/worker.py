@@ -39,7 +39,7 @@ def quick_start() -> Start:
 
 
 def next_look(left: float, room: float) -> float:
-    """Returns in how many seconds a worker must be looked at again, if it says nothing.
+    """Returns in how many seconds a worker must be looked at again, if it states nothing.
 
     `left` are the seconds until it is late, `room` the bytes until it is too large: where there is much of both it is
     seldom looked at, as each look takes the watcher's time.
@@ -81,7 +81,7 @@ class Worker(Generic[Item, Result]):
         return next_look(left, inf if self._limits.memory is None else float(self._limits.memory - self._held))
 
     def give(self, item: Item) -> None:
-        """Gives it work; one that died meanwhile says so when it is asked for the outcome."""
+        """Gives it work; one that died meanwhile states it when it is asked for the outcome."""
         self._deadline = None
         try:
             self.connection.send(item)
@@ -139,7 +139,7 @@ def _serve(
     connection: Connection,
     started_by_main_thread: bool,
 ) -> None:
-    """Works until the pipe is closed: an empty tuple says that work begins, one with a result that it is done."""
+    """Works until the pipe is closed: an empty tuple states that work begins, one with a result that it is done."""
     leave_interrupts_to_parent()
     end_with_parent(started_by_main_thread)
     if limits.memory is not None:

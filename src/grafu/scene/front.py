@@ -23,7 +23,7 @@ OPPOSITE: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom",
 
 _TILTED = np.radians(3.0)  # below, a front counts as upright: bowed and bevelled ones are seldom exact
 _PANEL = 0.25  # of its length across: a tilted front is thinner than this seen along its own face
-_SLIDES = 0.12  # of its length along its way: a part that is thinner, square to its way, slides sideways as a panel
+_SLIDES = 0.12  # of its length along its path: a part that is thinner, square to its way, slides sideways as a panel
 _LYING = 0.7  # cosine: a face that looks up or down more than this has no up of its own
 
 

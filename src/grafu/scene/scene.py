@@ -40,8 +40,8 @@ class MovingBody:
 class JointMotion:
     """How a moving body moves: about or along `axis`, from rest to `upper` (radians or metres).
 
-    `is_built` says that its joint stands; else it is what must be expected of a joint that is yet to be built. `after`
-    names the moving bodies that must be wide open before it can move.
+    `is_built` states that its joint stands; else it is what must be expected of a joint that is yet to be built.
+    `after` names the moving bodies that must be wide open before it can move.
     """
 
     axis: Axis
@@ -140,7 +140,7 @@ class Scene:
         return self._merged[key][1]
 
     def path_box(self, moving_id: str, mesh: TriangleMesh, joint_motion: JointMotion, find: Callable[[], Box]) -> Box:
-        """Returns the box around a mesh's whole way, which `find` works out: once, as long as mesh and way stay."""
+        """Returns the box around a mesh's whole path, which `find` works out: once, as long as mesh and way stay."""
         known = self._path_boxes.get(moving_id)
         if known is None or known[0] is not mesh or known[1] is not joint_motion:
             known = self._path_boxes[moving_id] = (mesh, joint_motion, find())
@@ -199,7 +199,7 @@ class Scene:
         return replace(self, moving_bodies=moving_bodies)
 
     def without_parts(self, gone: Collection[str]) -> "Scene":
-        """Returns the scene without some parts that stand still or ride on moving bodies."""
+        """Returns the scene without some parts that are static or ride on moving bodies."""
         if not gone:
             return self
         moving_bodies = {

@@ -1,1 +1,1 @@
-"""Made furniture: parametric models with ground truth, for samples, tests and training. It touches no files."""
+"""Synthetic furniture: parametric models with ground truth, for samples, tests and training. It touches no files."""

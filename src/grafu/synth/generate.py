@@ -71,7 +71,7 @@ def with_noise(name: str, family: str, tidy: Asset, noise: ModellingNoise, point
 
 
 def as_exported(specimen: Specimen, noise: ModellingNoise) -> Specimen:
-    """Returns the specimen with its faces drawn as the modelling noise says.
+    """Returns the specimen with its faces drawn as the modelling noise states.
 
     Nothing moves by more than an edge is broken, so that motions stay true; contacts are looked at again where edges
     were broken: what barely touched may not touch any more.
@@ -107,7 +107,7 @@ def _parted(plain: Specimen, fine: Asset, reach: float) -> frozenset[frozenset[s
 
 
 def _with_names_lost(whole: Asset, truth: FunctionalGraph, given: Asset) -> tuple[Asset, FunctionalGraph]:
-    """Returns both with the names that the given parts have: where a label is lost, no other word says it."""
+    """Returns both with the names that the given parts have: where a label is lost, no other word states it."""
     sources = {part.id: part.source for part in given.parts}
     parts = tuple(replace(p, source=sources.get(p.id, p.source)) for p in whole.parts)
     nodes = tuple(replace(n, source_name=p.source.name) for n, p in zip(truth.nodes, parts, strict=True))

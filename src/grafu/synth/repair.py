@@ -48,7 +48,7 @@ def repaired(blueprint: Blueprint, made: Asset, rng: np.random.Generator) -> tup
 def with_bare_fronts_held(spec: Any, style: HandleStyle, hold: Hold | None = None) -> Any:
     """Returns a spec in which every front, trays left out, that has neither handle nor grip has a handle of this style.
 
-    It is carried as `hold` says, or else as the front's maker does.
+    It is carried as `hold` states, or else as the front's maker does.
     """
     if isinstance(spec, tuple):
         return tuple(with_bare_fronts_held(item, style, hold) for item in spec)

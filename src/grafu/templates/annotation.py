@@ -211,7 +211,7 @@ class HandleNote(BaseModel):
 
 
 def is_handle(path: Path) -> bool:
-    """Whether a `template.json` says that it is of a handle; what cannot be read says nothing."""
+    """Whether a `template.json` states that it is of a handle; what cannot be read states nothing."""
     try:
         found = json.loads(read_note(path))
     except (TemplateError, ValueError, RecursionError):

@@ -15,7 +15,7 @@ rail on one side of the drawer; the other is its mirror image.
 
 Handle frame: the foot plane is y = 0 and the origin its middle; +X runs along the handle's long side, -Y points away
 from the front that the handle lies on, +Z is up. So a drawer that faces -Y takes a handle as it is, and a door turns it
-upright about Y where `turns` says that this makes sense (a cup or a drop handle hangs level everywhere).
+upright about Y where `turns` states that this makes sense (a cup or a drop handle hangs level everywhere).
 """
 
 from collections.abc import Callable

@@ -1,6 +1,6 @@
 """Templates and handles of the user's own: folders of sub-folders with meshes and an annotation. It checks no motion.
 
-`docs/templates.md` says what a sub-folder holds. A user's hinge keeps its barrel round: it is scaled equally in every
+`docs/templates.md` states what a sub-folder holds. A user's hinge keeps its barrel round: it is scaled equally in every
 direction square to the pin, as much as fits the size asked for, and freely along the pin. What was built is in the
 template's `size`. A user's rail is stretched to exactly the size asked for.
 

@@ -32,16 +32,16 @@ FULL = "full"
 FOLDS_TRIED = (0, 5, 10, 17, 20)
 """The supplement's four numbers of copies (Data Augmentation, Validation), and its choice, 17."""
 FOLD_MODELS = 200
-"""Made models of the fold ablation: about as many as the paper trains on, so that the number of copies matters."""
+"""Synthetic models of the fold ablation: about as many as the paper trains on, so that the number of copies matters."""
 
 
 @final
 @dataclass(frozen=True)
 class Experiment:
-    """One row of a table: the name is that of its folder, `says` describes in words what differs."""
+    """One row of a table: the name is that of its folder, `states` describes in words what differs."""
 
     name: str
-    says: str
+    states: str
     config: TrainingConfig
 
 
@@ -109,7 +109,7 @@ CHOICES: Mapping[str, tuple[str, Mapping[str, object]]] = MappingProxyType(
 
 
 def experiments(kind: AblationKind, config: TrainingConfig) -> tuple[Experiment, ...]:
-    """Returns the rows of a table, each trained as the config says but for one thing.
+    """Returns the rows of a table, each trained as the config states but for one thing.
 
     The first row of `losses` is the config's own loss; choices that the config makes already are left out.
     """
@@ -124,13 +124,13 @@ def training_models(kind: AblationKind, source: Source) -> Source:
 def _losses(config: TrainingConfig) -> tuple[Experiment, ...]:
     full = Experiment(FULL, "the loss as it is trained by", config)
     rows = [_with_loss(config, f"no_{name}", _HELD_OUT[name], held_out(config.loss, name)) for name in HOLD_OUTS]
-    for name, (says, changes) in CHOICES.items():
-        rows.append(_with_loss(config, name, says, LossConfig(**(vars(config.loss) | dict(changes)))))
+    for name, (states, changes) in CHOICES.items():
+        rows.append(_with_loss(config, name, states, LossConfig(**(vars(config.loss) | dict(changes)))))
     return (full, *(row for row in rows if row.config != config))
 
 
-def _with_loss(config: TrainingConfig, name: str, says: str, loss: LossConfig) -> Experiment:
-    return Experiment(name, says, replace(config, loss=loss))
+def _with_loss(config: TrainingConfig, name: str, states: str, loss: LossConfig) -> Experiment:
+    return Experiment(name, states, replace(config, loss=loss))
 
 
 def _folds(config: TrainingConfig) -> tuple[Experiment, ...]:
@@ -208,7 +208,7 @@ def markdown_table(results: Sequence[Result]) -> str:
     lines = [_line(["experiment", *_COLUMNS.values()]), _line(["---", *["---:"] * len(_COLUMNS)])]
     for name, row in figures.items():
         lines.append(_line([f"`{name}`", *(_cell(values, best[column]) for column, values in row.items())]))
-    meanings = [f"- `{name}`: {ones[0].experiment.says}" for name, ones in rows.items()]
+    meanings = [f"- `{name}`: {ones[0].experiment.states}" for name, ones in rows.items()]
     return "\n".join([*lines, "", *meanings]) + "\n"
 
 

@@ -139,7 +139,7 @@ def begin_ablation(folder: Path, asked: Mapping[str, str]) -> None:
             raise ExportError(f"`{folder}` holds `{others[0]}` and no ablation: choose another --out")
         write_whole(json.dumps(wanted, indent=1) + "\n", path)
     elif _read(path) != wanted:
-        raise ExportError(f"`{folder}` holds another ablation ({path.name} says which): choose another --out")
+        raise ExportError(f"`{folder}` holds another ablation ({path.name} states which): choose another --out")
 
 
 _LOOK = 0.5  # seconds between two checks whether a stop was requested
@@ -204,7 +204,7 @@ def _at_once(
 
 @final
 class _Worker:
-    """A process that does one run, and what it says."""
+    """A process that does one run, and what it states."""
 
     def __init__(self, run: AblationRun, threads: int) -> None:
         context = multiprocessing.get_context("spawn")  # fork would copy locks that native libraries hold

@@ -20,7 +20,7 @@ _UNMIRRORED = replace(PAPER_CORRUPTION, mirror_probability=0.0)
 @final
 @dataclass(frozen=True)
 class OptimiserConfig:
-    """How weights are moved. The defaults are those of `base`; each says what the paper has.
+    """How weights are moved. The defaults are those of `base`; each states what the paper has.
 
     Raises:
         ValueError: if a number is out of range.
@@ -55,7 +55,7 @@ class OptimiserConfig:
 @final
 @dataclass(frozen=True)
 class ValidationConfig:
-    """What weights are chosen by: made furniture of a seed of its own, the same graphs every time.
+    """What weights are chosen by: synthetic furniture of a seed of its own, the same graphs every time.
 
     Each of `models` is judged as it was found, with its labels hidden, and with something taken away.
 

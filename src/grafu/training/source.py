@@ -1,7 +1,7 @@
 """Where the models to learn from come from: made on the spot, read from shards, or a FurFun release.
 
 A source answers for every number 0, 1, 2, ... with one natural pair; the same number gives the same pair in every
-process. Made furniture never repeats; a folder is gone through again and again, each time in another order.
+process. Synthetic furniture never repeats; a folder is gone through again and again, each time in another order.
 """
 
 from dataclasses import dataclass
@@ -21,9 +21,9 @@ from grafu.errors import AssetError, UnreadableAsset
 from grafu.synth.generate import make_specimen
 
 VALIDATION_SEED = 990_001
-"""The seed of the made furniture that weights are chosen by; no training may use it."""
+"""The seed of the synthetic furniture that weights are chosen by; no training may use it."""
 TEST_SEED = 990_002
-"""The seed of the made furniture that figures are reported on; no training and no choice may use it."""
+"""The seed of the synthetic furniture that figures are reported on; no training and no choice may use it."""
 RESERVED_SEEDS = (VALIDATION_SEED, TEST_SEED)
 """No model made with these is trained on, on the spot or out of a folder."""
 
@@ -47,7 +47,7 @@ class Source(Protocol):
 @final
 @dataclass(frozen=True)
 class SynthSource:
-    """Made furniture of one seed, never the same twice; `points` on each part.
+    """Synthetic furniture of one seed, never the same twice; `points` on each part.
 
     Raises:
         ValueError: if a number is negative.

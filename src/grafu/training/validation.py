@@ -100,7 +100,7 @@ SCORED = ("existence", "category", "contact", "hinge", "rail", "attached", "join
 
 
 def validation_source(source: Source, points: int) -> Source:
-    """Returns what is to judge weights that `source` trains: made furniture, or the release's own validation part.
+    """Returns what is to judge weights that `source` trains: synthetic furniture, or the release's own validation part.
 
     Raises:
         ValueError: if the source is of the very furniture that is to judge.

@@ -1,7 +1,7 @@
 """Several processes that train one network (torchrun), each on its own models: who is who, and what they agree on.
 
 Gradients are averaged here in one message, not by torch's wrapper for modules: that wrapper stumbles over a head that
-no graph of a batch needs (a batch without drawers). The same message says whether a stop was requested: Ctrl-C
+no graph of a batch needs (a batch without drawers). The same message states whether a stop was requested: Ctrl-C
 and termination end a run after the current step, with everything saved.
 """
 
@@ -39,7 +39,7 @@ class StopRequest:
 
 @contextmanager
 def stop_requests() -> Iterator[StopRequest]:
-    """Yields what says whether a signal came; outside of the main thread none can come."""
+    """Yields what states whether a signal came; outside of the main thread none can come."""
     request = StopRequest()
     if threading.current_thread() is not threading.main_thread():
         yield request

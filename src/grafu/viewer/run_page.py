@@ -72,7 +72,7 @@ def _bar(x: float, step: float, height: float, title: str) -> Html:
 _STYLES = ("page.css", "run.css")
 _SCRIPTS = ("run.js",)
 _FILTERED = 8  # rows from which on a table can be searched
-_SPREAD = 8  # and from which on it says something how their numbers are spread
+_SPREAD = 8  # and from which on it states something how their numbers are spread
 
 
 def run_page(run: Run) -> str:

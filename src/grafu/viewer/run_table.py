@@ -217,7 +217,7 @@ def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
             for colour in _ORDER
         ),
         Figure(str(joints), "joint built" if joints == 1 else "joints built"),
-        Figure(str(amiss[FaultKind.STILL]), "doors and drawers that stand still", amiss[FaultKind.STILL] > 0),
+        Figure(str(amiss[FaultKind.STILL]), "doors and drawers that are static", amiss[FaultKind.STILL] > 0),
         Figure(str(amiss[FaultKind.COLLIDES]), "joints that collide", amiss[FaultKind.COLLIDES] > 0),
         Figure(str(sum(len(report.added) for report in reports)), "parts added"),
     ]

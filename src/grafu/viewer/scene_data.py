@@ -152,7 +152,7 @@ class SceneData:
 
 
 def scene_data(articulated: ArticulatedObject, report: Report) -> SceneData:
-    """Returns an object with what its report says of its joints and parts, as data for the page."""
+    """Returns an object with what its report states about its joints and parts, as data for the page."""
     return _Packer(articulated, report).data()
 
 

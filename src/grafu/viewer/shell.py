@@ -74,7 +74,7 @@ def light_of(colour: str) -> Html:
 
 GENERATOR = f"grafu {__version__}"
 HEAD_BYTES = 4096
-"""What of a page says whose it is."""
+"""What of a page states whose it is."""
 
 
 def whole_page(title: str, body: Html, styles: tuple[str, ...], scripts: tuple[str, ...]) -> str:
@@ -105,7 +105,7 @@ def is_page_of_ours(data: bytes) -> bool:
 
 
 def section(title: str, *content: str, lead: str = "", name: str = "") -> Html:
-    """Returns a part of the page under its heading; `lead` says in a line what is in it."""
+    """Returns a part of the page under its heading; `lead` states in a line what is in it."""
     said = tag("p", lead, class_="lead") if lead else Html("")
     return tag("section", tag("h2", title), said, joined(content), id=name or None)
 

@@ -21,7 +21,7 @@ _STRAIGHT = 0.9999  # a direction this near to an axis is called by its name
 
 
 def facts(report: Report) -> str:
-    """Returns what moves, what was missing, and what was added, in a line; whether it is good the verdict says."""
+    """Returns what moves, what was missing, and what was added, in a line; whether it is good the verdict states."""
     return " ".join([_moves(report), _lacked(report), _added(report), *_stopped(report)])
 
 

@@ -1,7 +1,7 @@
 """Boards that close a carcass: a thin back between the walls or planted on their rear edges, a bottom between them.
 
 They are added on request only. Each fits the real meshes: rays say where walls end, and a board that would pierce
-anything, at rest or as a drawer runs, is not added. Boards stand still and look like the body.
+anything, at rest or as a drawer runs, is not added. Boards are static and look like the body.
 
 The room that boards have in a carcass, in a view: walls about a spot, what a board pierces, what holds it.
 """

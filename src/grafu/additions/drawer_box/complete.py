@@ -34,7 +34,7 @@ from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what stands still"
+WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what is static"
 
 
 @final
@@ -130,7 +130,7 @@ def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxCon
 def drawn_with_the_case(
     verdict: BoxVerdict, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig
 ) -> bool:
-    """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that stand still.
+    """Whether the boards that an incomplete box lacks stand within its outline, merged into parts that are static.
 
     They look like parts of the case; boards beside them would be doubles.
     """

@@ -1,6 +1,6 @@
 """Boards of a drawer box that are parts of their own in the input, without a stated motion.
 
-They lie behind a mere front, within its outline, hang together with it and with nothing that stands still, and make at
+They lie behind a mere front, within its outline, hang together with it and with nothing that is static, and make at
 least both sides of a box with a bottom or a back. What is labelled as a panel of the case is none of them. Boards that
 touch the case as well are not told from parts of it.
 """

@@ -23,7 +23,7 @@ from grafu.refusal import Reason, Refusal
 COLUMNS = (32, 16)
 """Columns across a front and upwards."""
 SLICES = 6
-"""Slices along the way into the cabinet."""
+"""Slices along the path into the cabinet."""
 DEPTH_QUANTILES = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)
 """Quantiles of all columns' depths at which a box may end."""
 SHALLOW = "the space behind the front is only {:.3f} m deep"

@@ -54,7 +54,7 @@ class _Wall:
 class BoxVerdict:
     """What a drawer has: the fraction of each board of its box that is there (0..1), and the boards that are missing.
 
-    `inner_front` is the y of the front's inner face, metres in the drawer's frame; `why` says in words what was seen.
+    `inner_front` is the y of the front's inner face, metres in the drawer's frame; `why` states in words what was seen.
     """
 
     drawer: str

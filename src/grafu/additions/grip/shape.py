@@ -84,7 +84,7 @@ LEVEL_TOLERANCE = 1e-9
 class Cut:
     """One grip in the grip frame: its middle (x, y), where an edge notch's y is the edge itself; its size; its levels.
 
-    It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face. `is_hollow` says
+    It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face. `is_hollow` states
     that there is nothing but sheets to cut, so that the cut needs a lining. Levels hold in the middle; elsewhere they
     rise with the front's face, `tilt` along x and y.
     """

@@ -83,7 +83,7 @@ def parse_interior(text: str) -> InteriorRequest:
     """Returns the request that a word of the command line spells.
 
     Raises:
-        ValueError: if it spells none; the message is one line that says what was given and what is expected.
+        ValueError: if it spells none; the message is one line that states what was given and what is expected.
     """
     word = text.strip().lower().replace(" ", "")
     if word in (InteriorKind.NONE, InteriorKind.AUTO, InteriorKind.PREDICTED):

@@ -1,4 +1,4 @@
-"""Whether furniture lacks a top, and the top that it is given: one slab, once, where the coverage test says so.
+"""Whether furniture lacks a top, and the top that it is given: one slab, once, where the coverage test states it.
 
 It asks no network; a predicted top's box may settle a close call. It changes no part and builds no joint.
 """
@@ -53,8 +53,8 @@ class TopVerdict:
     """Whether there is a top, by what fraction, and why; and the top to add where there is none.
 
     `coverage` holds the paper's two occupancy maps (None: nothing has a face). `addition` is None where a top is there,
-    and where none can be put: `why` says which. `close_call` says that the maps alone did not decide. `others` are the
-    tops of what stands higher or lower and lacks one, too.
+    and where none can be put: `why` states which. `close_call` states that the maps alone did not decide. `others` are
+    the tops of what stands higher or lower and lacks one, too.
     """
 
     covered: bool

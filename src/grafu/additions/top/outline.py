@@ -135,7 +135,7 @@ def _slot(seat: float, config: OutlineConfig, metre: float) -> tuple[float, floa
 
 
 def _standing_on(roles: Roles, seat: float, config: OutlineConfig, metre: float) -> list[Part]:
-    """Returns what stands still on a top that was there: it begins as high above a seat as tops are thick."""
+    """Returns what is static on a top that was there: it begins as high above a seat as tops are thick."""
     low, high = _slot(seat, config, metre)
     return [p for p in roles.still if low <= p.box.low[2] <= high]
 

@@ -25,7 +25,7 @@ COVERING_LABELS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever
 class Closed:
     """A moving part with all that rides on it but handles, closed.
 
-    `request` is None where only its label says that it moves.
+    `request` is None where only its label states that it moves.
     """
 
     id: str

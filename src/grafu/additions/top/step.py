@@ -1,7 +1,7 @@
 """The step of tops: none where none belongs, one where it is missing, one in the place of another where it is chosen.
 
 Furniture without tops is known by its names: beds, crates, sinks, appliances. A top is replaced by hand alone, since
-what is there is no fault; only parts that are called top panels and stand still are taken away.
+what is there is no fault; only parts that are called top panels and are static are taken away.
 """
 
 from collections.abc import Collection, Iterable, Sequence

@@ -36,7 +36,7 @@ FaceMask = Bool[np.ndarray, " n"]
 def outer_body(parts: Sequence[Part], roles: Roles, config: TopConfig) -> tuple[Part, ...]:
     """Returns the parts whose look a top takes on.
 
-    They are what stands still but legs, as it is. Where this shows little, legs are what tops are painted with, unless
+    They are what is static but legs, as it is. Where this shows little, legs are what tops are painted with, unless
     they are metal or thin; else they are all parts but handles, and of them those faces alone that one sees.
     """
     body = tuple(p for p in roles.still if p.label not in SPARE_LABELS)

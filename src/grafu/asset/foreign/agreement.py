@@ -43,7 +43,7 @@ LEAST_OVERLAP = 0.3
 class Agreement:
     """What comes of a frame.
 
-    `part_of` says for each of the asset's parts which predicted part covers it (None: not to be said); `residual` is
+    `part_of` states for each of the asset's parts which predicted part covers it (None: not to be said); `residual` is
     how far the faces of the bodies' boxes lie apart, the mean as a fraction of the object's largest side; `overlap` is
     the bodies' mean intersection over union.
     """

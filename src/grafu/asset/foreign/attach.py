@@ -1,6 +1,6 @@
 """`attach_motions`: an asset with the joints that another system predicted, as if the input stated them.
 
-What the input itself says of its motions is not read. Realization cannot tell who stated them.
+What the input itself states about its motions is not read. Realization cannot tell who stated them.
 """
 
 from dataclasses import replace

@@ -26,7 +26,7 @@ _Z_UP_X_BACK = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])  # PartNet-Mobilit
 @final
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameGuess(ArrayValue):
-    """A frame's name in words, the way from it to the object frame, and whether it is known to the last digit.
+    """A frame's name in words, the transform from it to the object frame, and whether it is known to the last digit.
 
     One that is not `known` is only turned so; scale and place are fitted to the whole boxes.
     """
@@ -55,7 +55,7 @@ def fitted_frames(foreign: ForeignMotions, frame: Frame, points: Points, whole: 
     """Returns all 24 ways to turn the predicted parts by quarter turns and lay their whole box over the asset's.
 
     Args:
-        foreign: the prediction, whose format says which turns are likely.
+        foreign: the prediction, whose format states which turns are likely.
         frame: how the asset's input became the object frame.
         points: the prediction's points.
         whole: the asset's box.

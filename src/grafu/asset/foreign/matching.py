@@ -70,7 +70,7 @@ _DOUBT = 0.05  # doubts that differ by less are none
 class Match:
     """Where a prediction lies.
 
-    `part_of` says for each of the asset's parts, in order, which predicted part covers it (None: none).
+    `part_of` states for each of the asset's parts, in order, which predicted part covers it (None: none).
     """
 
     frame: FrameGuess
@@ -81,7 +81,7 @@ class Match:
 
     @property
     def T_object_joints(self) -> Mat4:
-        """The way from the joints' coordinates to the object frame."""
+        """The transform from the joints' coordinates to the object frame."""
         return np.asarray(self.frame.T_object_foreign) @ np.asarray(self.joint_frame.T_parts_joints)
 
     def placed(self, joint: ForeignJoint, box: Box) -> ForeignJoint:

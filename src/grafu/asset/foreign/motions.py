@@ -34,7 +34,7 @@ class ForeignPart:
     """A predicted part: its mesh, or the mesh of its box where the format gives only that (`is_box`).
 
     `parent` names the part that carries this one; a part without a joint is fixed to it. `label` is `unknown` where
-    the format has none. `slot` is the part's place in the input's order, where the format says it.
+    the format has none. `slot` is the part's place in the input's order, where the format states it.
     """
 
     name: str
@@ -48,7 +48,7 @@ class ForeignPart:
 @final
 @dataclass(frozen=True)
 class ForeignJoint:
-    """How a part moves against its parent, signs and limits as the file says them (radians, or the file's lengths).
+    """How a part moves against its parent, signs and limits as the file states them (radians, or the file's lengths).
 
     `limited=False`: the file states no limits. With a `code` the axis is only as good as the predicted box, and is
     taken anew on the box of the part that it is matched with.
@@ -66,7 +66,7 @@ class ForeignJoint:
 @final
 @dataclass(frozen=True, eq=False, slots=True)
 class JointFrame(ArrayValue):
-    """A frame in which the joints may be stated: its name in words, and the way from it to the parts' coordinates."""
+    """A frame in which the joints may be stated: its name in words, and the transform to the parts' coordinates."""
 
     name: str
     T_parts_joints: Mat4
@@ -84,7 +84,7 @@ class ForeignMotions:
     """A prediction as its file states it.
 
     `joint_frames` are the frames in which the joints may be stated; where there are several, geometry decides which.
-    `notes` say in words what was left out.
+    `notes` state in words what was left out.
 
     Raises:
         AssetError: if there is no part, names repeat, or a parent or joint names a part that is not there.

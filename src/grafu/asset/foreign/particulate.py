@@ -56,7 +56,7 @@ Arrays = dict[str, np.ndarray]
 
 
 def normalisation(box: Box, up_dir: str) -> Mat4:
-    """Returns the way from a mesh's coordinates to the normalised frame, given the mesh's box.
+    """Returns the transform from a mesh's coordinates to the normalised frame, given the mesh's box.
 
     Raises:
         KeyError: if `up_dir` is not one of `UP_ROTATIONS`.
@@ -147,7 +147,7 @@ def _check_numbers(arrays: Arrays, path: Path) -> None:
 
 
 def _stated_bytes(data: bytes) -> int:
-    """Returns how many bytes the arrays in an archive come to: each says so, and more than it says is not unpacked."""
+    """Returns the bytes of the arrays in an archive: each states its size, and more than that is not unpacked."""
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         return sum(info.file_size for info in archive.infolist())
 

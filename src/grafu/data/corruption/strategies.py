@@ -71,7 +71,7 @@ def isolated_door(target: FunctionalGraph, rng: np.random.Generator, config: Cor
     return as_contacts(without_edges(target, [e for e in target.edges if door in ends_of(e)]))
 
 
-_HANDFUL = 4  # the paper says a handful; it has four free slots to restore them
+_HANDFUL = 4  # the paper states a handful; it has four free slots to restore them
 
 
 def _without_labels(
@@ -175,8 +175,8 @@ Corruption = Callable[[FunctionalGraph, np.random.Generator, CorruptionConfig], 
 class Strategy(NamedTuple):
     """One row. `weight` is the paper's, 0 for what only the authors' code has.
 
-    `is_boosted` says whether `edge_preserving_boost` counts: the authors' code boosts all that keep the kinds of edges,
-    one of the masking strategies among them.
+    `is_boosted` states whether `edge_preserving_boost` counts: the authors' code boosts all that keep the kinds of
+    edges, one of the masking strategies among them.
     """
 
     family: Family

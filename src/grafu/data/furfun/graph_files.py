@@ -1,4 +1,4 @@
-"""One graph file of a release to one graph with points, and what its JSON says beyond it."""
+"""One graph file of a release to one graph with points, and what its JSON states beyond it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from grafu.graph.json_values import Json
 from grafu.graph.official_json import graph_from_official
 from grafu.graph.serialize import load_json
 
-# A key that functional graphs of made furniture have; the authors' loader ignores keys that it does not know.
+# A key that functional graphs of synthetic furniture have; the authors' loader ignores keys that it does not know.
 MADE_BY = ("made_by", "grafu")
 _LIMITS = Limits()
 
@@ -83,8 +83,8 @@ def with_points(graph: FunctionalGraph, points: PointFolder) -> FunctionalGraph:
 def why_skipped(data: Json, whole: bool) -> str:
     """Returns why the authors' loader leaves a graph out, in words, or nothing where it does not.
 
-    `whole` says that all parts must hang together over edges of any kind. In made furniture they need not: parts float
-    in it as they do in real models, by intent, where in an annotated graph an edge was forgotten.
+    `whole` states that all parts must hang together over edges of any kind. In synthetic furniture they need not: parts
+    float in it as they do in real models, by intent, where in an annotated graph an edge was forgotten.
     """
     listed, edges = data.get("nodes"), data.get("edges", [])
     if listed is None or listed in ({}, []):

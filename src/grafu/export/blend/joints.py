@@ -72,7 +72,7 @@ def turn_to_axis(empty: Empty, direction: Vec3) -> None:
 def drive_link(link: Empty, empty: Empty, joint: Joint) -> None:
     """Lets a joint's empty drive its link's: turned about, or shifted along, the axis by what `open` stands for.
 
-    The link's own axes stay parallel to the object frame at rest, whatever way the joint's empty points.
+    The link's own axes stay parallel to the object frame at rest, whatever direction the joint's empty has.
     """
     direction = [float(v) for v in joint.axis.direction]
     if joint.kind.turns:

@@ -11,7 +11,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, VisualRole
 from grafu.articulation.sweep import opening_stages
 
 KIND = "grafu"
-"""The custom property that says what something of ours is: a `Kind`, or a visual's role."""
+"""The custom property that states what something of ours is: a `Kind`, or a visual's role."""
 ID = "id"
 LABEL = "label"
 OPEN = "open"

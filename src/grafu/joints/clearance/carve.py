@@ -1,8 +1,8 @@
-"""Cuts the moving part's way out of static parts, where little of them goes.
+"""Cuts the moving part's path out of static parts, where little of them goes.
 
 How much of a part goes when solids are cut out of it: of what is seen of it, and of its volume.
 
-The way that must become free, and what stands in it.
+The path that must become free, and what stands in it.
 """
 
 from collections.abc import Iterator, Sequence
@@ -157,7 +157,7 @@ def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, limit: f
 def _swept_solids(
     scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
 ) -> Iterator[ConvexSolid]:
-    """Yields convex solids that cover the way of whatever of the moving body cuts into a blocker, with some play."""
+    """Yields convex solids that cover the path of whatever of the moving body cuts into a blocker, with some play."""
     poses = [path.motion(v) for v in np.linspace(0.0, path.reach, _steps(path) + 1)]
     boxes = [scene.parts[name].box for name in ids]
     for points in _cutting_pieces(scene, path, ids, play, config):
@@ -195,7 +195,7 @@ def _cutting_pieces(
 
 
 def _cutting_faces(body: SweptBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
-    """Returns the numbers of the moving faces that cut into an obstacle somewhere on the way."""
+    """Returns the numbers of the moving faces that cut into an obstacle somewhere along the path."""
     found: set[int] = set()
     for value in opening_values(path.reach, poses):
         body.place(path.motion(value))

@@ -98,7 +98,7 @@ def _presses(
 
 
 def _swept(box: Box, path: Path) -> Box:
-    """Returns the box of a sliding piece's whole way (of a turning piece: its rest box)."""
+    """Returns the box of a sliding piece's whole path (of a turning piece: its rest box)."""
     if path.is_turn:
         return box
     shift = (path.motion(path.reach)[:3, 3]) @ path.axes

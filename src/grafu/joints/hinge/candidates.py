@@ -36,8 +36,9 @@ class PinCandidate:
 
     `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that
     of the barrel, for which the pin's place is right; `preference`
-    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `inset` says that the static leaf
-    is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the door.
+    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `inset` states that the static
+    leaf is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the
+    door.
     """
 
     mechanism: MechanismClass

@@ -1,4 +1,4 @@
-"""One door's search: which pins there are, and what a sweep of the bare door says of each. It installs nothing."""
+"""One door's search: which pins there are, and what a sweep of the bare door states about each. It installs nothing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -41,10 +41,10 @@ from grafu.scene.scene import Obstacle, Scene
 @final
 @dataclass(frozen=True)
 class JudgedPin:
-    """A pin with what the sweep of the bare door says of it; lower ranks are better.
+    """A pin with what the sweep of the bare door states about it; lower ranks are better.
 
     `free` is the opening before the door runs into the static body; `neighbours` are the moving bodies that it meets at
-    rest; `is_clear` says that the door opens about it as wanted, or nearly so, past everything.
+    rest; `is_clear` states that the door opens about it as wanted, or nearly so, past everything.
     """
 
     pin: PinCandidate

@@ -81,7 +81,7 @@ def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> Dr
 class BodyRegion:
     """The container: the x of its flanks, its extent [front, back] along y, and the flanks' extent over z.
 
-    `is_bare` says that there is no container: rails hang on the back of the front, and must begin there.
+    `is_bare` states that there is no container: rails hang on the back of the front, and must begin there.
     """
 
     left: float

@@ -224,7 +224,7 @@ def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4
 
 
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
-    """Whether rails or blocks cut into the other side's parts on the way, or into other moving bodies at rest."""
+    """Whether rails or blocks cut into the other side's parts along the path, or into other moving bodies at rest."""
     depth = search.config.depth * search.scene.extent
     motion = search.motion
     fixed = merge_meshes([v.mesh for v in static])

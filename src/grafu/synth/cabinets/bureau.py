@@ -32,7 +32,7 @@ FLAP = Door("bottom", handle="knob-round")
 class Bureau:
     """A cabinet and its writing room, metres: `rise` high, its top `shelf` deep, on a cabinet with a top between sides.
 
-    The flap leans back between the room's sides and turns about its lower outer edge until it lies level; `flap` says
+    The flap leans back between the room's sides and turns about its lower outer edge until it lies level; `flap` states
     what it looks like. `holes` pigeonholes with a shelf over them stand at the back.
 
     Raises:

@@ -1,6 +1,6 @@
 """How a case is put together, as values: its base, top, sides, back, bottom and face frame. It builds no geometry.
 
-Lengths are metres. A size of 0 means "as thick as the case's panels" where it says so.
+Lengths are metres. A size of 0 means "as thick as the case's panels" where it states it.
 """
 
 from dataclasses import dataclass

@@ -2,7 +2,7 @@
 
 These are values only: `handles` builds handles and `leaves` cuts grips. What real models show: bars of 105 to 480 mm,
 knobs of 13 to 32 mm, protrusions of 16 to 38 mm; upright bars near the free edge at any height, and on kitchen doors a
-lying bar in the middle of the top edge, which says nothing about the hinge.
+lying bar in the middle of the top edge, which states nothing about the hinge.
 
 What lies inside an opening besides fronts: how shelves lie, dividers, rods, baskets, runners.
 """
@@ -19,13 +19,13 @@ BasketKind = Literal["none", "wire", "rack"]
 class Inside:
     """The inner fittings of one opening; lengths in metres.
 
-    `shelf` says how its shelves are made: over the full depth, over 60 % of it, or of glass. `dividers` upright boards
-    part the room below the lowest shelf. A hanging `rod` runs below the top. A `basket` of wire or a plate `rack`
-    stands on the floor. With `runners`, slides that belong to no drawer hang on both walls, as in many real models;
-    `rails` are level bars along the back wall. Shelves and dividers stand `setback` behind the fronts, 0 where they
-    touch them (41003). A lip of height `lip` stands before each shelf's front edge; `cleats` carry the shelves' ends
-    (47315), and `blocks` stiffen the upper corners. With `band`, a strip covers each shelf's front edge (41003), as the
-    strips before the case's panels do; behind inset fronts and on glass there is none.
+    `shelf` states how its shelves are made: over the full depth, over 60 % of it, or of glass. `dividers` upright
+    boards part the room below the lowest shelf. A hanging `rod` runs below the top. A `basket` of wire or a plate
+    `rack` stands on the floor. With `runners`, slides that belong to no drawer hang on both walls, as in many real
+    models; `rails` are level bars along the back wall. Shelves and dividers stand `setback` behind the fronts, 0 where
+    they touch them (41003). A lip of height `lip` stands before each shelf's front edge; `cleats` carry the shelves'
+    ends (47315), and `blocks` stiffen the upper corners. With `band`, a strip covers each shelf's front edge (41003),
+    as the strips before the case's panels do; behind inset fronts and on glass there is none.
 
     Raises:
         ValueError: if a count or a length is negative.
@@ -87,9 +87,9 @@ class Hold:
     Attributes:
         place: the edge that the handle lies at. "usual": a door's free edge, a drawer's middle. "middle line" is the
             upright one through the centre. Drawers have no free edge and no hinge edge.
-        along: the handle's middle, as a fraction of the way along that edge, upwards or to the right; whatever it says,
-            the handle stays clear of the leaf's border, so that 0 and 1 mean the corners. None: 0.65 on a door's
-            upright free edge, else 0.5.
+        along: the handle's middle, as a fraction of the way along that edge, upwards or to the right; whatever it
+            states, the handle stays clear of the leaf's border, so that 0 and 1 mean the corners. None: 0.65 on a
+            door's upright free edge, else 0.5.
         orientation: "usual" is along the free edge of a door, and lying at a top or bottom edge and on drawers.
         length: metres along the handle, at most its template's longest; None: its own. A knob that cannot be so long
             has its own size, so one length can serve bars and knobs; real knobs are 13 to 40 mm wide.

@@ -27,7 +27,7 @@ class Setting:
 
     Openings lie `panel` apart; walls behind them stand back by `wall` (half of it on either side of a partition), and
     the case's own sides by `case_wall` (none: by `wall`). An overlay front stands `seat` before the plane and covers at
-    most `lap` of a panel, and of the case what `borders` says (none: as of a panel); an inset front is flush. Overlay
+    most `lap` of a panel, and of the case what `borders` states (none: as of a panel); an inset front is flush. Overlay
     fronts end `reveal` within the case's outer faces (none: by the gap): 0 where they are flush, below 0 where they
     are wider than the case; above and below they never reach beyond it. A frame behind the plane is `frame` deep.
     """

@@ -21,7 +21,7 @@ from grafu.vocabulary import PartLabel
 @final
 @dataclass(frozen=True)
 class Addition:
-    """A part to be: `fits` says that it must keep out of still parts, too; `rides_on` names what carries it."""
+    """A part to be: `fits` states that it must keep out of still parts, too; `rides_on` names what carries it."""
 
     label: PartLabel
     stem: str

@@ -54,7 +54,7 @@ def with_loose_objects(asset: Asset, kind: str, rng: np.random.Generator) -> Ass
 
 
 def _swept_boxes(asset: Asset) -> Boxes:
-    """Returns boxes around the ways of all boards of doors and drawers, and of what rides on them."""
+    """Returns boxes around the paths of all boards of doors and drawers, and of what rides on them."""
     found = [np.zeros((0, 2, 3))]
     for joint in asset.joints:
         moving = [p for p in asset.parts if joint.part in (p.id, p.rides_on)]

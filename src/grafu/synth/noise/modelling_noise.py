@@ -52,7 +52,7 @@ class Joined:
 
     ids: tuple[str, ...]
     label: PartLabel | None  # none: the ids are attached parts, and join what carries them
-    named: bool = True  # otherwise the input says no label for it
+    named: bool = True  # otherwise the input states no label for it
 
 
 @final

@@ -1,4 +1,4 @@
-"""Pieces of made furniture and the asset that they make up: boards, names, attachments, joints, the centred frame."""
+"""Pieces of synthetic furniture and their asset: boards, names, attachments, joints, the centred frame."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence

@@ -1,4 +1,4 @@
-"""What made furniture looks like: wood, paint, metal, glass, and texture coordinates by box projection.
+"""What synthetic furniture looks like: wood, paint, metal, glass, and texture coordinates by box projection.
 
 The wood texture is drawn by this code, so that it can be shipped and shown anywhere.
 """

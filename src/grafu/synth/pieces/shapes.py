@@ -1,4 +1,4 @@
-"""The solids that made furniture consists of: boards, chamfered and rounded boards, turned rods. No materials here.
+"""The solids of synthetic furniture: boards, chamfered and rounded boards, turned rods. No materials here.
 
 Every mesh is closed with its faces outward. Boards that stand in a front face -Y. Lengths are metres.
 """

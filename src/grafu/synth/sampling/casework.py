@@ -1,6 +1,6 @@
 """Draws the still part of a cabinet for a style: its case with base, top, sides, back, bottom and face frame.
 
-A family says what it allows (`Build`); the style's tradition weighs what is allowed.
+A family states what it allows (`Build`); the style's tradition weighs what is allowed.
 """
 
 from collections.abc import Mapping

@@ -23,7 +23,7 @@ NO_SHELVES, BARE_INSIDE = (
     0.07,
     0.26,
 )  # openings left empty: modellers often stop at what is seen, of bare pieces more so
-MORE_SHELVES = {0: 0.44, 1: 0.46, -1: 0.1}  # than the pitch says
+MORE_SHELVES = {0: 0.44, 1: 0.46, -1: 0.1}  # than the pitch states
 INSIDES = {
     Inside(): 0.83,
     Inside(shelf="short"): 0.07,

@@ -53,7 +53,7 @@ def draw_finish(rng: np.random.Generator) -> Finish:
 Carry = Literal["reach", "middle", "corner", "top line", "middle line"]
 
 # Where a piece carries the handles of its side-hung doors. "reach": as near to the hand as the free edge allows (high
-# on base units, low on wall units); "top line" is the lying bar in the middle of the upper or lower edge, which says
+# on base units, low on wall units); "top line" is the lying bar in the middle of the upper or lower edge, which states
 # nothing about the hinge (3 of the 17 development models); "middle line" is an ornamental ring or knob in the middle.
 CARRIES: Mapping[Carry, float] = {"reach": 0.4, "middle": 0.26, "corner": 0.1, "top line": 0.21, "middle line": 0.03}
 KNOB_CARRIES: Mapping[Carry, float] = {
@@ -112,7 +112,7 @@ class Style:
     """The choices of one maker for one piece, metres and radians.
 
     `lap` is the most that overlay fronts cover of a panel, `reveal` what they leave of the case's outer edges (None:
-    the gap; below 0: they jut out), `frame` the width of a face frame (0: frameless). `carry` says where side-hung
+    the gap; below 0: they jut out), `frame` the width of a face frame (0: frameless). `carry` states where side-hung
     doors carry their handles, `length` how long handles are (None: each handle's own), `full` that they run along the
     whole front; `knob` is a knob's width, `protrusion` how far bars stand off (None: their own). `pitch` is the height
     of a shelf's room, `setback` how far behind the fronts shelves end; `banded` boards have the bands on

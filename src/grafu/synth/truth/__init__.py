@@ -1,1 +1,1 @@
-"""The truth about made furniture: its functional graph, its articulated object, and checks that both hold."""
+"""The truth about synthetic furniture: its functional graph, its articulated object, and checks that both hold."""

@@ -1,4 +1,4 @@
-"""Whether made furniture is what it claims: it moves freely, its labels agree with its joints, its graph with both.
+"""Whether synthetic furniture is sound: it moves freely, its labels agree with its joints, its graph with both.
 
 `faults_of` judges a tidy model, where every fault is one. `faults_in` judges a specimen: what its declared defects
 explain is no fault. It mends nothing and draws nothing.
@@ -25,7 +25,7 @@ from grafu.synth.truth.clashes import articulated_of, clashes_of
 from grafu.vocabulary import PartLabel
 
 FaultKind = Literal[
-    "collision",  # a moving part cuts into another on its way, those it waits for being open
+    "collision",  # a moving part cuts into another along its path, those it waits for being open
     "label",  # a door or drawer without a joint, a joint on something else, or of the wrong type; a label not declared
     "attached part",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
     "limit",  # an opening that no such furniture has, or that does not lead out
@@ -45,7 +45,7 @@ LEAST_DOOR, LEAST_DRAWER = 0.08, 0.03  # metres across a door, and in height: a 
 ATTACHED_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.attached`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
 _BESIDE = 0.05  # metres from a drawer within which parts are its case, and the fraction of its height that they share
-_OUT = 0.3  # fraction of its way that a drawer must come out of its case: those behind doors begin within it
+_OUT = 0.3  # fraction of its path that a drawer must come out of its case: those behind doors begin within it
 _SAME = 1e-4  # metres within which two boxes are one
 
 BoxRows = Float[np.ndarray, "n 2 3"]
@@ -71,7 +71,7 @@ class Fault:
 def faults_of(
     whole: Asset, articulated: ArticulatedObject | None = None, truth: FunctionalGraph | None = None
 ) -> tuple[Fault, ...]:
-    """Returns all that is wrong with a made model; nothing, where it is sound.
+    """Returns all that is wrong with a synthetic model; nothing, where it is sound.
 
     Args:
         whole: the model with true labels, joints (lower 0) and attached parts.

@@ -1,10 +1,10 @@
-"""What the moving parts of made furniture run into on their way, quickly: boxes by arithmetic, all else by meshes.
+"""What the moving parts of synthetic furniture run into along their path: boxes by arithmetic, all else by meshes.
 
-Most of made furniture is boards, so that nearly every question is one of two boxes, and all poses and pairs are asked
-at once. A solid box has an inside: what lies wholly within another counts; meshes have none, as in
+Most of synthetic furniture is boards, so that nearly every question is one of two boxes, and all poses and pairs are
+asked at once. A solid box has an inside: what lies wholly within another counts; meshes have none, as in
 `grafu.geometry.intersection`.
 
-Made furniture as an articulated object: its true joints as links, joints and limits, and which opens before which.
+Synthetic furniture as an articulated object: its true joints as links, joints and limits, and which opens before which.
 
 It moves nothing and draws nothing: the joints are those that the asset states.
 """
@@ -168,7 +168,7 @@ class _Pieces:
 
 @final
 class _Path:
-    """The boxes of a moving part along its way: each box's piece (`rows`) and pose (-1: the whole way); not a value."""
+    """The boxes of a moving part along its path: each box's piece (`rows`) and pose (-1: all of it); not a value."""
 
     def __init__(self, joint: AnnotatedJoint, boxes: BoxStack) -> None:
         slides = np.zeros(len(boxes), dtype=bool)
@@ -186,12 +186,12 @@ class _Path:
 
     @cached_property
     def low(self) -> np.ndarray:
-        """The lowest corner of all boxes along the way."""
+        """The lowest corner of all boxes along the path."""
         return (self.boxes.centers - self.boxes.reaches).min(axis=0)
 
     @cached_property
     def high(self) -> np.ndarray:
-        """The highest corner of all boxes along the way."""
+        """The highest corner of all boxes along the path."""
         return (self.boxes.centers + self.boxes.reaches).max(axis=0)
 
 

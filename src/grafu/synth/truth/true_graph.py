@@ -1,4 +1,4 @@
-"""The true functional graph of made furniture: what touches, and what carries each door, drawer and handle.
+"""The true functional graph of synthetic furniture: what touches, and what carries each door, drawer and handle.
 
 Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door is the
 still part nearest to its pin, those of a drawer the nearest ones beside its flanks, by distances from real meshes; a

@@ -1,6 +1,6 @@
 // Buttons that copy their line, for the command that made the page. They need no 3D view.
 
-const SAID = 1500; // milliseconds for which a button says that it copied
+const SAID = 1500; // milliseconds for which a button states that it copied
 
 document.querySelectorAll("[data-copy]").forEach((button) =>
   button.addEventListener("click", async () => {

@@ -109,7 +109,7 @@ class ModelView {
     this.chooseItem(found === this.view.chosen ? -1 : found);
   }
 
-  // Marks an item and says what it is and which joint moves it; its axes are drawn.
+  // Marks an item and states what it is and which joint moves it; its axes are drawn.
   chooseItem(index, seen = false) {
     this.view.chosen = index;
     const item = this.scene.items[index], joint = item ? this.scene.links[item.link].joint : null;
@@ -122,7 +122,7 @@ class ModelView {
 
   described(item, joint) {
     const kind = item.role === "hardware" ? "hardware" : item.role === "added" ? `${item.label}, added` : item.label;
-    const moves = joint === null ? "stands still" : `moves with ${this.scene.joints[joint].part}`;
+    const moves = joint === null ? "is static" : `moves with ${this.scene.joints[joint].part}`;
     const was = item.source ? ` (“${item.source}” in the input)` : "";
     return `${item.name}${was}: ${kind}, ${moves}`;
   }

@@ -106,7 +106,7 @@ class Renderer {
     return frame;
   }
 
-  // Draws one picture. `view` says what is shown: see `View.shows`.
+  // Draws one picture. `view` states what is shown: see `View.shows`.
   draw(camera, poses, view) {
     const gl = this.gl, matrix = camera.matrix(), lamp = lampMatrix(camera, this.scene.reach);
     const glassy = (piece) => view.alpha(piece) < 0.99;
