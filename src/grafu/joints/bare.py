@@ -5,6 +5,7 @@ import numpy as np
 from grafu.geometry.axis import Axis
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
+from grafu.joints.plan import JointRequest
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.report import Placement
 from grafu.scene.scene import Scene
@@ -42,7 +43,7 @@ def bare_drawer(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
     It is None too where hardware was chosen, where the drawer would come away from all static parts, and where only a
-    guess says that the part is a drawer: the case that drawers are in slides as freely.
+    guess states that the part is a drawer: the case that drawers are in slides as freely.
     """
     if not search.scene.parts[search.request.moving].label.is_movable:
         return None
@@ -55,14 +56,14 @@ def bare_drawer(search: DrawerSearch) -> Placement | None:
 def _bare(search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...]) -> Placement | None:
     request, scene = search.request, search.scene
     near = search.config.bare_gap * scene.extent
-    if str(request.choice) or not _stays_near(scene, request.moving, motion, upper, near):
+    if str(request.choice) or not _stays_near(scene, request, motion, upper, near):
         return None
     return Placement(
         axis=axis,
         upper=upper,
         mechanism=MechanismClass.NONE,
         template=NO_HARDWARE,
-        mount=_nearest(scene, request.moving, near, request.mounts),
+        mount=_nearest(scene, request, near),
         count=0,
         dynamic=(),
         static=(),
@@ -71,14 +72,15 @@ def _bare(search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_wa
     )
 
 
-def _stays_near(scene: Scene, moving: str, motion: PoseFunction, upper: float, near: float) -> bool:
-    """Whether a moving body stays within a distance of some static part, in metres, from closed to open."""
-    mesh = scene.moving_mesh(moving)
-    return all(scene.is_near_static(mesh.transformed(motion(value)), near) for value in np.linspace(0, upper, _POSES))
+def _stays_near(scene: Scene, request: JointRequest, motion: PoseFunction, upper: float, near: float) -> bool:
+    """Whether a moving body stays within a distance of what may hold it, in metres, from closed to open."""
+    mesh, values = scene.moving_mesh(request.moving), np.linspace(0, upper, _POSES)
+    return all(scene.is_near_static(mesh.transformed(motion(value)), near, request.holders) for value in values)
 
 
-def _nearest(scene: Scene, moving: str, near: float, mounts: tuple[str, ...]) -> str:
-    """Returns the static part that a moving body is nearest to, of equally near ones a wanted mount."""
-    mesh = scene.moving_mesh(moving)
-    names = [obstacle.id for obstacle in scene.static_obstacles if scene.is_near_static(mesh, near, obstacle.id)]
-    return min(names, key=lambda name: (name not in mounts, name), default="")
+def _nearest(scene: Scene, request: JointRequest, near: float) -> str:
+    """Returns a part within a distance, in metres, of those that may hold a moving body; a wanted mount first."""
+    mesh = scene.moving_mesh(request.moving)
+    may_hold = (o.id for o in scene.static_obstacles if not request.holders or o.id in request.holders)
+    names = [name for name in may_hold if scene.is_near_static(mesh, near, (name,))]
+    return min(names, key=lambda name: (name not in request.mounts, name), default="")
