@@ -1,4 +1,4 @@
-"""Folders of processes that Blender left behind as it died: a lock states whose are in use, and the rest is cleared away.
+"""Folders of processes that Blender left behind as it died: a lock states whose are in use; the rest is removed.
 
 A folder is in use as long as Blender, or the process that works in it, lives: both hold its `said.txt` open.
 """
