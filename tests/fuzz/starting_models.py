@@ -5,6 +5,7 @@ import json
 import shutil
 import struct
 from collections.abc import Callable, Iterable
+from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
@@ -12,6 +13,7 @@ from zipfile import ZIP_STORED, ZipFile, ZipInfo
 import numpy as np
 
 from collada_documents import collada_text, write_collada
+from draco_scenes import write_draco
 from fuzz.bombs import png_of
 from grafu.geometry.mesh import TriangleMesh
 from small_assets import (
@@ -97,6 +99,10 @@ def gltf(folder: Path) -> str:
     (folder / "scene.bin").write_bytes(binary)
     (folder / "scene.gltf").write_text(json.dumps(document))
     return "scene.gltf"
+
+
+def glb_draco(folder: Path) -> str:
+    return write_draco(folder).name
 
 
 def _with_materials(path: Path) -> None:
@@ -240,6 +246,7 @@ def plain_obj(folder: Path) -> str:
 MODELS: dict[str, Maker] = {
     "glb": glb,
     "glb with textures": glb_textured,
+    **({"glb with draco": glb_draco} if find_spec("DracoPy") else {}),
     "gltf": gltf,
     "obj": obj,
     "folder of obj": obj_folder,

@@ -38,7 +38,7 @@ def read_gltf(path: Path, options: LoadOptions, files: ModelFiles | None = None)
     """Returns the scene of a .glb or .gltf file in its own coordinates.
 
     Raises:
-        UnreadableAsset: if the file is missing, damaged, or compressed.
+        UnreadableAsset: if the file is missing or damaged, or compressed in a way that is not read.
         AssetTooLarge: if it has more of something than the limits allow.
     """
     file = read_gltf_file(path, files or ModelFiles(path, options.limits))
@@ -55,7 +55,7 @@ def read_surfaces(path: Path, files: ModelFiles) -> tuple[Surface, ...]:
     """Returns all surfaces of a .glb or .gltf file in its scene's coordinates.
 
     Raises:
-        UnreadableAsset: if the file is missing, damaged, or compressed.
+        UnreadableAsset: if the file is missing or damaged, or compressed in a way that is not read.
         AssetTooLarge: if it has more of something than the limits allow.
     """
     return tuple(surface for mesh in read_scene_meshes(path, files)[0] for surface in mesh)
@@ -65,7 +65,7 @@ def read_scene_meshes(path: Path, files: ModelFiles) -> tuple[tuple[tuple[Surfac
     """Returns the surfaces of each node with a mesh, in the scene's order and coordinates, and notes on what was lost.
 
     Raises:
-        UnreadableAsset: if the file is missing, damaged, or compressed.
+        UnreadableAsset: if the file is missing or damaged, or compressed in a way that is not read.
         AssetTooLarge: if it has more of something than the limits allow.
     """
     meshes, nodes = _counted(read_gltf_file(path, files))

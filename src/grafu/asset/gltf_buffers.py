@@ -52,7 +52,6 @@ def chunks_of(data: bytes, path: Path) -> tuple[memoryview, memoryview | None]:
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _REFUSED = {
-    "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
@@ -122,8 +121,12 @@ class GltfFile:
         values = self._dense(accessor, index, np.dtype(dtype), width)
         if "sparse" in accessor:
             self._set_sparse(values, accessor.member("sparse"))
-        if accessor.get("normalized") and values.dtype.kind in "iu":
-            values = np.maximum(values / np.iinfo(values.dtype).max, -1.0)
+        return self.normalised(index, values)
+
+    def normalised(self, index: Any, values: np.ndarray) -> np.ndarray:
+        """Returns values of an accessor, integers as floats within -1..1 where it says that they are normalised."""
+        if self.item("accessors", index).get("normalized") and values.dtype.kind in "iu":
+            return np.maximum(values / np.iinfo(values.dtype).max, -1.0)
         return values
 
     def _dense(self, accessor: JsonObject, index: Any, dtype: np.dtype[Any], width: int) -> np.ndarray:

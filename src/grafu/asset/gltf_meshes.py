@@ -3,11 +3,13 @@
 Materials and textures stay as they are: metallic-roughness, image bytes untouched.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from grafu.asset.gltf_buffers import GltfFile
+from grafu.asset.gltf_draco import decoded, is_compressed_alone
 from grafu.asset.json_files import JsonObject
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
@@ -131,7 +133,7 @@ class GltfMeshes:
         """Counts what a mesh will take wherever it is placed, before anything is made of it; once for each place.
 
         Raises:
-            UnreadableAsset: if the mesh is not there, damaged or compressed.
+            UnreadableAsset: if the mesh is not there or damaged.
             AssetTooLarge: if the model has more of something than is read.
         """
         if index not in self._sizes:
@@ -145,7 +147,7 @@ class GltfMeshes:
         """Returns the surfaces of the mesh with this index, which was counted before (here, where it was not).
 
         Raises:
-            UnreadableAsset: if the mesh is not there, damaged or compressed.
+            UnreadableAsset: if the mesh is not there or damaged.
             AssetTooLarge: if the model has more of something than is read.
         """
         if index not in self._sizes:
@@ -157,63 +159,61 @@ class GltfMeshes:
 
     def _size(self, primitive: JsonObject) -> dict[str, int]:
         attributes, mode = primitive.member("attributes"), primitive.whole("mode", _TRIANGLES)
-        self._refuse_draco(primitive, attributes)
         if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:
             return {"primitives": 1, "faces": 0, "vertices": 0}
         vertices = self.file.count(attributes.get("POSITION"))
         corners = self.file.count(primitive.get("indices")) if "indices" in primitive else vertices
         return {"primitives": 1, "faces": corners // 3 if mode == _TRIANGLES else corners, "vertices": vertices}
 
-    def _refuse_draco(self, primitive: JsonObject, attributes: JsonObject) -> None:
-        """Refuses a primitive whose positions are compressed with Draco alone (it may carry plain ones besides)."""
-        if "KHR_draco_mesh_compression" not in primitive.member("extensions"):
-            return
-        plain = "POSITION" in attributes and "bufferView" in self.file.item("accessors", attributes.get("POSITION"))
-        if not plain:
-            raise UnreadableAsset(
-                f"{self.file.path} is compressed with Draco, which is not read: export it uncompressed"
-            )
-
     def _surface(self, primitive: JsonObject) -> Surface | None:
         mode, attributes = primitive.whole("mode", _TRIANGLES), primitive.member("attributes")
         if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:
             self._own_notes.append("points or lines were left out")
             return None
-        positions = self.file.accessor(attributes.get("POSITION")).astype(np.float64)
+        draco = decoded(self.file, primitive) if is_compressed_alone(self.file, primitive) else None
+        arrays = {} if draco is None else draco.attributes
+        positions = self._values(attributes, "POSITION", arrays).astype(np.float64)
         if positions.shape[1] != 3 or not np.isfinite(positions).all():
             raise self.file.damaged("positions are not three finite numbers each")
-        faces = _faces(self._indices(primitive, len(positions)), mode)
+        corners = self._indices(primitive, len(positions), None if draco is None else draco.indices)
+        faces = _faces(corners, _TRIANGLES if draco is not None else mode)
         material = primitive.get("material")
-        uv = self._attribute(attributes, f"TEXCOORD_{self.materials.uv_set(material)}", len(positions), 2)
+        uv = self._attribute(attributes, f"TEXCOORD_{self.materials.uv_set(material)}", len(positions), 2, arrays)
         if uv is not None:
             uv = np.column_stack([uv[:, 0], 1.0 - uv[:, 1]])  # glTF counts v downwards from the top
-        normals = self._attribute(attributes, "NORMAL", len(positions), 3)
-        colors = self._colors(attributes, len(positions))
+        normals = self._attribute(attributes, "NORMAL", len(positions), 3, arrays)
+        colors = self._colors(attributes, len(positions), arrays)
         return Surface(TriangleMesh(positions, faces), self.materials.get(material), uv, normals, colors)
 
-    def _indices(self, primitive: JsonObject, count: int) -> np.ndarray:
-        if "indices" not in primitive:
+    def _values(self, attributes: JsonObject, key: str, arrays: Mapping[str, np.ndarray]) -> np.ndarray:
+        return arrays[key] if key in arrays else self.file.accessor(attributes.get(key))
+
+    def _indices(self, primitive: JsonObject, count: int, decoded_indices: np.ndarray | None) -> np.ndarray:
+        if decoded_indices is None and "indices" not in primitive:
             return np.arange(count)
-        indices = self.file.accessor(primitive.get("indices")).ravel().astype(np.int64)
+        stated = self.file.accessor(primitive.get("indices")) if decoded_indices is None else decoded_indices
+        indices = stated.ravel().astype(np.int64)
         if len(indices) and (indices.min() < 0 or indices.max() >= count):
             raise self.file.damaged(f"a face names vertex {indices.max()} of {count}")
         return indices
 
-    def _attribute(self, attributes: JsonObject, key: str, count: int, width: int) -> np.ndarray | None:
+    def _attribute(
+        self, attributes: JsonObject, key: str, count: int, width: int, arrays: Mapping[str, np.ndarray]
+    ) -> np.ndarray | None:
         if key not in attributes:
             return None
-        fits = self.file.count(attributes.get(key)) == count  # asked before memory is taken for it
-        values = self.file.accessor(attributes.get(key)).astype(np.float64) if fits else np.zeros((0, 0))
+        # asked before memory is taken for it
+        fits = key in arrays or self.file.count(attributes.get(key)) == count
+        values = self._values(attributes, key, arrays).astype(np.float64) if fits else np.zeros((0, 0))
         if values.shape != (count, width) or not np.isfinite(values).all():
             self._own_notes.append(f"damaged {key} values were left out")
             return None
         return values
 
-    def _colors(self, attributes: JsonObject, count: int) -> np.ndarray | None:
-        if "COLOR_0" not in attributes or self.file.count(attributes.get("COLOR_0")) != count:
-            return None
-        values = self.file.accessor(attributes.get("COLOR_0"))
-        if values.shape[1] not in (3, 4):
+    def _colors(self, attributes: JsonObject, count: int, arrays: Mapping[str, np.ndarray]) -> np.ndarray | None:
+        fits = "COLOR_0" in arrays or ("COLOR_0" in attributes and self.file.count(attributes.get("COLOR_0")) == count)
+        values = self._values(attributes, "COLOR_0", arrays) if fits else np.zeros((0, 0))
+        if values.shape not in ((count, 3), (count, 4)):
             return None
         rgba = np.ones((count, 4))
         rgba[:, : values.shape[1]] = values
