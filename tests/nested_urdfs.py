@@ -119,3 +119,39 @@ def drawer_in_door(folder: Path) -> Path:
             (0.0, 0.2),
         ),
     )
+
+
+INNER_DRAWER: dict[str, Box] = {
+    "drawer_front": (-0.28, 0.03, 0.26, 0.28, 0.05, 0.54),
+    "drawer_wall_left": (-0.26, -0.195, 0.28, -0.25, 0.03, 0.5),
+    "drawer_wall_right": (0.25, -0.195, 0.28, 0.26, 0.03, 0.5),
+    "drawer_wall_back": (-0.25, -0.195, 0.28, 0.25, -0.185, 0.5),
+    "drawer_floor": (-0.25, -0.185, 0.28, 0.25, 0.03, 0.29),
+}
+PLAIN_DOOR: dict[str, Box] = {
+    "door_panel": (-0.415, -0.22, 0.03, 0.415, -0.201, 0.79),
+    "door_cheek_left": (-0.3, -0.201, 0.27, -0.28, 0.025, 0.52),
+    "door_cheek_right": (0.28, -0.201, 0.27, 0.3, 0.025, 0.52),
+}
+
+
+def drawer_behind_door(folder: Path) -> Path:
+    """A cabinet with one door; a drawer on its inner side slides inwards, which the cabinet's back stops."""
+    pin, front = (-0.415, -0.22, 0.0), (0.0, 0.05, 0.4)
+    return _written(
+        folder,
+        "drawer_behind_door",
+        _link("base", _CARCASS),
+        _link("door", PLAIN_DOOR, pin),
+        _link("drawer", INNER_DRAWER, front),
+        _joint("door_joint", "revolute", "base", "door", pin, "0 0 -1", (0.0, 1.5)),
+        _joint(
+            "drawer_joint",
+            "prismatic",
+            "door",
+            "drawer",
+            tuple(b - a for a, b in zip(pin, front, strict=True)),
+            "0 1 0",
+            (0.0, 0.19),
+        ),
+    )

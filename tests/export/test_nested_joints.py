@@ -12,7 +12,7 @@ import grafu
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import all_open
 from grafu.geometry.intersection import MeshCollider, SweptBody
-from nested_urdfs import drawer_in_door, folding_door
+from nested_urdfs import drawer_behind_door, drawer_in_door, folding_door
 
 
 @pytest.fixture(scope="module")
@@ -175,3 +175,14 @@ def test_doors_beside_one_another_are_coupled(tmp_path):
     assert (second.follows.leader, second.follows.multiplier) == ("leaf_1_joint", 1.0)
     assert second.upper == pytest.approx(first.upper)
     np.testing.assert_allclose(second.axis, (0.0, 0.0, 1.0), atol=1e-9)
+
+
+def test_a_drawer_that_the_closed_door_blocks_waits_for_the_door(tmp_path):
+    """On the inner side of a door it meets the cabinet's back, until the door that carries it is open."""
+    result = grafu.functionalize(drawer_behind_door(tmp_path), motion="annotation")
+    drawer = joint_of(result, "drawer")
+    assert (drawer.parent, drawer.after) == ("door", ("door_joint",))
+    assert drawer.upper > 0.15
+    np.testing.assert_allclose(drawer.axis, (0.0, 1.0, 0.0), atol=1e-9)  # as in the door's closed pose
+    uppers = {joint.id: joint.upper for joint in result.joints}
+    assert cuts(result, uppers) == set()

@@ -76,7 +76,7 @@ def build_fairly(
     Doors for which that left no place are expected to move as was asked for, and all is built again; the first try
     stands unless the second builds more.
     """
-    find = partial(cache.value, "ways", expected_motions, tuple(requests), scene, config)
+    find = partial(cache.value, "expected motions", expected_motions, tuple(requests), scene, config)
     joint_motions: Mapping[str, JointMotion] = within(config.time.expecting, find, lambda _: {})
     budget = present_budget().fraction(config.time.building)
     with budget.in_force():

@@ -30,30 +30,30 @@ def carried_parts(
         fixed_to: by the id of each part of which it is known what carries it, the id of that.
         config: how large such parts may be.
     """
-    ways = _ways(graph)
-    carrier = dict.fromkeys(ways, "") | dict(fixed_to) | {edge.child: edge.parent for edge in graph.attachments}
+    directions = _directions(graph)
+    carrier = dict.fromkeys(directions, "") | dict(fixed_to) | {edge.child: edge.parent for edge in graph.attachments}
     loose = {n.id for n in graph.nodes if n.label in _HANGING and n.id not in carrier}
-    if not ways or not loose:
+    if not directions or not loose:
         return ()
     found: list[tuple[str, str]] = []
     for cluster in _clusters(graph, loose):
         touched = {other for part in cluster for other in graph.neighbours[part]} - cluster
         moving_parts = {carrier.get(other, other) or other for other in touched}
-        if len(moving_parts) != 1 or not moving_parts <= set(ways):
+        if len(moving_parts) != 1 or not moving_parts <= set(directions):
             continue
         moving = moving_parts.pop()
         nodes = [graph.node(part) for part in cluster]
-        if all(_may_carry(graph.node(moving), code_to_direction(ways[moving]), n.box, config) for n in nodes):
+        if all(_may_carry(graph.node(moving), code_to_direction(directions[moving]), n.box, config) for n in nodes):
             found += [(moving, node.id) for node in graph.nodes if node.id in cluster]
     return tuple(found)
 
 
-def _ways(graph: FunctionalGraph) -> Mapping[str, SignedAxis]:
+def _directions(graph: FunctionalGraph) -> Mapping[str, SignedAxis]:
     """Returns for each moving part the direction in which it opens."""
-    ways: dict[str, SignedAxis] = {rail.child: rail.axis for rail in graph.rails}
+    directions: dict[str, SignedAxis] = {rail.child: rail.axis for rail in graph.rails}
     for hinge in graph.hinges:
-        ways[hinge.child] = opening_face(graph.node(hinge.child).box.thin_axis, hinge.border, hinge.sign)
-    return ways
+        directions[hinge.child] = opening_face(graph.node(hinge.child).box.thin_axis, hinge.border, hinge.sign)
+    return directions
 
 
 def _clusters(graph: FunctionalGraph, loose: set[str]) -> list[set[str]]:

@@ -17,7 +17,7 @@ PIVOT = "pivot"
 
 
 class Supports(StrEnum):
-    """What holds a rail that touches no wall, and what bridges the way to its drawer."""
+    """What holds a rail that touches no wall, and what bridges the gap to its drawer."""
 
     AUTO = "auto"  # the shortest block to whatever stands there
     NONE = "none"  # nothing: rails stand only where they touch both sides

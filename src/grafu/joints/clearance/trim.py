@@ -85,14 +85,14 @@ def _presses(
     `play` is what it gets, and up to which gap it counts as cutting in; `kept` the fraction of
     its thickness that it keeps at least.
     """
-    way = _swept(box, path)
-    depths = np.stack([theirs[:, 1] - way.low, way.high - theirs[:, 0]], axis=1)
+    swept = _swept(box, path)
+    depths = np.stack([theirs[:, 1] - swept.low, swept.high - theirs[:, 0]], axis=1)
     found: list[_Press] = []
     for both in depths[(depths > -play[1]).all(axis=(1, 2))]:
         side, axis = (int(i) for i in np.unravel_index(int(np.argmin(both)), both.shape))
         depth = float(both[side, axis]) + play[0]
         if depth <= most[axis] and depth <= (1 - kept) * box.size[axis]:
-            limit = float(way.low[axis] + depth) if side == 0 else float(way.high[axis] - depth)
+            limit = float(swept.low[axis] + depth) if side == 0 else float(swept.high[axis] - depth)
             found.append(_Press(axis, side, limit, depth))
     return found
 

@@ -3,7 +3,7 @@
 One rail is fitted, the other is its exact mirror image (supplement, eq. rail mirror); support blocks bridge what
 remains between a rail and the wall.
 
-What holds one rail of a pair: what it touches, or a support that bridges the way to the case and to the drawer.
+What holds one rail of a pair: what it touches, or a support that bridges the gap to the case and to the drawer.
 
 A support is a block to whatever is nearest, a slab to the wall beside the rail, or an upright board along it, as was
 chosen.
@@ -132,10 +132,10 @@ def _divider(
     middle = snap.center + outward * thickness / 2
     middle = middle + up * (float(heights.min() + half) - float(middle @ up))
     middle = middle + back * (float(lengths.min() + np.ptp(lengths) / 2) - float(middle @ back))
-    ways = [Footing(middle, sign * up, outward * thickness / 2, v).gap(walls, reach) for sign in (-1.0, 1.0)]
-    if not np.isfinite(ways).any():
+    gaps = [Footing(middle, sign * up, outward * thickness / 2, v).gap(walls, reach) for sign in (-1.0, 1.0)]
+    if not np.isfinite(gaps).any():
         return None
-    below, above = (way if np.isfinite(way) else half for way in ways)
+    below, above = (gap if np.isfinite(gap) else half for gap in gaps)
     return Footing(middle - below * up, up, outward * thickness / 2, v), below + above
 
 
