@@ -1,4 +1,4 @@
-"""What was not made: one value, reasons from a closed list, each with a sentence."""
+"""What was not made: one value, reasons from a fixed list, each with a sentence."""
 
 import pickle
 import re

@@ -31,6 +31,7 @@ RETIRED = {
     r"(?i)\bstands? still\b|\bstanding still\b": "is static, does not move",
     r"(?i)\b(?<!was )made (furniture|models?)\b": "synthetic furniture, synthetic models",
     r"\bsays\b": "states, contains, is; the verb is for people",
+    r"\bclosed (list|mesh|meshes)\b": "fixed list, watertight mesh",
     r"(?i)\b(parts|inputs|models|bodies) (and \w+ )?fraction\b|\bcall fraction\b": "the verb share",
 }
 RETIRED |= {

@@ -1,4 +1,4 @@
-"""What was asked for and not made, and why: one value, with reasons from one closed list.
+"""What was asked for and not made, and why: one value, with reasons from one fixed list.
 
 docs/report.md is drawn from the two lists.
 """

@@ -1,4 +1,4 @@
-"""What cannot be built: each with a reason from the closed list, and never at the cost of its neighbours."""
+"""What cannot be built: each with a reason from the fixed list, and never at the cost of its neighbours."""
 
 from dataclasses import replace
 

@@ -128,7 +128,7 @@ class _Piece:
 
 
 def _solid(mesh: TriangleMesh) -> Any:
-    """Returns a closed mesh, turned one way, as a solid; None where manifold3d sees none."""
+    """Returns a watertight mesh, turned one way, as a solid; None where manifold3d sees none."""
     position = welded(mesh.vertices)
     first = np.unique(position, return_index=True)[1]
     made = manifold3d.Mesh(mesh.vertices[first].astype(np.float32), position[mesh.faces].astype(np.uint32))

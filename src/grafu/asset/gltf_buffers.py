@@ -124,7 +124,7 @@ class GltfFile:
         return self.normalised(index, values)
 
     def normalised(self, index: Any, values: np.ndarray) -> np.ndarray:
-        """Returns values of an accessor, integers as floats within -1..1 where it says that they are normalised."""
+        """Returns values of an accessor, integers as floats within -1..1 where it states that they are normalised."""
         if self.item("accessors", index).get("normalized") and values.dtype.kind in "iu":
             return np.maximum(values / np.iinfo(values.dtype).max, -1.0)
         return values

@@ -1,4 +1,4 @@
-"""Weighted votes for a closed list of choices, and their ranking."""
+"""Weighted votes for a fixed list of choices, and their ranking."""
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass

@@ -98,8 +98,8 @@ class _CutPatch:
 def cut_out(body: Bodywork, solids: Sequence[ConvexSolid], union: TriangleMesh | None = None) -> CutOut:
     """Returns the body without what lies inside the solids.
 
-    `union` is the closed surface around all solids, where it is known: worked out, that of solids which touch in many
-    corners has slivers.
+    `union` is the watertight surface around all solids, where it is known: worked out, that of solids which touch in
+    many corners has slivers.
     """
     closed = [(union.vertices, union.faces)] if union is not None else [(s.vertices, s.faces) for s in solids]
     cutter = manifold3d.Manifold.batch_boolean([_manifold(*one) for one in closed], manifold3d.OpType.Add)

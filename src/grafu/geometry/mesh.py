@@ -124,7 +124,7 @@ class TriangleMesh(ArrayValue):
 
     @classmethod
     def box_mesh(cls, box: Box) -> "TriangleMesh":
-        """Returns the closed mesh of a box, 12 faces."""
+        """Returns the watertight mesh of a box, 12 faces."""
         return cls(box.corners(), np.array(_BOX_FACES))
 
 

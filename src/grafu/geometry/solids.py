@@ -1,8 +1,8 @@
 """Convex solids, and cutting them out of surfaces, attributes kept.
 
-Closed surfaces are cut by manifold3d and stay closed. Open ones, which real furniture is full of, are clipped triangle
-by triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was before. What
-several solids take of one triangle goes at once: one after another they would shred it.
+Watertight surfaces are cut by manifold3d and stay so. Open ones, which real furniture is full of, are clipped
+triangle by triangle: what lies inside goes, the rest stays as it was, and the cut is left open as the surface was
+before. What several solids take of one triangle goes at once: one after another they would shred it.
 """
 
 from collections.abc import Sequence
@@ -56,7 +56,7 @@ class ConvexSolid(ArrayValue):
 
     @property
     def mesh(self) -> TriangleMesh:
-        """The closed surface of the solid."""
+        """The watertight surface of the solid."""
         return TriangleMesh(self.vertices, self.faces)
 
 

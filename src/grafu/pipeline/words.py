@@ -1,4 +1,4 @@
-"""Words for people: the colours of a verdict, the closed list of what can be amiss, numbers and lists."""
+"""Words for people: the colours of a verdict, the fixed list of what can be amiss, numbers and lists."""
 
 from collections.abc import Iterable
 from enum import StrEnum

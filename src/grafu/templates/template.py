@@ -57,7 +57,7 @@ class HandleSize:
 class HandleTemplate:
     """A handle that can be built at any size; `natural` is its real-world size, `longest` its greatest sensible length.
 
-    `shape` returns closed meshes with outward faces that fill the length in x and the protrusion in -Y exactly.
+    `shape` returns watertight meshes with outward faces that fill the length in x and the protrusion in -Y exactly.
     """
 
     id: str

@@ -194,7 +194,7 @@ def _notch(cut: Cut, over: float) -> Outline:
 
 
 def union(cut: Cut, sizes: GripSizes) -> TriangleMesh | None:
-    """Returns the closed surface around all of a grip's cutters, in the frame that they are in; None: there is one."""
+    """Returns the watertight surface around all of a grip's cutters, in their frame; None: there is one."""
     if not _is_rounded(cut):
         return None
     rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut, sizes)]

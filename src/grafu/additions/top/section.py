@@ -145,7 +145,7 @@ def with_corners(outline: BaseGeometry, shape: TopShape, radius: float) -> BaseG
 def slab_mesh(
     outline: Polygon, low: float, high: float, shape: TopShape = "rectangle", edge: float = 0.0
 ) -> TriangleMesh:
-    """Returns the closed mesh of a slab from `low` to `high`; where its edge leaves no room to break it stays sharp.
+    """Returns the watertight mesh of a slab from `low` to `high`; an edge without room to break stays sharp.
 
     `edge` is how far the upper edge is broken, as a fraction of the thickness; a rectangle's never is.
 
@@ -165,7 +165,7 @@ def slab_mesh(
 
 
 def without_block(mesh: TriangleMesh, region: BaseGeometry, low: float, high: float) -> TriangleMesh:
-    """Returns a closed mesh less what stands over a region from `low` to `high`; as it was where that is nothing."""
+    """Returns a watertight mesh less what stands over a region from `low` to `high`; unchanged if nothing stands there."""
     body = _manifold(mesh)
     for polygon in polygons_in(region):
         body = body - _manifold(slab_mesh(polygon, low, high))
@@ -208,7 +208,7 @@ def _is_sound(layer: list[Ring], area: float) -> bool:
 
 
 def _stacked(layers: list[list[Ring]], heights: list[float]) -> TriangleMesh:
-    """Returns the closed mesh through rings of equal numbers of corners at rising heights."""
+    """Returns the watertight mesh through rings of equal numbers of corners at rising heights."""
     sizes = [len(ring) for ring in layers[0]]
     count = sum(sizes)
     points = [

@@ -144,7 +144,7 @@ def _ring(pin: PinCandidate) -> Iterator[tuple[float, float]]:
 
 
 def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float) -> TriangleMesh:
-    """Returns the closed cylinder about the pin between two heights, in the object frame."""
+    """Returns the watertight cylinder about the pin between two heights, in the object frame."""
     low, high = min(start, end), max(start, end)
     angles = np.arange(_SEGMENTS) * 2 * np.pi / _SEGMENTS
     circle = np.column_stack([pin.x + pin.radius * np.cos(angles), pin.y + pin.radius * np.sin(angles)])
