@@ -165,7 +165,7 @@ def slab_mesh(
 
 
 def without_block(mesh: TriangleMesh, region: BaseGeometry, low: float, high: float) -> TriangleMesh:
-    """Returns a watertight mesh less what stands over a region from `low` to `high`; unchanged if nothing stands there."""
+    """Returns a watertight mesh less what is over a region from `low` to `high`; unchanged if nothing is there."""
     body = _manifold(mesh)
     for polygon in polygons_in(region):
         body = body - _manifold(slab_mesh(polygon, low, high))
