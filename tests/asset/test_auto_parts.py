@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 
 from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.load import load_asset
@@ -85,7 +86,8 @@ def test_what_is_divided_already_is_read_as_it_is(tmp_path, write):
 
 def test_segmented_inputs_and_named_panels_are_left_alone():
     assert cut(welded(), kind="partnet-mobility").parts == (welded(),)
-    assert cut(welded(label=PartLabel.SIDE_PANEL)).parts == (welded(label=PartLabel.SIDE_PANEL),)
+    panel = welded(label=PartLabel.SIDE_PANEL, name="side_panel")
+    assert cut(panel).parts == (panel,)
 
 
 def test_a_robot_of_several_links_is_left_alone_and_one_of_one_link_is_not():
@@ -130,3 +132,48 @@ def test_one_mesh_without_a_front_is_refused_naming_what_was_tried(tmp_path, nam
     merge_meshes([mesh_of(name) for name in names]).to_trimesh().export(path)
     with pytest.raises(UnsegmentedAsset, match=said):
         load_asset(path, AUTO)
+
+
+def test_a_body_that_is_labelled_by_its_name_is_cut_and_stays_what_it_is():
+    found = cut(welded(label=PartLabel.SIDE_PANEL, name="Fridge"))
+
+    assert next(part for part in found.parts if part.id == "Fridge").label is PartLabel.SIDE_PANEL
+    assert len(found.parts) > 3
+
+
+@pytest.mark.parametrize(
+    ("part", "model", "is_door"),
+    [
+        ("oven", "", True),
+        ("Object_7", "double_oven", True),
+        ("Backofen", "", True),
+        ("Object_7", "kitchen", False),
+        ("cabinet", "", False),
+    ],
+)
+def test_high_fronts_of_appliances_are_doors_and_low_ones_are_left_open(part, model, is_door):
+    reading = Reading("mesh file", (welded(name=part),), Convention("test"))
+    found = cut_where_fronts_appear(reading, IDENTITY_FRAME, model)
+
+    high, low = (mesh_of(name).box.size for name in FRONTS)
+    labels = {tuple(np.round(p.box.size, 4)): p.label for p in found.parts}
+    assert high[2] > 0.5 * high[0]
+    assert low[2] < 0.5 * low[0]
+    assert labels[tuple(np.round(high, 4))] is (PartLabel.DOOR if is_door else PartLabel.UNKNOWN)
+    assert labels[tuple(np.round(low, 4))] is PartLabel.UNKNOWN
+
+
+def test_handles_of_fronts_that_were_cut_are_split_between_them(tmp_path):
+    """One mesh holds both handles, another the case with its fronts."""
+    rest = [mesh_of(name) for name in CABINET if not name.startswith("handle")]
+    handles = [mesh_of(name) for name in CABINET if name.startswith("handle")]
+    scene = trimesh.Scene()
+    for name, meshes in (("fridge", rest), ("handles", handles)):
+        scene.add_geometry(merge_meshes(meshes).to_trimesh(), node_name=name, geom_name=name)
+    path = tmp_path / "fridge.glb"
+    scene.export(path)
+
+    found = load_asset(path, AUTO)
+
+    parts = {part.id: part for part in found.parts}
+    assert {part.rides_on for part in parts.values() if part.label is PartLabel.HANDLE} >= {"fridge_front"}

@@ -181,3 +181,10 @@ def test_a_handle_on_a_curved_front_stands_out_of_the_front_beside_it():
     found = cut(merge_meshes(CASE), merge_meshes([front, bar]), movers=[False, True])
 
     assert boxes(found, "handle") == rounded([bar])
+
+
+def test_marks_printed_on_a_front_are_no_handles():
+    mark = board((-0.05, -0.2225, 0.8), (0.05, -0.2224, 0.85))
+    found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR, mark]), movers=[False, True])
+
+    assert boxes(found, "handle") == rounded([BAR])

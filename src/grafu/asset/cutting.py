@@ -10,25 +10,36 @@ from typing import Final
 
 import numpy as np
 
+from grafu.asset.labels import is_appliance, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Frame, Part
+from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.geometry.arrays import Indices, Mat4
 from grafu.segmentation.division import Piece, divided
 from grafu.vocabulary import PartLabel
 
+_DOOR_HEIGHT = 0.5  # of its width: how high the door of an appliance is at least
+_THICK = 0.35  # of its middle side: what is thicker is no board
+
 # What may hide fronts: what no name tells, and what is called by what it holds.
 _OPEN: Final = frozenset({PartLabel.UNKNOWN, PartLabel.MISC, PartLabel.FACE_FRAME, PartLabel.DOOR, PartLabel.DRAWER})
 
 
-def cut_where_fronts_appear(reading: Reading, frame: Frame) -> Reading:
-    """Returns the reading with objects cut where that makes doors or drawers appear, and a note on each."""
+def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> Reading:
+    """Returns the reading with objects cut where that makes doors or drawers appear, and a note on each.
+
+    Args:
+        reading: what was read.
+        frame: how it stands; its unit does not matter.
+        name: that of the model: the front of what is called an oven is a door.
+    """
     if not reading.parts or _is_divided(reading):
         return reading
     T = _turn(frame)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
-    open_to = [part.label in _OPEN and part.rides_on is None for part in reading.parts]
+    open_to = [_may_be_cut(part) and part.rides_on is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
     cuts = divided(meshes, open_to, whole, [_materials(part) for part in reading.parts])
     if not cuts:
@@ -36,7 +47,8 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame) -> Reading:
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
     parts = tuple(
-        _freed(_part(part, piece, name), cut) for (part, piece), name in zip(pieces, _ids(pieces), strict=True)
+        _freed(_named(_part(part, piece, new), piece, name, T), cut)
+        for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes))
@@ -45,6 +57,13 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame) -> Reading:
 def _is_divided(reading: Reading) -> bool:
     by_hand = reading.grouped or reading.kind in ("partnet-mobility", "hssd")
     return by_hand or (reading.kind == "urdf" and len({part.source.link for part in reading.parts}) > 1)
+
+
+def _may_be_cut(part: Part) -> bool:
+    """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that."""
+    sides = np.sort(part.box.size)
+    is_body = part.label is BODY and sense_of(part.source.name).is_container
+    return part.label in _OPEN or (is_body and bool(sides[0] > _THICK * sides[1]))
 
 
 def _materials(part: Part) -> Indices:
@@ -90,6 +109,20 @@ def _part(part: Part, piece: Piece | None, name: str) -> Part:
     keeps = piece.role == "body" or (part.label.is_movable == (piece.role == "front") and piece.role != "handle")
     label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
     return replace(part, id=name, surfaces=faces_of_part(part, piece.faces), label=label, labelled_by=by)
+
+
+def _named(part: Part, piece: Piece | None, model: str, T: Mat4) -> Part:
+    """Returns a new front as a door where object or model are called an oven, a refrigerator or the like.
+
+    It must be too high for a drawer or a control panel; `T` turns it upright.
+    """
+    if piece is None or piece.role != "front" or part.label is not PartLabel.UNKNOWN:
+        return part
+    size = part.mesh.transformed(T).box.size
+    is_high = float(size[2]) >= _DOOR_HEIGHT * float(size[:2].max())
+    if is_high and (is_appliance(part.source.name) or is_appliance(model)):
+        return replace(part, label=PartLabel.DOOR, labelled_by="name")
+    return part
 
 
 def _note(part: Part, pieces: list[Piece]) -> str:

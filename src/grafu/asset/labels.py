@@ -87,9 +87,11 @@ _HARDWARE = frozenset({"hinge", "lock", "latch", "knuckle"})
 _PLURALS = frozenset({"doors", "drawers"})
 _CONTAINERS = word_set(
     "unit set group stack chest cabinet collection compartment section case carcass body cupboard wardrobe "
-    "dresser desk table bench bookcase sideboard kitchen fridge refrigerator freezer oven stove microwave dishwasher "
+    "dresser desk table bench bookcase sideboard kitchen fridge refrigerator freezer oven stove cooker microwave "
+    "dishwasher washer "
     "bed stair nightstand shell housing"
 )
+_APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
 
 
 @final
@@ -129,6 +131,11 @@ def is_control(name: str) -> bool:
     """Whether the name is that of a wheel, caster, knob, button or the like: it may turn, but on no hinge or rail."""
     said = {singular(w) for w in spoken(name)}
     return bool(said & _CONTROLS) and not said & {"door", "drawer"}
+
+
+def is_appliance(name: str) -> bool:
+    """Whether the name is that of a kitchen appliance or its body: an oven, a refrigerator, a dishwasher."""
+    return sense_of(name).is_container and bool({singular(w) for w in spoken(name)} & _APPLIANCES)
 
 
 def is_piece(name: str) -> bool:

@@ -12,7 +12,7 @@ from typing import Final
 ENGLISH: Final = """
     door doors drawer drawers handle knob shelf shelves shelving hinge panel board frame front back rear side top bottom
     left right upper lower middle center centre inner outer case cabinet carcass corpus body cupboard wardrobe dresser
-    desk table bench unit chest counter bookcase sideboard kitchen fridge freezer oven stove microwave sink basin glass
+    desk table bench unit chest counter bookcase sideboard kitchen fridge freezer oven stove microwave dishwasher sink basin glass
     window mirror leg foot feet base plinth pull grip rail runner slide slider lid flap tray rack divider partition
     stile mullion wall plate floor stair stairs bed bedside nightstand bedroom
 """
@@ -51,6 +51,13 @@ GERMAN: Final = """
     desk: schreibtisch
     bed: bett
     kitchen: kuche kueche
+    oven: ofen backofen
+    stove: herd
+    fridge: kuhlschrank kuehlschrank kuhlgefrierkombination
+    freezer: gefrierschrank gefrierfach
+    microwave: mikrowelle
+    dishwasher: spulmaschine spuelmaschine geschirrspuler geschirrspueler
+    washer: waschmaschine
     sink: spule spuele waschbecken
     mirror: spiegel
     glass: glas scheibe
@@ -89,6 +96,11 @@ FRENCH: Final = """
     desk: bureau
     bed: lit
     kitchen: cuisine
+    oven: four
+    stove: cuisiniere
+    fridge: frigo refrigerateur
+    freezer: congelateur
+    dishwasher: vaisselle
     sink: evier lavabo
     mirror: miroir
     glass: vitre vitres verre
@@ -123,6 +135,13 @@ SPANISH: Final = """
     desk: escritorio
     bed: cama
     kitchen: cocina
+    oven: horno
+    stove: estufa
+    fridge: nevera frigorifico refrigerador heladera
+    freezer: congelador
+    microwave: microondas
+    dishwasher: lavavajillas
+    washer: lavadora
     sink: fregadero lavabo
     mirror: espejo
     glass: vidrio cristal
@@ -158,6 +177,12 @@ ITALIAN: Final = """
     desk: scrivania
     bed: letto
     kitchen: cucina
+    oven: forno
+    fridge: frigorifero frigo
+    freezer: congelatore
+    microwave: microonde
+    dishwasher: lavastoviglie
+    washer: lavatrice
     sink: lavello lavandino
     mirror: specchio
     glass: vetro vetri
@@ -189,6 +214,8 @@ PORTUGUESE: Final = """
     cabinet: movel
     desk: escrivaninha
     kitchen: cozinha
+    stove: fogao
+    fridge: geladeira frigorifico
     mirror: espelho
     glass: vidro
     screw: parafuso parafusos
@@ -224,6 +251,11 @@ CHINESE: Final = """
     desk: 书桌 办公桌
     bed: 床
     kitchen: 厨房
+    oven: 烤箱
+    fridge: 冰箱
+    microwave: 微波炉
+    dishwasher: 洗碗机
+    washer: 洗衣机
     sink: 水槽 洗手盆
     mirror: 镜子 镜 鏡
     glass: 玻璃
@@ -257,6 +289,11 @@ JAPANESE: Final = """
     desk: 机 デスク
     table: テーブル
     bed: ベッド
+    oven: オーブン
+    fridge: 冷蔵庫
+    microwave: 電子レンジ
+    dishwasher: 食洗機
+    washer: 洗濯機
     mirror: 鏡
     glass: ガラス
     screw: ネジ ねじ

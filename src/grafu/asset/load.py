@@ -99,7 +99,7 @@ def settled(reading: Reading, name: str, path: Path, options: LoadOptions = Load
     if reading.parts:
         reading = _plausible(reading)
     if options.parts == "auto" and reading.parts:
-        reading = cut_where_fronts_appear(reading, settle_frame(reading, options))
+        reading = _with_split_handles(cut_where_fronts_appear(reading, settle_frame(reading, options), name))
     _check_parts(reading, path, options)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options)
@@ -216,8 +216,12 @@ def _joined(reading: Reading) -> Reading:
 
 def _plausible(reading: Reading) -> Reading:
     judged, notes = with_plausible_labels(reading.parts)
-    parts, splits = with_split_handles(judged)
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes, *splits))
+    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes)))
+
+
+def _with_split_handles(reading: Reading) -> Reading:
+    parts, notes = with_split_handles(reading.parts)
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
 
 
 def _without_labels(reading: Reading) -> Reading:

@@ -10,7 +10,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.labels import sense_of
+from grafu.asset.labels import is_appliance, sense_of
 from grafu.asset.languages import word_set
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
@@ -129,7 +129,9 @@ def _of_container(part: Part, scene: _Scene) -> PartLabel:
     if sense.mention is not None and _is_front(part.box, scene):
         return sense.mention
     is_body = bool(np.all(scene.ratios(part.box) >= _BODY)) and scene.held(part.box) > 0
-    return BODY if is_body else PartLabel.UNKNOWN
+    sides = np.sort(part.box.size)
+    is_case = is_appliance(part.source.name) and sides[0] > _THICK * sides[1] and scene.held(part.box) > 0
+    return BODY if is_body or is_case else PartLabel.UNKNOWN
 
 
 def _is_body(box: Box, scene: _Scene) -> bool:

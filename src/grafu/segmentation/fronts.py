@@ -20,6 +20,7 @@ _HALF = 0.5  # of a fixed front: what the fronts on it cover
 _HANDLE_SIDE = 0.1  # of its object's largest side: the shorter side of a handle
 _HANDLE_AREA = 0.25  # of its front's outline: that of a handle
 _HANDLE_OUT = 0.25  # of its object's largest side: how far a handle stands out
+_THICK_HANDLE = 0.4  # of the gap at which its pieces still touch: how thick a handle is
 _RING_CELLS = 3  # rays around a handle that show where its front lies
 _LINER = 1.5  # of a front's thickness: how far behind it its liners lie, and how thick they are
 _ON_FRONT = 0.6  # of a handle's outline: what lies on its front
@@ -105,11 +106,13 @@ class _Look:
         view = self._view
         free = view.owner == view.owner[plate]
         free[[*taken]] = False
-        handles = free & self._stands_on(plate)
-        inside = free & ~handles & within(view, plate, float(self._scale.near[plate]))
+        handles = self._grouped(np.flatnonzero(free & self._stands_on(plate)))
+        on = [shell for handle in handles for shell in handle]
+        free[on] = False
+        inside = free & within(view, plate, float(self._scale.near[plate]))
         members = inside & self._lies_in(plate)
         members |= self._drawer_boards(plate, inside & ~members)
-        return FrontShells((plate, *np.flatnonzero(members).tolist()), self._grouped(np.flatnonzero(handles)))
+        return FrontShells((plate, *np.flatnonzero(members).tolist()), handles)
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""
@@ -168,7 +171,7 @@ class _Look:
         return nothing if lid.any() else box
 
     def _grouped(self, shells: Indices) -> tuple[tuple[int, ...], ...]:
-        """Returns shells as groups of those that touch: bar and posts of one handle."""
+        """Returns shells as groups of those that touch, bar and posts of one handle; flat ones are printed marks."""
         if not len(shells):
             return ()
         low, high = self._view.low[shells], self._view.high[shells]
@@ -176,7 +179,9 @@ class _Look:
         gaps = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
         touching = coo_matrix(gaps <= near)
         count, label = connected_components(touching, directed=False)
-        return tuple(tuple(shells[label == k].tolist()) for k in range(count))
+        groups = [label == k for k in range(count)]
+        thick = [high[group, 2].max() - low[group, 2].min() >= _THICK_HANDLE * near for group in groups]
+        return tuple(tuple(shells[group].tolist()) for group, is_thick in zip(groups, thick, strict=True) if is_thick)
 
 
 def _outermost(view: View, shells: Sequence[int] | Indices) -> list[int]:
