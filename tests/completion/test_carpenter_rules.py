@@ -177,12 +177,24 @@ def test_one_carcass_carries_both_sides_with_one_rail():
     assert complete_by_rule(body).completed.rails == (Rail("carcass", "drawer", 2),)
 
 
-def test_sliding_doors_are_refused_with_their_reason():
+def test_doors_that_lap_in_two_planes_slide_past_each_other():
     graph = scene(**case(), door_1=([0.02, 0.0, 0], [0.52, 0.02, 1]), door_2=([0.48, 0.025, 0], [0.98, 0.045, 1]))
     completion = complete_by_rule(graph)
     assert not completion.completed.hinges
-    assert [r.part for r in completion.refused] == ["door_1", "door_2"]
-    assert "it laps door_2 in the next plane, so it slides" in completion.refused[0].why
+    assert completion.refused == ()
+    assert {(slide.child, slide.axis) for slide in completion.completed.slides} == {("door_1", 1), ("door_2", 0)}
+    assert {d.question for d in completion.decisions if d.part == "door_1"} >= {"slide", "mount"}
+
+
+def test_a_sliding_door_without_anything_above_or_below_is_refused():
+    graph = scene(
+        back=([0, 0.5, 0], [1, 0.52, 1]),
+        door_1=([0.02, 0.0, 0], [0.52, 0.02, 1]),
+        door_2=([0.48, 0.025, 0], [0.98, 0.045, 1]),
+    )
+    completion = complete_by_rule(graph)
+    assert completion.completed.slides == ()
+    assert all("nothing near carries a track" in refusal.why for refusal in completion.refused)
 
 
 def test_a_pair_whose_doors_lap_by_a_strip_still_swings():

@@ -1,6 +1,6 @@
 """What is answered about parts: a ranking as a decision, and of every door and drawer its edges or the reason against.
 
-Rules and network share it; it decides nothing itself but that a sliding door is not hung.
+Rules and network share it; it decides nothing itself but that a door which laps another slides.
 """
 
 from collections.abc import Callable
@@ -35,11 +35,14 @@ class Motions:
 
 
 def move_parts(
-    scene: RuleScene, hang: Callable[[PartNode], MotionAnswer], run: Callable[[PartNode], MotionAnswer]
+    scene: RuleScene,
+    hang: Callable[[PartNode], MotionAnswer],
+    run: Callable[[PartNode], MotionAnswer],
+    slide: Callable[[PartNode, PartNode], MotionAnswer],
 ) -> Motions:
-    """Returns what `hang` states about each door and `run` of each drawer; those with a motion edge are left out.
+    """Returns the answer of `hang` for each door, of `run` for each drawer, of `slide` for a door that laps another.
 
-    A door that slides past another is refused unasked; so are those that come when time is up.
+    Those with a motion edge are left out; those that come when time is up are refused.
     """
     budget = present_budget().fraction(_DECIDING)
     edges: list[Edge] = []
@@ -52,7 +55,7 @@ def move_parts(
         if budget.left == 0:
             refused.append(Refusal(node.id, Reason.TOO_COMPLEX, _TIME_IS_UP))
             continue
-        answer = _hung(node, scene, hang) if node.label is PartLabel.DOOR else run(node)
+        answer = _hung(node, scene, hang, slide) if node.label is PartLabel.DOOR else run(node)
         if isinstance(answer, Refusal):
             refused.append(answer)
         else:
@@ -67,10 +70,11 @@ def decision_of(part: str, question: Question, ranking: Ranking[Any], by: str = 
     return Decision(part, question, str(ranking.choice), ranking.score, runner_up, ranking.runner_up_score, by)
 
 
-def _hung(door: PartNode, scene: RuleScene, hang: Callable[[PartNode], MotionAnswer]) -> MotionAnswer:
+def _hung(
+    door: PartNode,
+    scene: RuleScene,
+    hang: Callable[[PartNode], MotionAnswer],
+    slide: Callable[[PartNode, PartNode], MotionAnswer],
+) -> MotionAnswer:
     other = slides_past(door, scene)
-    if other is None:
-        return hang(door)
-    return Refusal(
-        door.id, Reason.NO_MOTION, f"it laps {other.id} in the next plane, so it slides: sliding doors are not built"
-    )
+    return hang(door) if other is None else slide(door, other)

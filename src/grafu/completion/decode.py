@@ -10,6 +10,7 @@ from typing import final
 
 from grafu.completion.answers import move_parts
 from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.doors import slide_door
 from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
@@ -80,7 +81,10 @@ def complete_decoded(
     view = decoded.view
     scene = RuleScene(view.graph)
     motions = move_parts(
-        scene, lambda door: choose_hinge(door, view, scene), lambda drawer: choose_rails(drawer, view, scene)
+        scene,
+        lambda door: choose_hinge(door, view, scene),
+        lambda drawer: choose_rails(drawer, view, scene),
+        lambda door, other: slide_door(door, other, scene),
     )
     return GraphCompletion(
         graph,

@@ -15,7 +15,7 @@ from grafu.completion.rule_scene import CARRIES, RuleScene, offset_ratio
 from grafu.completion.votes import Ranking, Votes
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision
-from grafu.graph.edges import Hinge, HingeBorder, SignedAxis
+from grafu.graph.edges import Hinge, HingeBorder, SignedAxis, Slide
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import (
     border_to_face,
@@ -56,6 +56,21 @@ def hang_door(door: PartNode, scene: RuleScene) -> MotionAnswer:
         decision_of(door.id, "mount", mount),
     )
     return (Hinge(mount.choice, door.id, border.choice, sign),), decisions
+
+
+def slide_door(door: PartNode, other: PartNode, scene: RuleScene) -> MotionAnswer:
+    """Returns the slide of a door past another that it laps, on what stands below or above it; or why it gets none."""
+    across = across_axis(door)
+    mounts = (vote_mount(door, _border(door, 2, high), scene) for high in (False, True))
+    mount = next((found for found in mounts if found is not None), None)
+    if mount is None:
+        return Refusal(door.id, Reason.NO_MOTION, f"it laps {other.id}, so it slides, but nothing near carries a track")
+    towards = bool(other.box.center[across] > door.box.center[across])
+    votes: Votes[SignedAxis] = Votes((signed_axis(across, False), signed_axis(across, True)))
+    votes.add(signed_axis(across, towards), 3.0)
+    slide = votes.ranking()
+    decisions = (decision_of(door.id, "slide", slide), decision_of(door.id, "mount", mount))
+    return (Slide(mount.choice, door.id, slide.choice),), decisions
 
 
 def vote_front(door: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:

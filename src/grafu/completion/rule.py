@@ -16,7 +16,7 @@ from typing import final
 import numpy as np
 
 from grafu.completion.answers import move_parts
-from grafu.completion.doors import hang_door
+from grafu.completion.doors import hang_door, slide_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.handles import attach_handles
 from grafu.completion.rule_scene import RuleScene, offset_ratio, overlap_ratio
@@ -189,7 +189,12 @@ def complete_by_rule(graph: FunctionalGraph) -> GraphCompletion:
     labels, label_decisions = guess_labels(graph)
     attached = attach_handles(relabelled(graph, labels))
     scene = RuleScene(attached.graph)
-    motions = move_parts(scene, lambda door: hang_door(door, scene), lambda drawer: run_drawer(drawer, scene))
+    motions = move_parts(
+        scene,
+        lambda door: hang_door(door, scene),
+        lambda drawer: run_drawer(drawer, scene),
+        lambda door, other: slide_door(door, other, scene),
+    )
     return GraphCompletion(
         graph,
         with_edges(scene.graph, motions.edges),

@@ -210,6 +210,8 @@ class RealizationConfig:
     """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a fraction of the width."""
     least_opening: float = 0.3
     """An opening below this fraction of the wanted one is no motion."""
+    carved_faces: int = 400_000
+    """A static part of more faces is not carved: every attempt would take hundreds of megabytes."""
     bare_gap: float = 0.005
     """Widest gap (extent) to static parts at which a door or drawer moves without hardware: wider ones come loose."""
     kept: float = 0.4
