@@ -12,9 +12,9 @@ from typing import Final
 ENGLISH: Final = """
     door doors drawer drawers handle knob shelf shelves shelving hinge panel board frame front back rear side top bottom
     left right upper lower middle center centre inner outer case cabinet carcass corpus body cupboard wardrobe dresser
-    desk table bench unit chest counter bookcase sideboard kitchen fridge freezer oven stove microwave dishwasher sink basin
-    glass window mirror leg foot feet base plinth pull grip rail runner slide slider lid flap tray rack divider partition
-    stile mullion wall plate floor stair stairs bed bedside nightstand bedroom
+    desk table bench unit chest counter bookcase sideboard kitchen fridge freezer oven stove microwave dishwasher sink
+    basin glass window mirror leg foot feet base plinth pull grip rail runner slide slider lid flap tray rack divider
+    partition stile mullion wall plate floor stair stairs bed bedside nightstand bedroom
 """
 
 GERMAN: Final = """
