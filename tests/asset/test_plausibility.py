@@ -84,3 +84,20 @@ def test_a_panel_with_buttons_on_it_stands_still():
     panel, button = part("Panel", *LEAF), part("Button", (0.5, -0.04, 0.5), (0.53, -0.02, 0.53))
     assert labels(part("oven", *CASE), panel, button)["Panel"] is PartLabel.MISC
     assert labels(part("oven", *CASE), panel)["Panel"] is PartLabel.UNKNOWN
+
+
+def test_the_box_of_an_appliance_is_its_body_and_its_panel_is_static():
+    case = part("kitchen", (0, 0, 0), (2, 0.6, 2))
+    oven = part("kitchen_oven_main", (0.1, 0.0, 0.2), (0.7, 0.5, 0.8))
+    panel = part("kitchen_oven_panel", (0.1, -0.02, 0.82), (0.7, 0.0, 0.95))
+    door = part("kitchen_oven_door", (0.1, -0.03, 0.2), (0.7, 0.0, 0.8))
+    found = labels(case, oven, panel, door)
+
+    assert found["kitchen_oven_main"] is BODY
+    assert found["kitchen_oven_panel"] is PartLabel.MISC
+    assert found["kitchen_oven_door"] is PartLabel.DOOR
+
+
+def test_the_plate_of_an_appliance_is_left_open():
+    case = part("kitchen", (0, 0, 0), (2, 0.6, 2))
+    assert labels(case, part("oven", (0.1, -0.03, 0.2), (0.7, 0.0, 0.8)))["oven"] is PartLabel.UNKNOWN

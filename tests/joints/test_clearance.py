@@ -135,6 +135,19 @@ def test_what_lies_enclosed_in_a_drawer_moves_with_it():
     assert "runner" in {v.name for v in result.object.link("drawer").visuals}
 
 
+def test_a_part_of_very_many_faces_is_not_carved():
+    door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
+    lip = box("lip", (0.1, -0.04, 0.55), (0.5, -0.021, 0.6))
+    asset = scene(door, SIDE, lip, joints=(hinged(),))
+    few = RealizationConfig(carved_faces=len(lip.mesh.faces) - 1, max_carve=0.9)
+
+    def carved(config):
+        return [c.part for c in clearances(realized(asset, config)) if c.kind == "carved"]
+
+    assert carved(replace(few, carved_faces=len(lip.mesh.faces))) == ["lip"]
+    assert carved(few) == []
+
+
 @pytest.mark.parametrize(("name", "is_carved"), [("bearing_0", True), ("stud_0", False)])
 def test_a_drawn_bearing_makes_way_where_other_parts_would_lose_too_much(name, is_carved):
     asset = drawer()

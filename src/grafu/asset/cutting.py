@@ -33,7 +33,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> R
     Args:
         reading: what was read.
         frame: how it stands; its unit does not matter.
-        name: that of the model: the front of what is called an oven is a door.
+        name: that of the model: the front of what is called an oven is a door, unless another part is named door.
     """
     if not reading.parts or _is_divided(reading):
         return reading
@@ -44,10 +44,11 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> R
     cuts = divided(meshes, open_to, whole, [_materials(part) for part in reading.parts])
     if not cuts:
         return reading
+    model = "" if any(part.label is PartLabel.DOOR for part in reading.parts) else name
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
     parts = tuple(
-        _freed(_named(_part(part, piece, new), piece, name, T), cut)
+        _freed(_named(_part(part, piece, new), piece, model, T), cut)
         for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())

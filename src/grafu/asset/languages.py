@@ -51,13 +51,9 @@ GERMAN: Final = """
     desk: schreibtisch
     bed: bett
     kitchen: kuche kueche
-    oven: ofen backofen
-    stove: herd
-    fridge: kuhlschrank kuehlschrank kuhlgefrierkombination
-    freezer: gefrierschrank gefrierfach
-    microwave: mikrowelle
-    dishwasher: spulmaschine spuelmaschine geschirrspuler geschirrspueler
-    washer: waschmaschine
+    oven: ofen backofen; stove: herd; fridge: kuhlschrank kuehlschrank kuhlgefrierkombination
+    freezer: gefrierschrank gefrierfach; microwave: mikrowelle
+    dishwasher: spulmaschine spuelmaschine geschirrspuler geschirrspueler; washer: waschmaschine
     sink: spule spuele waschbecken
     mirror: spiegel
     glass: glas scheibe
@@ -96,11 +92,7 @@ FRENCH: Final = """
     desk: bureau
     bed: lit
     kitchen: cuisine
-    oven: four
-    stove: cuisiniere
-    fridge: frigo refrigerateur
-    freezer: congelateur
-    dishwasher: vaisselle
+    oven: four; stove: cuisiniere; fridge: frigo refrigerateur; freezer: congelateur; dishwasher: vaisselle
     sink: evier lavabo
     mirror: miroir
     glass: vitre vitres verre
@@ -126,7 +118,7 @@ SPANISH: Final = """
     hinge: bisagra bisagras
     rail: riel rieles corredera correderas guia
     toe kick: zocalo
-    board: tablero tabla
+    board: tablero tabla; panel: tapa tapas
     side: costado
     frame: marco
     bar: barra barras travesano
@@ -135,13 +127,8 @@ SPANISH: Final = """
     desk: escritorio
     bed: cama
     kitchen: cocina
-    oven: horno
-    stove: estufa
-    fridge: nevera frigorifico refrigerador heladera
-    freezer: congelador
-    microwave: microondas
-    dishwasher: lavavajillas
-    washer: lavadora
+    oven: horno; stove: estufa; fridge: nevera frigorifico refrigerador heladera; freezer: congelador
+    microwave: microondas; dishwasher: lavavajillas; washer: lavadora
     sink: fregadero lavabo
     mirror: espejo
     glass: vidrio cristal
@@ -177,11 +164,7 @@ ITALIAN: Final = """
     desk: scrivania
     bed: letto
     kitchen: cucina
-    oven: forno
-    fridge: frigorifero frigo
-    freezer: congelatore
-    microwave: microonde
-    dishwasher: lavastoviglie
+    oven: forno; fridge: frigorifero frigo; freezer: congelatore; microwave: microonde; dishwasher: lavastoviglie
     washer: lavatrice
     sink: lavello lavandino
     mirror: specchio
@@ -214,8 +197,7 @@ PORTUGUESE: Final = """
     cabinet: movel
     desk: escrivaninha
     kitchen: cozinha
-    stove: fogao
-    fridge: geladeira frigorifico
+    stove: fogao; fridge: geladeira frigorifico
     mirror: espelho
     glass: vidro
     screw: parafuso parafusos
@@ -251,11 +233,7 @@ CHINESE: Final = """
     desk: 书桌 办公桌
     bed: 床
     kitchen: 厨房
-    oven: 烤箱
-    fridge: 冰箱
-    microwave: 微波炉
-    dishwasher: 洗碗机
-    washer: 洗衣机
+    oven: 烤箱; fridge: 冰箱; microwave: 微波炉; dishwasher: 洗碗机; washer: 洗衣机
     sink: 水槽 洗手盆
     mirror: 镜子 镜 鏡
     glass: 玻璃
@@ -289,11 +267,7 @@ JAPANESE: Final = """
     desk: 机 デスク
     table: テーブル
     bed: ベッド
-    oven: オーブン
-    fridge: 冷蔵庫
-    microwave: 電子レンジ
-    dishwasher: 食洗機
-    washer: 洗濯機
+    oven: オーブン; fridge: 冷蔵庫; microwave: 電子レンジ; dishwasher: 食洗機; washer: 洗濯機
     mirror: 鏡
     glass: ガラス
     screw: ネジ ねじ

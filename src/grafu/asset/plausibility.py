@@ -130,8 +130,11 @@ def _of_container(part: Part, scene: _Scene) -> PartLabel:
         return sense.mention
     is_body = bool(np.all(scene.ratios(part.box) >= _BODY)) and scene.held(part.box) > 0
     sides = np.sort(part.box.size)
-    is_case = is_appliance(part.source.name) and sides[0] > _THICK * sides[1] and scene.held(part.box) > 0
-    return BODY if is_body or is_case else PartLabel.UNKNOWN
+    is_case = is_appliance(part.source.name) and sides[0] > _THICK * sides[1]
+    if is_body or is_case:
+        return BODY
+    is_panel = is_appliance(part.source.name) and "panel" in spoken(part.source.name)
+    return PartLabel.MISC if is_panel else PartLabel.UNKNOWN
 
 
 def _is_body(box: Box, scene: _Scene) -> bool:

@@ -231,7 +231,7 @@ class RealizationConfig:
         require_positive(
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
-        require_positive(self, "bare_gap")
+        require_positive(self, "bare_gap", "carved_faces")
         require_ratios(
             self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
         )
