@@ -297,12 +297,15 @@ def test_a_part_out_of_reach_carries_nothing() -> None:
     assert complete(graph, said).completed.hinges[0].parent == "left"
 
 
-def test_sliding_doors_are_refused() -> None:
+def test_doors_that_lap_in_two_planes_slide_past_each_other() -> None:
     front = PartNode("front", PartLabel.DOOR, Box(np.array([0.0, -0.02, 0.0]), np.array([0.55, 0.0, 0.7])))
     behind = PartNode("behind", PartLabel.DOOR, Box(np.array([0.5, 0.01, 0.0]), np.array([1.0, 0.03, 0.7])))
     graph = replace(cupboard("left", "right"), nodes=(*cupboard("left", "right").nodes, front, behind))
 
-    assert {r.part for r in complete(graph, Answers()).refused} == {"front", "behind"}
+    completion = complete(graph, Answers())
+
+    assert completion.refused == ()
+    assert {(slide.child, slide.axis) for slide in completion.completed.slides} == {("front", 1), ("behind", 0)}
 
 
 def test_a_handle_of_nothing_is_decoration() -> None:
