@@ -1,7 +1,7 @@
 import numpy as np
 
+from grafu.asset.loose import with_split_handles
 from grafu.asset.part import Part, PartSource
-from grafu.asset.shared_handles import with_split_handles
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes

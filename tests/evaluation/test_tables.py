@@ -13,9 +13,7 @@ from grafu.evaluation.bootstrap import Figure
 from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.distribution import FEATURE_NAMES
 from grafu.evaluation.figures import over_objects, over_parts
-from grafu.evaluation.masking_table import masking_table
 from grafu.evaluation.methods import Method
-from grafu.evaluation.models_table import models_table
 from grafu.evaluation.motion_table import motion_table
 from grafu.evaluation.output import build_tables, ood_table, output_files
 from grafu.evaluation.records import (
@@ -31,8 +29,8 @@ from grafu.evaluation.records import (
     TruthRecord,
     TwinFacts,
 )
+from grafu.evaluation.result_tables import masking_table, models_table, static_table
 from grafu.evaluation.results import Results, collect
-from grafu.evaluation.static_table import static_table
 from grafu.evaluation.table import FORMS, Column, Table, csv_text, json_text, latex, markdown
 from grafu.evaluation.tasks import (
     TABLES,

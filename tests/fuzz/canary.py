@@ -12,7 +12,7 @@ _NONBLOCK = 0o4000
 _HEADER = struct.calcsize("iIII")
 SUFFIXES = (
     *("", ".obj", ".mtl", ".png", ".jpg", ".bin", ".glb", ".gltf", ".stl", ".ply", ".off", ".json", ".npz", ".npy"),
-    *(".urdf", ".xml", ".dtd", ".dae"),
+    *(".urdf", ".sdf", ".xml", ".dtd", ".dae"),
 )
 
 

@@ -11,8 +11,8 @@ from fuzz.documents import Raw, document_of, json_files, places, replaced, value
 from fuzz.entries import Files, Odd, data_of, plain
 from fuzz.hostile_words import NAMED, hostile_name, hostile_place
 
-_IN_XML = re.compile(rb'(filename=")([^"]*)(")')
-_IN_COLLADA = re.compile(rb"(<init_from>)([^<]*)(<)")
+_IN_XML = re.compile(rb'((?:filename|file|meshdir)=")([^"]*)(")')
+_IN_COLLADA = re.compile(rb"(<(?:init_from|uri)>)([^<]*)(<)")
 _IN_TEXT = re.compile(rb"(?m)^(\s*(?:mtllib|map_\w+|bump|refl)\s+)([^\r\n]*)()")
 _GROUP = re.compile(rb"(?m)^([og] |newmtl |usemtl )([^\r\n]*)()")
 _IN_ROBOT = re.compile(rb'( (?:name|link)=")([^"]*)(")')
@@ -42,11 +42,17 @@ def place_astray(files: Files, rng: Random) -> Files | None:
     def other(named: str) -> str:
         return hostile_place(PurePosixPath(named.replace("\0", "")).suffix, named, rng)
 
-    names = [*plain(files, ".urdf", ".xml", ".dae", ".obj", ".mtl"), *json_files(files)]
+    names = [*plain(files, ".urdf", ".sdf", ".xml", ".dae", ".obj", ".mtl"), *json_files(files)]
     rng.shuffle(names)
     for name in names:
         data = data_of(files, name)
-        pattern = _IN_COLLADA if name.endswith(".dae") else _IN_XML if name.endswith((".urdf", ".xml")) else _IN_TEXT
+        pattern = (
+            _IN_COLLADA
+            if name.endswith((".dae", ".sdf"))
+            else _IN_XML
+            if name.endswith((".urdf", ".xml"))
+            else _IN_TEXT
+        )
         changed = _json_place(data, files, rng, other) if name in json_files({name: data}) else None
         changed = changed or _replaced_match(data, pattern, rng, other)
         if changed is not None:
@@ -107,7 +113,9 @@ def _json_name(data: bytes, feared: str, rng: Random) -> bytes | None:
 def every_name_to_fear(files: Files, rng: Random) -> Files | None:
     """One name, wherever it stands in a document, becomes such a name: references still fit."""
     names = [
-        n for n in plain(files, ".urdf", ".dae", ".obj", ".json", ".glb", ".gltf") if b"\0\0" not in data_of(files, n)
+        n
+        for n in plain(files, ".urdf", ".sdf", ".xml", ".dae", ".obj", ".json", ".glb", ".gltf")
+        if b"\0\0" not in data_of(files, n)
     ]
     if not names:
         return None

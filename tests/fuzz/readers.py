@@ -7,6 +7,8 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+import mujoco  # noqa: F401 when it is imported it looks for GLFW in the folders of the system: once, before any case
+
 from fuzz.case import Arguments, Reader
 from fuzz.starting_files import OTHERS
 from fuzz.starting_models import MODELS

@@ -16,6 +16,7 @@ from collada_documents import collada_text, write_collada
 from draco_scenes import write_draco
 from fuzz.bombs import png_of
 from grafu.geometry.mesh import TriangleMesh
+from robot_models import mjcf_text, sdf_text, write_mjcf, write_sdf
 from small_assets import (
     CABINET,
     Y_UP,
@@ -207,6 +208,32 @@ def urdf(folder: Path) -> str:
     return "cabinet.urdf"
 
 
+def sdf(folder: Path) -> str:
+    looks = (
+        "<material><diffuse>0.6 0.4 0.2 1</diffuse><pbr><metal><albedo_map>model://c/textures/wood.png</albedo_map>"
+        "</metal></pbr></material>"
+    )
+    frame = '<frame name="f" attached_to="base"><pose degrees="true">0 0 0.1 0 0 90</pose></frame>'
+    write_sdf(folder, sdf_text(frame, looks, ("shelf-6", "handle-8")))
+    (folder / "textures").mkdir()
+    (folder / "textures" / "wood.png").write_bytes(PNG)
+    return "model.sdf"
+
+
+def mjcf(folder: Path) -> str:
+    coupled = '<equality><joint joint1="drawer_joint" joint2="door_joint" polycoef="0 0.2 0 0 0"/></equality>'
+    copies = '<replicate count="2" offset="0 0 0.1"><geom name="board" type="box" size="0.3 0.1 0.01"/></replicate>'
+    text = mjcf_text(coupled + '<include file="more.xml"/>', ("shelf-6", "handle-8"), within=copies)
+    text = text.replace('name="oak"', 'name="oak" texture="wood"')
+    write_mjcf(folder, text.replace("<asset>", '<asset><texture name="wood" type="2d" file="textures/wood.png"/>'))
+    (folder / "more.xml").write_text(
+        "<mujocoinclude><worldbody><geom type='sphere' size='0.1'/></worldbody></mujocoinclude>"
+    )
+    (folder / "textures").mkdir()
+    (folder / "textures" / "wood.png").write_bytes(PNG)
+    return "cabinet.xml"
+
+
 def partnet_mobility(folder: Path) -> str:
     write_pnm(folder)
     (folder / "meta.json").write_text(json.dumps({"model_cat": "StorageFurniture", "anno_id": "1"}))
@@ -257,6 +284,8 @@ MODELS: dict[str, Maker] = {
     "usda": usda,
     "usdz": usdz,
     "urdf": urdf,
+    "sdf": sdf,
+    "mjcf": mjcf,
     "partnet-mobility": partnet_mobility,
     "partnet-mobility urdf": partnet_mobility_urdf,
     "hssd": hssd,

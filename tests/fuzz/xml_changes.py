@@ -26,7 +26,7 @@ _ENTITIES = (
 
 def _of_tree(change: Callable[[Any, Random], bool]) -> Callable[[Files, Random], Files | None]:
     def changed(files: Files, rng: Random) -> Files | None:
-        names = plain(files, ".urdf", ".xml", ".dae")
+        names = plain(files, ".urdf", ".sdf", ".xml", ".dae")
         if not names:
             return None
         name = rng.choice(names)
@@ -152,7 +152,7 @@ def comments_within(root: Any, rng: Random) -> bool:
 
 
 def declare_entities(files: Files, rng: Random) -> Files | None:
-    names = plain(files, ".urdf", ".xml", ".dae")
+    names = plain(files, ".urdf", ".sdf", ".xml", ".dae")
     if not names:
         return None
     name = rng.choice(names)

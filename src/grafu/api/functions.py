@@ -42,7 +42,7 @@ def load(
     """Returns the asset at a path: its parts in metres, Z up, front -Y, standing on z = 0.
 
     Args:
-        path: a GLB, glTF, URDF or OBJ file, or a folder of meshes, of PartNet-Mobility or of HSSD.
+        path: a file of a kind that is read (`docs/inputs.md`), or a folder of meshes, of PartNet-Mobility or of HSSD.
         up: the input's axis that points up, such as `+Y`; None: it is detected.
         front: the input's axis that points out of the front; None: it is detected.
         scale: metres per unit of the input; None: as the format states, or estimated.

@@ -13,7 +13,7 @@ import numpy as np
 from grafu.asset.labels import is_appliance, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
-from grafu.asset.part import Frame, Part
+from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.geometry.arrays import Indices, Mat4
@@ -57,7 +57,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> R
 
 def _is_divided(reading: Reading) -> bool:
     by_hand = reading.grouped or reading.kind in ("partnet-mobility", "hssd")
-    return by_hand or (reading.kind == "urdf" and len({part.source.link for part in reading.parts}) > 1)
+    return by_hand or (reading.kind in ROBOTS and len({part.source.link for part in reading.parts}) > 1)
 
 
 def _may_be_cut(part: Part) -> bool:

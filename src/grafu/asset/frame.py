@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.options import DIRECTIONS, LoadOptions
-from grafu.asset.part import Frame, Part
+from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Reading
 from grafu.asset.scale import Estimate, estimate_scale, is_normalised, likely_unit
 from grafu.errors import AssetError
@@ -183,7 +183,7 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     convention = reading.convention
     stated = convention.front if convention.front is not None and convention.front[1] != up[1] else None
     votes = front_votes(reading.parts, whole, up)
-    usual = "+X" if reading.kind == "urdf" and up[1] != "X" else _USUAL_FRONT[up]
+    usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]
     front, why = decide_front(votes, stated, usual)
     reasons = {
         "geometry": "doors, drawers, handles or the back panel face or open there",

@@ -16,8 +16,9 @@ from grafu.asset.folders import files_below
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.gltf import read_gltf
 from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
-from grafu.asset.loose import loose_parts
+from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.mesh_files import MESH_SUFFIXES
+from grafu.asset.mjcf import read_mjcf
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
@@ -26,7 +27,7 @@ from grafu.asset.plausibility import with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.asset.regular_files import read_head
 from grafu.asset.resources import ModelFiles
-from grafu.asset.shared_handles import with_split_handles
+from grafu.asset.sdf import read_sdf
 from grafu.asset.urdf import read_urdf
 from grafu.asset.usd import USD_SUFFIXES, read_usd
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
@@ -38,6 +39,8 @@ READERS: Final[dict[str, Reader]] = {
     "partnet-mobility": read_partnet_mobility,
     "hssd": read_hssd,
     "urdf": read_urdf,
+    "sdf": read_sdf,
+    "mjcf": read_mjcf,
     "gltf": read_gltf,
     "collada": read_collada,
     "usd": read_usd,
@@ -45,10 +48,18 @@ READERS: Final[dict[str, Reader]] = {
     "mesh file": read_mesh,
 }
 # Files of which a folder holds one, by how their names end; the first kind that is there is read.
-_SCENES: Final = {"urdf": (".urdf",), "gltf": (".glb", ".gltf"), "collada": (".dae",), "usd": USD_SUFFIXES}
+_SCENES: Final = {
+    "urdf": (".urdf",),
+    "sdf": (".sdf",),
+    "gltf": (".glb", ".gltf"),
+    "collada": (".dae",),
+    "usd": USD_SUFFIXES,
+    "mjcf": (".xml",),
+}
+_HEAD: Final = 4096  # bytes of a file that tell what it is
 _EXPECTED = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, a GLB, glTF, COLLADA or OpenUSD scene, an OBJ with "
-    "groups, or a folder of meshes"
+    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA or OpenUSD scene, an OBJ "
+    "with groups, or a folder of meshes"
 )
 
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
@@ -136,9 +147,13 @@ def _detect_file(path: Path) -> tuple[str, Path]:
     model = path if is_hssd(path) else model_of_annotation(path)
     if model is not None:
         return "hssd", model
-    head = read_head(path, 4096)
+    head = read_head(path, _HEAD)
     if suffix == ".urdf" or b"<robot" in head:
         return "urdf", path
+    if suffix == ".sdf" or b"<sdf" in head:
+        return "sdf", path
+    if suffix == ".mjcf" or _is_mjcf(head):
+        return "mjcf", path
     if suffix in (".glb", ".gltf") or head[:4] == b"glTF":
         return "gltf", path
     if suffix == ".dae" or b"<COLLADA" in head:
@@ -151,16 +166,15 @@ def _detect_file(path: Path) -> tuple[str, Path]:
     raise UnreadableAsset(f"{path} is not a kind of file that is read: expected {_EXPECTED}{way_in}")
 
 
+def _is_mjcf(head: bytes) -> bool:
+    return b"<mujoco" in head and b"<mujocoinclude" not in head and b"<robot" not in head
+
+
 def _detect_folder(folder: Path) -> tuple[str, Path]:
     if is_partnet_mobility(folder):
         return "partnet-mobility", folder
-    for kind, suffixes in (
-        ("urdf", (".urdf",)),
-        ("gltf", (".glb", ".gltf")),
-        ("collada", (".dae",)),
-        ("usd", USD_SUFFIXES),
-    ):
-        found = files_below(folder, suffixes)
+    for kind, suffixes in _SCENES.items():
+        found = [path for path in files_below(folder, suffixes) if kind != "mjcf" or _is_mjcf(read_head(path, _HEAD))]
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]
         if len(found) > 1:

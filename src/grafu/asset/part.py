@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, final
+from typing import Final, Literal, final
 
 import numpy as np
 
@@ -19,7 +19,11 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.visible import writable
 from grafu.vocabulary import JointType, PartLabel
 
-AssetKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh folder", "mesh file", "release", "made"]
+AssetKind = Literal[
+    "partnet-mobility", "hssd", "urdf", "sdf", "mjcf", "glb", "mesh folder", "mesh file", "release", "made"
+]
+ROBOTS: Final = ("urdf", "sdf", "mjcf")
+"""The kinds that describe links and joints as robots have them."""
 
 
 @final

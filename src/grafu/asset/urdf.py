@@ -93,7 +93,12 @@ def read_bodies(path: Path, files: ModelFiles, mesh_frame: bool = False) -> Urdf
         files: the files of the model.
         mesh_frame: give coordinates of the link with visuals that is nearest to the root instead of the root link's.
     """
-    tree = _read_tree(path, files)
+    return bodies_of_robot(read_xml(path, files), path, files, mesh_frame)
+
+
+def bodies_of_robot(robot: Any, path: Path, files: ModelFiles, mesh_frame: bool = False) -> UrdfBodies:
+    """Returns the bodies of a `<robot>` element that `path` holds; see `read_bodies`."""
+    tree = _read_tree(robot, path, files)
     heads = _heads(tree)
     base = _base_link(tree) if mesh_frame else tree.roots[0]
     T_base_root = invert(tree.T_root_link[base])
@@ -111,8 +116,7 @@ def read_bodies(path: Path, files: ModelFiles, mesh_frame: bool = False) -> Urdf
     return UrdfBodies(bodies, in_order, (*shapes.notes, *_kind_notes(tree)), (x, y, z))
 
 
-def _read_tree(path: Path, files: ModelFiles) -> _Tree:
-    robot = read_xml(path, files)
+def _read_tree(robot: Any, path: Path, files: ModelFiles) -> _Tree:
     if robot.tag != "robot":
         raise UnreadableAsset(
             f"{path} has the root <{robot.tag}>: expected <robot>, a URDF (xacro must be expanded first)"

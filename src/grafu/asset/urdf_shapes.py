@@ -183,6 +183,12 @@ class ShapeReader:
             made = trimesh.creation.cylinder(radius, length, sections=24)
         elif element.tag == "sphere":
             made = trimesh.creation.icosphere(2, self._floats(element.get("radius", ""), 1)[0])
+        elif element.tag == "ellipsoid":
+            made = trimesh.creation.icosphere(2, 1.0)
+            made.apply_scale(self._floats(element.get("radii", ""), 3))
+        elif element.tag == "capsule":
+            radius, length = (self._floats(element.get(k, ""), 1)[0] for k in ("radius", "length"))
+            made = trimesh.creation.capsule(length, radius, count=(12, 24))
         else:
             self.notes.append(f"shape <{element.tag}> is not read and was left out")
             return None

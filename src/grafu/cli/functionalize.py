@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
 
 _DESCRIPTION = """\
-Reads part-segmented furniture (GLB, glTF, URDF, OBJ, a folder of meshes, a PartNet-Mobility or HSSD folder) and
-writes for each input DIR/<name>/ with model.glb (animated), model.urdf with meshes/, graph.json, report.json and
-report.html; of several inputs DIR/index.html shows all, worst first.
+Reads part-segmented furniture (GLB, glTF, USD, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
+PartNet-Mobility or HSSD folder) and writes for each input DIR/<name>/ with model.glb (animated), model.urdf with
+meshes/, graph.json, report.json and report.html; of several inputs DIR/index.html shows all, worst first.
 """
 _EXAMPLES = """\
 examples:

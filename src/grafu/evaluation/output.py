@@ -14,12 +14,10 @@ from scipy.stats import spearmanr
 from grafu.evaluation.bootstrap import RESAMPLES
 from grafu.evaluation.distribution import FEATURE_NAMES, TRAINING_SEED, Distribution
 from grafu.evaluation.figures import by_object
-from grafu.evaluation.masking_table import masking_table
 from grafu.evaluation.methods import FOREIGN
-from grafu.evaluation.models_table import models_table
 from grafu.evaluation.motion_table import motion_table
+from grafu.evaluation.result_tables import masking_table, models_table, static_table
 from grafu.evaluation.results import Results
-from grafu.evaluation.static_table import static_table
 from grafu.evaluation.table import FORMS, Cell, Column, Table, markdown
 from grafu.evaluation.tasks import EvaluationPlan
 from grafu.version import __version__

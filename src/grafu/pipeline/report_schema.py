@@ -38,7 +38,9 @@ class InputRecord(ReportRecord):
 
     name: str = Field(description="the name of the results: the file's stem, or the folder's name")
     path: str = Field(description="the input as it was given")
-    kind: str = Field(description="how it was read: partnet-mobility, hssd, urdf, glb, mesh folder, mesh file")
+    kind: str = Field(
+        description="how it was read: partnet-mobility, hssd, urdf, sdf, mjcf, glb, mesh folder, mesh file"
+    )
     parts: int = Field(description="the number of parts")
     notes: tuple[str, ...] = Field(description="what the reader left out or mended")
 

@@ -1,0 +1,233 @@
+"""Tables of an evaluation beside that of motions: each model, what was statically missing, labels that are hidden."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from statistics import fmean, stdev
+
+from grafu.evaluation.bootstrap import Figure, difference_of, mean_of, ratio_of
+from grafu.evaluation.figures import by_object
+from grafu.evaluation.measures import OPENS
+from grafu.evaluation.motion_table import HANDLES, INTERIORS, MASKING, MODELS, SOURCE, TOPS
+from grafu.evaluation.records import CompletenessRecord
+from grafu.evaluation.results import PartOutcome, Results
+from grafu.evaluation.table import Cell, Column, Table
+
+_EACH_MODEL = (
+    Column("method", "Method"),
+    Column("model", "Model"),
+    Column("category", "Category"),
+    Column("parts", "Parts", "count"),
+    Column("aligned", "Aligned", "count", "more"),
+    Column("reasonable", "Reasonable only", "count"),
+    Column("wrong", "Wrong", "count", "less"),
+    Column("works", "Works + fix", "count", "more"),
+    Column("faults", "What is wrong"),
+)
+_EACH_MODEL_NOTES = (
+    "Wrong: neither the annotation's motion, nor that of another annotation of the same geometry, nor one that passes "
+    "the physical test. `Works` is of what was built.",
+)
+
+
+def models_table(results: Results) -> Table:
+    """Returns a row per method and model; within a method the worst come first."""
+    rows: list[tuple[Cell, ...]] = []
+    for method in results.made:
+        by_model: dict[str, list[PartOutcome]] = {}
+        for outcome in results.outcomes(method):
+            by_model.setdefault(outcome.model, []).append(outcome)
+        rows += sorted((_model_row(method, by_model[model]) for model in sorted(by_model)), key=_badness)
+    return Table("models", "Every model, worst first", _EACH_MODEL, tuple(rows), _EACH_MODEL_NOTES)
+
+
+def _model_row(method: str, outcomes: Sequence[PartOutcome]) -> tuple[Cell, ...]:
+    first = outcomes[0]
+    aligned = sum(o.aligned for o in outcomes)
+    reasonable = sum(o.reasonable for o in outcomes) - aligned
+    works = sum(o.record.fixed is not None and o.record.fixed.works for o in outcomes)
+    counts = len(outcomes), aligned, reasonable, len(outcomes) - aligned - reasonable, works
+    return (method, first.model, first.category, *counts, _faults(outcomes))
+
+
+def _badness(row: tuple[Cell, ...]) -> tuple[float, ...]:
+    """Returns what sorts a row: many wrong parts first, then few that work, then many that are merely reasonable."""
+    parts, _, reasonable, wrong, works = (float(str(cell)) for cell in row[3:8])
+    return -wrong / parts, works / parts, -reasonable / parts
+
+
+def _faults(outcomes: Sequence[PartOutcome]) -> str:
+    if outcomes[0].error:
+        return f"failed: {outcomes[0].error}"
+    said = [f"{o.truth.part}: {told}" for o in outcomes if (told := "; ".join(_faults_of(o)))]
+    return ". ".join(said)
+
+
+def _faults_of(outcome: PartOutcome) -> list[str]:
+    """Returns in words what one part does not do as it should."""
+    fixed = outcome.record.fixed
+    if fixed is None or fixed.found is None:
+        return [f"is static ({outcome.record.skipped or 'no reason is known'})"]
+    told = []
+    if not fixed.aligned:
+        kind = "reasonable" if outcome.reasonable else "wrong"
+        why = f", {outcome.record.objection}" if outcome.record.objection and kind == "wrong" else ""
+        told.append(f"{kind} motion ({fixed.found.type.value} for {outcome.truth.motion.type.value}{why})")
+    if fixed.collision:
+        told.append(f"collides in {fixed.collision:.0%} of the poses")
+    if not fixed.connected:
+        told.append("comes loose")
+    if fixed.aligned and fixed.opening < OPENS:
+        told.append(f"opens to {fixed.opening:.0%}")
+    return told
+
+
+_STATIC = (
+    Column("method", "Method"),
+    Column("measure", "Measure"),
+    Column("of", "Of", "count"),
+    Column("before", "Before", "ratio", "more"),
+    Column("after", "After", "ratio", "more"),
+)
+_STATIC_NOTES = (
+    "Tops: of the models that the coverage test finds open from above, the fraction with a top afterwards.",
+    "Parts that can be grasped: fraction of moving bodies with a handle, a recess or a free edge, found by one "
+    "search before and after; models: those in which every moving body can be grasped.",
+    "Interiors: of the compartments large enough for panels, the fraction that takes a shelf or a divider; models: of "
+    "those with such a compartment, the fraction in which every one does.",
+    "Brackets hold the 95 % interval of a bootstrap over objects.",
+)
+
+
+def static_table(results: Results) -> Table:
+    """Returns five rows per method, and the paper's."""
+    rows = [row for method in results.made for row in _static_rows(method, list(results.completeness(method).values()))]
+    return Table("static", "Static functionalization", _STATIC, (*rows, *_published_static()), _STATIC_NOTES)
+
+
+def _static_rows(method: str, found: list[CompletenessRecord]) -> list[tuple[Cell, ...]]:
+    topless = [record for record in found if record.topless]
+    with_moving = [record for record in found if record.grasps]
+    with_rooms = [record for record in found if record.compartments]
+    moving_bodies = sum(len(record.grasps) for record in found)
+    rooms = sum(record.compartments for record in found)
+    before, after = (_of_bodies(with_moving, name) for name in ("before", "after"))
+    whole = [_mean(_all_grasped(record, name) for record in with_moving) for name in ("before", "after")]
+    filled = ratio_of([float(r.filled) for r in with_rooms], [float(r.compartments) for r in with_rooms])
+    return [
+        (
+            method,
+            "topless models with a top",
+            len(topless),
+            _mean(False for _ in topless),
+            _mean(r.topped for r in topless),
+        ),
+        (method, "parts that can be grasped", moving_bodies, before, after),
+        (method, "models whose every moving body can be grasped", len(with_moving), *whole),
+        (method, "compartments that take panels", rooms, None, filled),
+        (
+            method,
+            "models whose every compartment does",
+            len(with_rooms),
+            None,
+            _mean(r.filled == r.compartments for r in with_rooms),
+        ),
+    ]
+
+
+def _of_bodies(found: list[CompletenessRecord], name: str) -> Figure | None:
+    held = [float(sum(getattr(grasp, name) != "none" for grasp in record.grasps)) for record in found]
+    return ratio_of(held, [float(len(record.grasps)) for record in found])
+
+
+def _all_grasped(record: CompletenessRecord, name: str) -> bool:
+    return all(getattr(grasp, name) != "none" for grasp in record.grasps)
+
+
+def _mean(values: Iterable[bool]) -> Figure | None:
+    return mean_of([float(value) for value in values])
+
+
+def _published_static() -> list[tuple[Cell, ...]]:
+    method = f"GraFu ({SOURCE})"
+    return [
+        (method, "topless models with a top", None, None, TOPS),
+        (method, "models paired with graspable handles", MODELS["PN-M"], None, HANDLES),
+        (method, "models whose compartments are furnished", 268, None, INTERIORS),
+    ]
+
+
+_FIGURES = (
+    Column("aligned_fixed", "GT-aligned", "ratio", "more"),
+    Column("collision_fixed", "Collision", "ratio", "less"),
+    Column("connected_fixed", "Connected", "ratio", "more"),
+    Column("works_fixed", "Works", "ratio", "more"),
+)
+_MASKING = (
+    Column("method", "Method"),
+    Column("rate", "Labels hidden", "ratio"),
+    Column("seeds", "Seeds", "count"),
+    Column("objects", "Objects", "count"),
+    *_FIGURES,
+    Column("aligned_spread", "GT-aligned, deviation of seeds", "ratio"),
+    Column("steady", "Never better than with fewer hidden"),
+)
+_MASKING_NOTES = (
+    "An object's figure is its mean over the seeds; brackets hold the 95 % interval of a bootstrap over objects.",
+    "With all labels hidden there is nothing to draw: one seed stands for all. With none hidden the row is the motion "
+    "table's.",
+    "The last column compares, object by object, with every lower rate: yes where no figure is better by more than its "
+    "95 % interval.",
+)
+
+
+def masking_table(results: Results) -> Table:
+    """Returns a row per method and rate, and the paper's rows."""
+    rows = [row for method in results.masked for row in _masking_rows(method, results)]
+    title = "Motions where labels are hidden at random"
+    return Table("masking", title, _MASKING, (*rows, *_published_masking()), _MASKING_NOTES)
+
+
+def _masking_rows(method: str, results: Results) -> list[tuple[Cell, ...]]:
+    draws: dict[float, list[Sequence[PartOutcome]]] = {}
+    if method in results.made:
+        draws[0.0] = [results.outcomes(method)]
+    for ratio, seed in sorted(results.masked[method]):
+        draws.setdefault(ratio, []).append(results.outcomes_masked(method, (ratio, seed)))
+    seen: list[Mapping[str, Mapping[str, float]]] = []
+    rows: list[tuple[Cell, ...]] = []
+    for ratio, drawn in draws.items():
+        means = {column.name: _over_seeds([by_object(one, column.name) for one in drawn]) for column in _FIGURES}
+        spread = [fmean(one.values()) for one in (by_object(d, "aligned_fixed") for d in drawn) if one]
+        steady = all(_no_better(means, earlier) for earlier in seen)
+        figures = [mean_of(list(means[column.name].values())) for column in _FIGURES]
+        count = len(means["aligned_fixed"])
+        deviation = stdev(spread) if len(spread) > 1 else None
+        rows.append((method, ratio, len(drawn), count, *figures, deviation, steady if seen else None))
+        seen.append(means)
+    return rows
+
+
+def _over_seeds(draws: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Returns each object's mean over the draws in which it has a figure."""
+    models = dict.fromkeys(model for draw in draws for model in draw)
+    return {model: fmean(draw[model] for draw in draws if model in draw) for model in models}
+
+
+def _no_better(later: Mapping[str, Mapping[str, float]], earlier: Mapping[str, Mapping[str, float]]) -> bool:
+    return all(not _better(later[c.name], earlier[c.name], c.better) for c in _FIGURES)
+
+
+def _better(later: Mapping[str, float], earlier: Mapping[str, float], better: str) -> bool:
+    """Whether the later figures are better by more than chance."""
+    both = [model for model in later if model in earlier]
+    change: Figure | None = difference_of([later[m] for m in both], [earlier[m] for m in both])
+    if change is None:
+        return False
+    return change.low > 0 if better == "more" else change.high < 0
+
+
+def _published_masking() -> list[tuple[Cell, ...]]:
+    rows: list[tuple[Cell, ...]] = []
+    for place, (data, models) in enumerate(MODELS.items()):
+        for rate, figures in MASKING.items():
+            rows.append((f"GraFu ({SOURCE}, {data})", rate, 5, models, *figures[place], None, None, None))
+    return rows
