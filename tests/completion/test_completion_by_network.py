@@ -144,8 +144,8 @@ def test_a_mount_agrees_with_the_border() -> None:
     assert (hinge.border, hinge.parent) in {(0, "left"), (0, "right")}
 
 
-@pytest.mark.parametrize(("outward", "sign", "way", "by"), [(0.5, "1", "2", "network and rule"), (0.0, "0", "3", "")])
-def test_scores_are_the_networks_own_whatever_is_chosen(outward: float, sign: str, way: str, by: str) -> None:
+@pytest.mark.parametrize(("outward", "sign", "slide", "by"), [(0.5, "1", "2", "network and rule"), (0.0, "0", "3", "")])
+def test_scores_are_the_networks_own_whatever_is_chosen(outward: float, sign: str, slide: str, by: str) -> None:
     graph, lean = cupboard(), 0.4
     network = replace(told(), hinges={}, slides={}).about(graph)
 
@@ -159,7 +159,7 @@ def test_scores_are_the_networks_own_whatever_is_chosen(outward: float, sign: st
 
     completion = complete_by_network(graph, leaning, FEW, replace(ONCE, outward=outward))
     asked = [completion.decision(*which) for which in (("door", "border"), ("door", "sign"), ("drawer", "slide"))]
-    assert [(d.choice, d.by) for d in asked] == [("1", ""), (sign, by), (way, by)]
+    assert [(d.choice, d.by) for d in asked] == [("1", ""), (sign, by), (slide, by)]
     assert ratios_of(asked[0])["1"] == pytest.approx(ratio_of(lean, 4), abs=1e-6)
     assert ratios_of(asked[1])["0"] == pytest.approx(ratio_of(lean, 2), abs=1e-6)
     assert ratios_of(asked[2])["3"] == pytest.approx(ratio_of(lean, 6), abs=1e-6)

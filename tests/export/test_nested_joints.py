@@ -61,12 +61,12 @@ def test_the_second_leaf_hangs_on_the_first_and_follows_it(folding):
 
 
 def test_the_free_edge_of_a_folding_door_stays_at_the_front(folding):
-    """Leaf 2 turns by twice as much, the other way: its far edge keeps to the plane of the cabinet's front."""
+    """Leaf 2 turns by twice as much, in the opposite direction: its far edge keeps to the plane of the cabinet's front."""
     edge = np.array([0.415, -0.21, 0.4, 1.0])
     upper = joint_of(folding, "leaf_1").upper
-    ways = [link_poses(folding.object, {"leaf_1_joint": v})["leaf_2"] @ edge for v in np.linspace(0, upper, 9)]
-    assert max(abs(way[1] - edge[1]) for way in ways) < 0.05
-    assert ways[-1][0] < -0.2  # folded to the hinge side
+    ends = [link_poses(folding.object, {"leaf_1_joint": v})["leaf_2"] @ edge for v in np.linspace(0, upper, 9)]
+    assert max(abs(end[1] - edge[1]) for end in ends) < 0.05
+    assert ends[-1][0] < -0.2  # folded to the hinge side
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.1, 0.35, 0.7, 1.0])

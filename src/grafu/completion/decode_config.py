@@ -55,7 +55,7 @@ class DecodeConfig:
     """The rail on a drawer's other flank is taken from this probability on."""
 
     outward: float = 0.5
-    """Power of a rule's view of where a door's front is, and a drawer's way out, in the choice of which way they open;
+    """Power of a rule's score of where the front of a door or drawer is, in the choice of its direction of opening;
     the reported scores stay the network's. 0 leaves it out."""
 
     edge_for_label: float = 0.2

@@ -1,6 +1,6 @@
 """How a drawer runs: the direction it opens in and the parts that its rails are on (the rule-based baseline, on boxes).
 
-A drawer opens towards its handle, away from what stands in its way, towards the nearer outer face of the body. It runs
+A drawer opens towards its handle, away from what blocks it, towards the nearer outer face of the body. It runs
 between two flanks where there are two, else on whatever is near.
 """
 
@@ -25,13 +25,13 @@ def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer with the confidence of each choice, or why it gets none."""
     if not scene.supports:
         return Refusal(drawer.id, Reason.NO_MOTION, "there is no static part to run it on: label the static parts")
-    way = vote_direction(drawer, scene)
-    mounts = _flanks(drawer, way.choice, scene) or _nearest(drawer, scene)
+    direction = vote_direction(drawer, scene)
+    mounts = _flanks(drawer, direction.choice, scene) or _nearest(drawer, scene)
     if not mounts:
         return Refusal(drawer.id, Reason.NO_MOTION, "no static part is near enough to carry a rail")
-    rails = tuple(Rail(mount.choice, drawer.id, way.choice) for mount in mounts)
+    rails = tuple(Rail(mount.choice, drawer.id, direction.choice) for mount in mounts)
     decisions = (decision_of(drawer.id, "mount", mount) for mount in mounts)
-    return rails, (decision_of(drawer.id, "slide", way), *decisions)
+    return rails, (decision_of(drawer.id, "slide", direction), *decisions)
 
 
 def vote_direction(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
@@ -39,32 +39,32 @@ def vote_direction(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     votes: Votes[SignedAxis] = Votes(_DIRECTIONS)
     votes.add(2, 0.6)
     for handle in scene.handles_of(drawer):
-        for way in _DIRECTIONS:
-            votes.add(way, 5.0 * _sits_on(handle.box, drawer.box, way))
+        for direction in _DIRECTIONS:
+            votes.add(direction, 5.0 * _sits_on(handle.box, drawer.box, direction))
     blocked = _blocked_ratios(drawer, scene)
-    for way in _DIRECTIONS:
-        inside = max(_depth_inside(drawer.box, scene.body, way) / scene.extent, 0.0)
-        votes.add(way, 1.5 * float(np.exp(-inside / 0.05)))
-        votes.add(way, -4.0 * blocked[way])
+    for direction in _DIRECTIONS:
+        inside = max(_depth_inside(drawer.box, scene.body, direction) / scene.extent, 0.0)
+        votes.add(direction, 1.5 * float(np.exp(-inside / 0.05)))
+        votes.add(direction, -4.0 * blocked[direction])
     return votes.ranking()
 
 
-def _sits_on(handle: Box, drawer: Box, way: SignedAxis) -> bool:
+def _sits_on(handle: Box, drawer: Box, direction: SignedAxis) -> bool:
     """Whether the handle's middle lies in front of a face of the drawer, or within a handle's size behind it."""
-    axis, sense = way // 2, float(code_to_direction(way)[way // 2])
-    ahead = sense * float(handle.center[axis] - drawer.face_center(way)[axis])
+    axis, sense = direction // 2, float(code_to_direction(direction)[direction // 2])
+    ahead = sense * float(handle.center[axis] - drawer.face_center(direction)[axis])
     others = [a for a in range(3) if a != axis]
     in_front = all(drawer.low[a] <= handle.center[a] <= drawer.high[a] for a in others)
     return in_front and ahead > -float(handle.size[axis])
 
 
-def _depth_inside(box: Box, body: Box, way: SignedAxis) -> float:
+def _depth_inside(box: Box, body: Box, direction: SignedAxis) -> float:
     """Returns how far behind the body's face a box's face lies, metres; negative where it stands out."""
-    return float((body.face_center(way) - box.face_center(way)) @ code_to_direction(way))
+    return float((body.face_center(direction) - box.face_center(direction)) @ code_to_direction(direction))
 
 
 def _blocked_ratios(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, float]:
-    """Returns for each way the fraction of the drawer's section that parts cover on its way out, 0..1.
+    """Returns for each direction the fraction of the drawer's section that parts in its path cover, 0..1.
 
     A part that lies within the drawer's box close to its face counts half: it may be the panel that an overlaid front
     covers. Face frames leave the drawer its opening.
@@ -72,18 +72,18 @@ def _blocked_ratios(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, floa
     ratios = scene.blocker_boxes.overlap_ratios(drawer.box)
     places = scene.blocker_boxes.offset_ratios(drawer.box)
     found: dict[SignedAxis, float] = {}
-    for way in _DIRECTIONS:
-        place = places[:, way // 2] * code_to_direction(way)[way // 2]
+    for direction in _DIRECTIONS:
+        place = places[:, direction // 2] * code_to_direction(direction)[direction // 2]
         weight = np.where(place > 1.0, 1.0, np.where(place > 0.8, 0.5, 0.0))
-        section = np.delete(ratios, way // 2, axis=1).prod(axis=1)
-        found[way] = min(float((weight * section).sum()), 1.0)
+        section = np.delete(ratios, direction // 2, axis=1).prod(axis=1)
+        found[direction] = min(float((weight * section).sum()), 1.0)
     return found
 
 
-def _flanks(drawer: PartNode, way: SignedAxis, scene: RuleScene) -> list[Ranking[str]]:
+def _flanks(drawer: PartNode, direction: SignedAxis, scene: RuleScene) -> list[Ranking[str]]:
     """Returns the best carrier on each side of the drawer; one part around both sides comes once."""
-    across = 1 - way // 2
-    sides = (_best_flank(drawer, signed_axis(across, high), way // 2, scene) for high in (False, True))
+    across = 1 - direction // 2
+    sides = (_best_flank(drawer, signed_axis(across, high), direction // 2, scene) for high in (False, True))
     return list({side.choice: side for side in sides if side is not None}.values())
 
 

@@ -44,10 +44,10 @@ _SLAB = 0.08  # a lower box without a handle may be a thick panel
 @final
 @dataclass(frozen=True, slots=True)
 class _FrontGuess:
-    """An unlabelled part that may open towards `way`."""
+    """An unlabelled part that may open in `direction`."""
 
     node: PartNode
-    way: SignedAxis
+    direction: SignedAxis
     label: PartLabel
 
 
@@ -64,7 +64,7 @@ def guess_labels(graph: FunctionalGraph) -> tuple[dict[str, PartLabel], tuple[De
         found |= {h.id: (PartLabel.HANDLE, _WITH_HANDLE) for h in own if h.label is PartLabel.UNKNOWN}
         if own:
             found[front.node.id] = (_label_with_handles(front, own), _WITH_HANDLE)
-        elif _mostly_unknown(graph) and front.way == 2 and front.node.id not in found and _closes(front, graph):
+        elif _mostly_unknown(graph) and front.direction == 2 and front.node.id not in found and _closes(front, graph):
             found[front.node.id] = (front.label, _WITHOUT)
     named = {part: label for part, (label, _) in found.items()}
     decisions = (
@@ -76,7 +76,7 @@ def guess_labels(graph: FunctionalGraph) -> tuple[dict[str, PartLabel], tuple[De
 
 def _label_with_handles(front: _FrontGuess, handles: list[PartNode]) -> PartLabel:
     """Returns the front's label: a wide plate with its handle in the very middle is the front of a drawer."""
-    box, across = front.node.box, 1 - front.way // 2
+    box, across = front.node.box, 1 - front.direction // 2
     middle = np.mean([h.box.center for h in handles], axis=0)
     centred = abs(offset_ratio(box, middle, across)) < 0.15 and abs(offset_ratio(box, middle, 2)) < 0.3
     wide = float(box.size[across]) >= 1.2 * float(box.size[2])
@@ -92,16 +92,16 @@ def _extent(graph: FunctionalGraph) -> float:
 
 
 def _fronts_of(node: PartNode, graph: FunctionalGraph) -> list[_FrontGuess]:
-    """Returns the ways that a part may open, by its shape and by how near to the outside it lies."""
+    """Returns the directions in which a part may open, by its shape and by how near to the outside it lies."""
     size, found = node.box.size / _extent(graph), []
-    for way in _FRONTS:
-        depth, across = float(size[way // 2]), float(size[1 - way // 2])
-        if _behind_outside(node.box, way, graph) > _SKIN or (node.box.thin_axis == 2 and depth < _LEAST_DEPTH):
+    for direction in _FRONTS:
+        depth, across = float(size[direction // 2]), float(size[1 - direction // 2])
+        if _behind_outside(node.box, direction, graph) > _SKIN or (node.box.thin_axis == 2 and depth < _LEAST_DEPTH):
             continue
         if depth <= _PLATE and min(across, size[2]) >= max(_LEAST_SIDE, 2.5 * depth):
-            found += [_FrontGuess(node, way, PartLabel.DOOR)] if not _is_frame(node, way, graph) else []
+            found += [_FrontGuess(node, direction, PartLabel.DOOR)] if not _is_frame(node, direction, graph) else []
         elif depth >= _LEAST_DEPTH and across >= _LEAST_SIDE and 0.03 <= size[2] <= 0.55 and not _is_case(node, graph):
-            found.append(_FrontGuess(node, way, PartLabel.DRAWER))
+            found.append(_FrontGuess(node, direction, PartLabel.DRAWER))
     return found
 
 
@@ -113,32 +113,32 @@ def _is_case(node: PartNode, graph: FunctionalGraph) -> bool:
     return held or bool(ratio[0] * ratio[1] > 0.85 and (ratio[2] > 0.6 or node.box.size[2] < _SLAB * _extent(graph)))
 
 
-def _is_frame(node: PartNode, way: SignedAxis, graph: FunctionalGraph) -> bool:
+def _is_frame(node: PartNode, direction: SignedAxis, graph: FunctionalGraph) -> bool:
     """Whether an upright plate has another plate in it: a face frame, a fixed front with a hole."""
-    others = [a for a in range(3) if a != way // 2]
+    others = [a for a in range(3) if a != direction // 2]
     extent, least = _extent(graph), _LEAST_SIDE * _extent(graph)
     return any(
         n.id != node.id
         and min(float(n.box.size[a]) for a in others) > least
         and all(overlap_ratio(n.box, node.box, a) > 0.99 and n.box.size[a] < 0.97 * node.box.size[a] for a in others)
-        and float(n.box.axis_gaps(node.box)[way // 2]) <= _TOUCH * extent
-        and float(n.box.size[way // 2]) <= _PLATE * extent
+        and float(n.box.axis_gaps(node.box)[direction // 2]) <= _TOUCH * extent
+        and float(n.box.size[direction // 2]) <= _PLATE * extent
         for n in graph.nodes
     )
 
 
 def _is_flanked(front: _FrontGuess, graph: FunctionalGraph) -> bool:
     """Whether something stands beside each flank of a box, along most of its height and depth."""
-    box, across = front.node.box, 1 - front.way // 2
+    box, across = front.node.box, 1 - front.direction // 2
     others = (n.box for n in graph.nodes if n.id != front.node.id)
-    beside = [b for b in others if all(overlap_ratio(box, b, a) > 0.5 for a in (2, front.way // 2))]
+    beside = [b for b in others if all(overlap_ratio(box, b, a) > 0.5 for a in (2, front.direction // 2))]
     sides = {bool(b.center[across] > box.center[across]) for b in beside}
     return len(sides) == 2
 
 
-def _behind_outside(box: Box, way: SignedAxis, graph: FunctionalGraph) -> float:
-    outward = code_to_direction(way)
-    return float((graph.box.face_center(way) - box.face_center(way)) @ outward) / _extent(graph)
+def _behind_outside(box: Box, direction: SignedAxis, graph: FunctionalGraph) -> float:
+    outward = code_to_direction(direction)
+    return float((graph.box.face_center(direction) - box.face_center(direction)) @ outward) / _extent(graph)
 
 
 def _handles(unknown: tuple[PartNode, ...], graph: FunctionalGraph) -> tuple[PartNode, ...]:
@@ -151,13 +151,13 @@ def _handles(unknown: tuple[PartNode, ...], graph: FunctionalGraph) -> tuple[Par
 
 def _sits_in_front(handle: Box, front: _FrontGuess, graph: FunctionalGraph) -> bool:
     """Whether a box stands out from a front, within its outline: as wide as the front it would be a batten."""
-    box, way, extent = front.node.box, front.way, _extent(graph)
-    axis, outward = way // 2, code_to_direction(way)
+    box, direction, extent = front.node.box, front.direction, _extent(graph)
+    axis, outward = direction // 2, code_to_direction(direction)
     others = [a for a in range(3) if a != axis]
-    out = float((handle.face_center(way) - box.face_center(way)) @ outward)
-    away = float((handle.face_center(opposite(way)) - box.face_center(way)) @ outward)
+    out = float((handle.face_center(direction) - box.face_center(direction)) @ outward)
+    away = float((handle.face_center(opposite(direction)) - box.face_center(direction)) @ outward)
     inside = all(overlap_ratio(handle, box, a) > 0.95 for a in others)
-    widest = 0.9 if way == 2 else 0.6  # on the sides and the back, posts and battens are more common than handles
+    widest = 0.9 if direction == 2 else 0.6  # on the sides and the back, posts and battens are more common than handles
     smaller = all(handle.size[a] < widest * box.size[a] for a in others)
     return inside and smaller and out > 0 and away <= _TOUCH * extent
 
@@ -165,7 +165,7 @@ def _sits_in_front(handle: Box, front: _FrontGuess, graph: FunctionalGraph) -> b
 def _closes(front: _FrontGuess, graph: FunctionalGraph) -> bool:
     """Whether a front without a handle looks like one that opens: upright, not a plinth, nothing before it."""
     size = front.node.box.size
-    across, height = float(size[1 - front.way // 2]), float(size[2])
+    across, height = float(size[1 - front.direction // 2]), float(size[2])
     if front.label is PartLabel.DOOR and (across > 4 * height or height > 12 * across):
         return False
     if front.label is PartLabel.DRAWER and (height < _SLAB * _extent(graph) or not _is_flanked(front, graph)):
@@ -174,8 +174,8 @@ def _closes(front: _FrontGuess, graph: FunctionalGraph) -> bool:
 
 
 def _covers(node: PartNode, front: _FrontGuess) -> bool:
-    axis, outward = front.way // 2, code_to_direction(front.way)
-    ahead = float((node.box.center - front.node.box.face_center(front.way)) @ outward) > 0
+    axis, outward = front.direction // 2, code_to_direction(front.direction)
+    ahead = float((node.box.center - front.node.box.face_center(front.direction)) @ outward) > 0
     others = [a for a in range(3) if a != axis]
     return ahead and float(np.prod([overlap_ratio(front.node.box, node.box, a) for a in others])) > 0.3
 

@@ -39,8 +39,8 @@ def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleS
     return motion * np.array([[front[opening_face(thin, border, sign)] for sign in SIGNS] for border in BORDERS])
 
 
-def leaned_way(drawer: PartNode, ratios: Scalars, power: float, scene: RuleScene) -> Scalars:
-    """Returns what the network states about the signed axes along which a drawer opens (6), weighed by the way out."""
+def leaned_direction(drawer: PartNode, ratios: Scalars, power: float, scene: RuleScene) -> Scalars:
+    """Returns what the network states about a drawer's signed axis of opening (6), weighed by the rule's vote."""
     return ratios * _opinion(vote_direction(drawer, scene), power)
 
 
@@ -132,7 +132,7 @@ def choose_rails(drawer: PartNode, view: View, scene: RuleScene) -> MotionAnswer
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
         return Refusal(drawer.id, Reason.NO_MOTION, why) if answer is None else answer
     ratios = railed @ view.probabilities.slide[slot, slots]
-    slide = chosen_of(SIGNED_AXES, ratios, leaned_way(drawer, ratios, view.config.outward, scene))
+    slide = chosen_of(SIGNED_AXES, ratios, leaned_direction(drawer, ratios, view.config.outward, scene))
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (

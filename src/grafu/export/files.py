@@ -33,7 +33,7 @@ def not_coupled(articulated: ArticulatedObject, file: str) -> tuple[str, ...]:
 class ExportFiles:
     """Relative names (with `/`) and the bytes of each file; `formats` states which files a format consists of.
 
-    `notes` state what was written in a simpler way or left out: because there was no time for more, or because the
+    `notes` state what was written in a simpler form or left out: because there was no time for more, or because the
     format cannot say it.
 
     Raises:
@@ -178,7 +178,7 @@ def _raised(error: OSError) -> None:
 
 
 def _require_room(kept: Iterable[str], files: ExportFiles, folder: Path) -> None:
-    """Refuses to replace what is not ours: where it stands, or stands in the way, nothing is written."""
+    """Refuses to replace what is not ours: where it has a name that we need, of a file or a folder, nothing is written."""
     places = {same_place(name) for name in (*files.names, MARKER)}
     above = {str(parent) for place in places for parent in PurePosixPath(place).parents}
     for name in kept:

@@ -1,4 +1,4 @@
-"""The one way to names of results' folders and of files within: names that every system can hold, or a refusal.
+"""Names of results' folders and of the files within: names that every system can hold, or a refusal.
 
 A name that Windows cannot hold is refused on every system: results are passed on. One that is longer than most tools
 and disks bear, or no Unicode, is mended, and ends in `~` and eight digits of its digest: two such names stay apart.
@@ -22,7 +22,7 @@ from grafu.visible import visible
 def why_not_apart(result: Path, inputs: Iterable[Path]) -> str:
     """Returns why results cannot go to a folder, in a line; empty where it neither is nor holds one of the inputs.
 
-    Places are compared as the disk knows them: links, the case of letters and other ways to the same place count.
+    Places are compared as the disk knows them: links, the case of letters and other paths to the same place count.
     A result inside an input's folder is fine: readers pass it over.
     """
     for given in inputs:

@@ -27,7 +27,7 @@ class ParticulateConfig(ArrayValue):
     """`T_file_object` maps the object frame to the coordinates of `pred.obj`; `up_dir` counts in these.
 
     Raises:
-        ExportError: if the way is a mirror image, or the direction none.
+        ExportError: if `T_file_object` is a mirror image, or `up_dir` no direction.
     """
 
     up_dir: Direction = "Z"
@@ -36,7 +36,9 @@ class ParticulateConfig(ArrayValue):
     def __post_init__(self) -> None:
         object.__setattr__(self, "T_file_object", frozen_array(self.T_file_object))
         if self.up_dir not in UP_ROTATIONS or is_mirror(np.asarray(self.T_file_object)):
-            raise ExportError(f"`up_dir` must be one of {', '.join(UP_ROTATIONS)}, the way no mirror image: got {self}")
+            raise ExportError(
+                f"`up_dir` must be one of {', '.join(UP_ROTATIONS)}, and `T_file_object` no mirror image: got {self}"
+            )
 
 
 DEFAULT_PARTICULATE_CONFIG: Final = ParticulateConfig()

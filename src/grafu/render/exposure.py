@@ -167,7 +167,7 @@ class Exposure:
         return grid.reshape(self.size[1], self.size[0], *values.shape[1:])
 
     def _smoothed(self, values: np.ndarray, hits: Hits) -> np.ndarray:
-        """Returns the mean over the 4x4 samples around each, of those on the same visual that face the same way."""
+        """Returns the mean over the 4x4 samples around each, of those of one visual and one direction."""
         facing = np.argmax(np.abs(hits.flat_normal), axis=1) * 2 + (hits.flat_normal.sum(axis=1) > 0)
         surface = self._grid(hits.ray, hits.visual * 8 + facing, -1)
         grid = self._grid(hits.ray, values, 0.0)

@@ -26,7 +26,7 @@ Places = Float[np.ndarray, "n 2"]
 _OBLIQUE = np.array([0.22, -0.30])  # how far depth shifts a node right and up, so that front and back stay apart
 _STEPS = 250
 _MOST_PUSHED = 500  # nodes: more find no room beside each other anyway, and all pairs of them would take minutes
-_PULL = 0.04  # fraction of the way home that a node is drawn back in each step
+_PULL = 0.04  # fraction of the distance to its place that a node is drawn back in each step
 
 
 def node_places(graph: FunctionalGraph, size: tuple[int, int], margin: float, apart: float) -> Places:

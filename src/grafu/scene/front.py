@@ -1,8 +1,8 @@
 """The front of a door, flap, lid or drawer: the face that a person who opens it looks at. It casts no rays.
 
-Front coordinates, metres: u to the right, b inwards (against the way that it opens), v up, right-handed, so that a
-front that faces -Y has the object frame's axes. Lids face up: there, v points to the back. The origin is the lower left
-corner of the box around the moving body in these axes, on its foremost plane.
+Front coordinates, metres: u to the right, b inwards (against the direction in which it opens), v up, right-handed, so
+that a front that faces -Y has the object frame's axes. Lids face up: there, v points to the back. The origin is the
+lower left corner of the box around the moving body in these axes, on its foremost plane.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ OPPOSITE: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom",
 
 _TILTED = np.radians(3.0)  # below, a front counts as upright: bowed and bevelled ones are seldom exact
 _PANEL = 0.25  # of its length across: a tilted front is thinner than this seen along its own face
-_SLIDES = 0.12  # of its length along its path: a part that is thinner, square to its way, slides sideways as a panel
+_SLIDES = 0.12  # of its length along its path: a part that is thinner, square to its path, slides sideways as a panel
 _LYING = 0.7  # cosine: a face that looks up or down more than this has no up of its own
 
 
@@ -128,7 +128,7 @@ def _sliding(mesh: TriangleMesh, leaf: TriangleMesh, joint_motion: JointMotion, 
     axes, direction = part_axes(leaf), joint_motion.axis.direction
     size = np.ptp(leaf.vertices @ axes, axis=0)
     along = int(np.argmax(np.abs(axes.T @ direction)))
-    thin = min(range(2), key=lambda k: float(size[k]))  # an upright panel: level trays slide the way they lie
+    thin = min(range(2), key=lambda k: float(size[k]))  # an upright panel: level trays slide as they lie
     out = direction
     if along not in (thin, 2) and size[thin] < min(_SLIDES * size[along], _SLIDES * size[2]):
         still = np.mean([p.box.center for p in scene.static_parts], axis=0) if scene.static_parts else leaf.box.center

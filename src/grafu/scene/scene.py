@@ -140,7 +140,7 @@ class Scene:
         return self._merged[key][1]
 
     def path_box(self, moving_id: str, mesh: TriangleMesh, joint_motion: JointMotion, find: Callable[[], Box]) -> Box:
-        """Returns the box around a mesh's whole path, which `find` works out: once, as long as mesh and way stay."""
+        """Returns the box around a mesh's whole path, which `find` works out: once, as long as mesh and motion stay."""
         known = self._path_boxes.get(moving_id)
         if known is None or known[0] is not mesh or known[1] is not joint_motion:
             known = self._path_boxes[moving_id] = (mesh, joint_motion, find())

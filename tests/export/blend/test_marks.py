@@ -46,13 +46,13 @@ def test_a_doors_axis_stands_out_above_and_below_it(width, high):
     assert axis[0, 2] < -high / 2 < high / 2 < axis[1, 2]
 
 
-@given(long=SIZES, way=st.floats(0.01, 2.0), ratio=st.floats(0.0, 1.0))
-def test_a_drawers_arrow_goes_from_its_front_as_far_as_it_slides(long, way, ratio):
+@given(long=SIZES, travel=st.floats(0.01, 2.0), ratio=st.floats(0.0, 1.0))
+def test_a_drawers_arrow_goes_from_its_front_as_far_as_it_slides(long, travel, ratio):
     box = Box(np.array([-0.2, 0.1, -long]), np.array([0.2, 0.3, 0.0]))
-    marks = motion_marks(JointType.PRISMATIC, JointLimits(0.0, way), ratio * way, box)
-    assert marks.range[0] == pytest.approx(np.array([[0.0, 0.2, 0.0], [0.0, 0.2, way]]))
-    assert (marks.range[1:, 1, 2] < way).all()
-    assert marks.now[..., 2] == pytest.approx(ratio * way)
+    marks = motion_marks(JointType.PRISMATIC, JointLimits(0.0, travel), ratio * travel, box)
+    assert marks.range[0] == pytest.approx(np.array([[0.0, 0.2, 0.0], [0.0, 0.2, travel]]))
+    assert (marks.range[1:, 1, 2] < travel).all()
+    assert marks.now[..., 2] == pytest.approx(ratio * travel)
 
 
 def test_what_turns_about_its_own_middle_has_an_arc_within_it():

@@ -169,14 +169,14 @@ def test_the_validators_of_openusd_find_nothing(made):
 def test_limits_are_degrees_or_metres_and_drives_only_damp(stage, cabinet):
     hinge = UsdPhysics.RevoluteJoint(stage.GetPrimAtPath("/cabinet/joints/door_1_hinge"))
     rail = UsdPhysics.PrismaticJoint(stage.GetPrimAtPath("/cabinet/joints/drawer_1_rail"))
-    for joint, way, factor in ((hinge, "angular", np.pi / 180), (rail, "linear", 1.0)):
+    for joint, instance, factor in ((hinge, "angular", np.pi / 180), (rail, "linear", 1.0)):
         own = next(j for j in cabinet.joints if j.id == joint.GetPrim().GetName())
-        dynamics, drive = physics_of(cabinet).dynamics[own.id], UsdPhysics.DriveAPI(joint.GetPrim(), way)
+        dynamics, drive = physics_of(cabinet).dynamics[own.id], UsdPhysics.DriveAPI(joint.GetPrim(), instance)
         limits = [joint.GetLowerLimitAttr().Get() * factor, joint.GetUpperLimitAttr().Get() * factor]
         assert np.allclose(limits, [own.limits.lower, own.limits.upper], rtol=1e-6)
         assert drive.GetDampingAttr().Get() == pytest.approx(dynamics.damping * factor)
         assert (drive.GetStiffnessAttr().Get(), drive.GetMaxForceAttr().Get()) == (0.0, pytest.approx(dynamics.effort))
-        friction = joint.GetPrim().GetAttribute(f"physxJointAxis:{way}:staticFrictionEffort").Get()
+        friction = joint.GetPrim().GetAttribute(f"physxJointAxis:{instance}:staticFrictionEffort").Get()
         assert friction == pytest.approx(dynamics.friction)
     assert [str(p) for p in rail.GetPrim().GetRelationship("grafu:after").GetTargets()] == [str(hinge.GetPath())]
 

@@ -53,7 +53,7 @@ def test_cuts_name_still_parts_or_drawers() -> None:
     moving_bodies = {joint.part for joint in TIDY.joints}
     for _ in range(200):
         for cut in draw_cuts(rng, TIDY, TIDY.parts, 1.0):
-            assert cut.part in (moving_bodies if cut.way == "box apart" else STILL)
+            assert cut.part in (moving_bodies if cut.kind == "box apart" else STILL)
             assert 2 <= cut.count <= 5
 
 

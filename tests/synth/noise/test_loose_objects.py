@@ -1,4 +1,4 @@
-"""What stands and is screwed on besides: of each kind something is found, and nothing is in the way."""
+"""What stands and is screwed on besides: of each kind something is found, and nothing blocks a path."""
 
 import numpy as np
 import pytest

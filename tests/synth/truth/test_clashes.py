@@ -1,4 +1,4 @@
-"""Sweeps of single joints: thin things in the way, solids within solids, meshes that are no boxes, open neighbours."""
+"""Sweeps of single joints: thin things in the path, solids within solids, meshes that are no boxes, open neighbours."""
 
 import gc
 from dataclasses import replace

@@ -50,7 +50,7 @@ def describe_joint(empty: Empty, joint: Joint) -> None:
 def couple_joint(empty: Empty, leader: Empty, coupling: Coupling) -> None:
     """Lets the empty of a coupled joint follow its leader's, its limits too: both go through their ranges in step.
 
-    One that closes as its leader opens (a negative multiplier) goes the other way.
+    One that closes as its leader opens (a negative multiplier) turns in the opposite direction.
     """
     empty[LEADER], empty[MULTIPLIER], empty[OFFSET] = coupling.leader, coupling.multiplier, coupling.offset
     at_limits = ", ".join(f"{name}_value * {coupling.multiplier!r} + {coupling.offset!r}" for name in (LOWER, UPPER))

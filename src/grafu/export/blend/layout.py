@@ -52,7 +52,7 @@ Key = tuple[float, float]
 def cycle_keys(articulated: ArticulatedObject) -> dict[str, tuple[Key, ...]]:
     """Returns for each joint that moves by itself its keys: frames and fractions of its opening, closed 0, open 1.
 
-    Joints of one stage open together, each stage while all before it are wide open; the way back is the mirror image.
+    Joints of one stage open together, each stage while all before it are wide open; closing is the mirror image.
 
     Raises:
         ArticulationError: if joints wait for one another.
@@ -70,5 +70,5 @@ def cycle_keys(articulated: ArticulatedObject) -> dict[str, tuple[Key, ...]]:
 def _there_and_back(start: float, end: float) -> tuple[Key, ...]:
     """Returns the keys of a joint that starts to open at one frame and is open at another, without repeated frames."""
     last = FIRST_FRAME + LAST_FRAME
-    way = [(FIRST_FRAME, 0.0), (start, 0.0), (end, 1.0), (last - end, 1.0), (last - start, 0.0), (LAST_FRAME, 0.0)]
-    return tuple(sorted({float(frame): ratio for frame, ratio in way}.items()))
+    keys = [(FIRST_FRAME, 0.0), (start, 0.0), (end, 1.0), (last - end, 1.0), (last - start, 0.0), (LAST_FRAME, 0.0)]
+    return tuple(sorted({float(frame): ratio for frame, ratio in keys}.items()))

@@ -17,8 +17,8 @@ from grafu.vocabulary import JointType
 
 _STEP = np.pi / 36.0  # of an arc: 5 degrees, straight to the eye at any size
 _BEYOND = 0.08  # of the part's side, by which the axis stands out
-_HEAD = 0.12  # of the radius or the way: the arrow's head
-_RADIUS = 1.2  # of the way from the axis to the part's middle: over the door, within its free edge
+_HEAD = 0.12  # of the radius or the travel: the arrow's head
+_RADIUS = 1.2  # of the distance from the axis to the part's middle: over the door, within its free edge
 
 
 @final
@@ -70,10 +70,10 @@ def _turn(limits: JointLimits, value: float, box: Box) -> MotionMarks:
 
 def _slide(limits: JointLimits, value: float, box: Box) -> MotionMarks:
     x, y, _ = box.center
-    front, way = box.high[2], limits.range
+    front, travel = box.high[2], limits.range
     ends = [np.array([x, y, front + limits.lower]), np.array([x, y, front + limits.upper])]
-    width = _HEAD * way / 2
-    head = [[ends[1], ends[1] + np.array([side * width, 0.0, -_HEAD * way])] for side in (-1.0, 1.0)]
+    width = _HEAD * travel / 2
+    head = [[ends[1], ends[1] + np.array([side * width, 0.0, -_HEAD * travel])] for side in (-1.0, 1.0)]
     half = 0.1 * float(np.max(box.size[:2]))
     now = np.array([[[x - half, y, front + value], [x + half, y, front + value]]])
     return MotionMarks(_axis(box, x, y), np.array([ends, *head]), now)

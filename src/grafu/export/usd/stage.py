@@ -155,8 +155,8 @@ class _StageBuilder:
 
     def _add_resistance(self, prim: Usd.Prim, dynamics: JointDynamics, kind: MotionKind) -> None:
         """Adds a drive that only damps, and what PhysX knows beside it; with stiffness it becomes a servo."""
-        way = kind.word("usd drive")
-        drive = UsdPhysics.DriveAPI.Apply(prim, way)
+        instance = kind.word("usd drive")
+        drive = UsdPhysics.DriveAPI.Apply(prim, instance)
         drive.CreateTypeAttr(UsdPhysics.Tokens.force)
         drive.CreateStiffnessAttr(0.0)
         drive.CreateDampingAttr(kind.from_degrees(dynamics.damping))  # for each degree per second
@@ -165,7 +165,7 @@ class _StageBuilder:
         drive.CreateTargetVelocityAttr(0.0)
         if not self._config.physx:
             return
-        prim.AddAppliedSchema(f"PhysxJointAxisAPI:{way}")
+        prim.AddAppliedSchema(f"PhysxJointAxisAPI:{instance}")
         inertia = dynamics.damping * self._config.physics.dynamics.settling
         values = {
             "staticFrictionEffort": dynamics.friction,
@@ -174,7 +174,7 @@ class _StageBuilder:
             "armature": self._config.armature * inertia,
         }
         for name, value in values.items():
-            prim.CreateAttribute(f"physxJointAxis:{way}:{name}", Sdf.ValueTypeNames.Float, False).Set(value)
+            prim.CreateAttribute(f"physxJointAxis:{instance}:{name}", Sdf.ValueTypeNames.Float, False).Set(value)
 
 
 def _join(joint: Any, first: Sdf.Path, second: Sdf.Path, offset: Vec3, R: Mat3) -> None:

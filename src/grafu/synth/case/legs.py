@@ -14,7 +14,7 @@ from grafu.synth.pieces.shapes import board, rod, turned
 LegShape = Literal[
     "square", "tapered", "round", "cone", "turned", "splayed", "hairpin", "cabriole", "block", "bun", "caster", "pad"
 ]
-# (fraction of the way from the floor, fraction of the leg's half width)
+# (fraction of the height from the floor, fraction of the leg's half width)
 BALUSTER = ((0.0, 0.45), (0.04, 0.62), (0.10, 0.5), (0.14, 0.8), (0.19, 0.5), (0.5, 0.72), (0.66, 0.98), (0.7, 0.6))
 BUN = ((0.0, 0.55), (0.2, 0.9), (0.5, 1.0), (0.8, 0.85), (0.9, 0.6), (1.0, 0.6))
 STRAIGHT = 0.8  # fraction of a tapered leg's height at which its straight block begins

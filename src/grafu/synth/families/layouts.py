@@ -41,7 +41,7 @@ def doors_across(rng: np.random.Generator, width: float) -> Layout:
 
 
 def drawer_stack(rng: np.random.Generator, style: Style, number: int) -> Layout:
-    """Returns drawers above each other, parted in the style's way."""
+    """Returns drawers above each other, parted as the style states."""
     if number == 1:
         return Drawer()
     return Stack((Drawer(),) * number, drawer_heights(rng, number), style.between)

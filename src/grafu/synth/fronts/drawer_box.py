@@ -66,7 +66,7 @@ def drawer_box(kind: DrawerBox, inner: Rect, depth: tuple[float, float]) -> tupl
 
 
 def tray_level(inner: Rect) -> float:
-    """Returns the height of a tray's underside: half-way up, in low openings at the bottom."""
+    """Returns the height of a tray's underside: at half height, in low openings at the bottom."""
     return inner.z0 if inner.height < 0.15 else (inner.z0 + inner.z1) / 2
 
 
@@ -84,7 +84,7 @@ def _bottom(r: Rect, depth: tuple[float, float], wall: float) -> TriangleMesh:
 
 
 def _tray(r: Rect, depth: tuple[float, float]) -> tuple[TriangleMesh, ...]:
-    """Returns a board with a low rim at its sides and back, half-way up where there is room: of keyboard trays."""
+    """Returns a board with a low rim at its sides and back, at half height where there is room: of keyboard trays."""
     thick = min(0.016, r.height / 3)
     low = tray_level(r)
     rim = replace(r, z0=low, z1=min(low + thick + TRAY_RIM, r.z1))

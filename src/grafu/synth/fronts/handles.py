@@ -1,4 +1,4 @@
-"""Handles on fronts that face -Y: where each goes, which way round and how large. Their shapes are templates."""
+"""Handles on fronts that face -Y: where each goes, how it is turned and how large it is. Their shapes are templates."""
 
 from collections.abc import Sequence
 from functools import lru_cache

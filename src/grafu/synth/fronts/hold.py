@@ -1,4 +1,4 @@
-"""How a front is held: which handle, where on the front, which way round, how large; or a grip cut into the front.
+"""How a front is held: which handle, where on the front, how turned, how large; or a grip cut into the front.
 
 These are values only: `handles` builds handles and `leaves` cuts grips. What real models show: bars of 105 to 480 mm,
 knobs of 13 to 32 mm, protrusions of 16 to 38 mm; upright bars near the free edge at any height, and on kitchen doors a
@@ -87,7 +87,7 @@ class Hold:
     Attributes:
         place: the edge that the handle lies at. "usual": a door's free edge, a drawer's middle. "middle line" is the
             upright one through the centre. Drawers have no free edge and no hinge edge.
-        along: the handle's middle, as a fraction of the way along that edge, upwards or to the right; whatever it
+        along: the handle's middle, as a fraction of that edge's length, upwards or to the right; whatever it
             states, the handle stays clear of the leaf's border, so that 0 and 1 mean the corners. None: 0.65 on a
             door's upright free edge, else 0.5.
         orientation: "usual" is along the free edge of a door, and lying at a top or bottom edge and on drawers.

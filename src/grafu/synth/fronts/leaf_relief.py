@@ -27,7 +27,7 @@ FRAME = 0.065  # metres: how wide the stiles and rails of framed leaves are; at 
 class LeafShape:
     """A leaf in its place, metres: its outline, the y of its outer face, its thickness; `free` is opposite the hinge.
 
-    `grip_side` is the edge that its grip is cut into, `grip_along` the fraction of the way along it.
+    `grip_side` is the edge that its grip is cut into, `grip_along` its position as a fraction of that edge.
     """
 
     style: LeafStyle

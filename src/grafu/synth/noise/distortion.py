@@ -1,4 +1,4 @@
-"""Furniture out of shape: stretched along its axes, turned the wrong way, bent as scans are, fronts left ajar.
+"""Furniture out of shape: stretched along its axes, turned to a wrong side, bent as scans are, fronts left ajar.
 
 Joints follow: axes stay on their lines, slides scale with the axis they run along, angles stay. Positive still opens
 and 0 is the pose as modelled, so that what is ajar has that much less to go.

@@ -1,4 +1,4 @@
-"""The ways in which real models are noisy, as edits of an asset: each is one defect, and they can be combined.
+"""The defects of real models, as edits of an asset: each edit makes one, and they can be combined.
 
 Ground-truth joints stay as they are unless a part is shifted: then its joint goes with it. `where` names the labels or
 part ids that an edit applies to (none: every part). Nothing is drawn at random.

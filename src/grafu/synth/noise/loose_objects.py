@@ -1,6 +1,6 @@
 """What stands, hangs and is screwed on besides the furniture itself: table from kind to maker of extra parts.
 
-Nothing here gets into the way of a door or a drawer: what would, is left out (`with_loose_objects`). Seen on the
+Nothing here is in the path of a door or a drawer: what would be, is left out (`with_loose_objects`). Seen on the
 development models: corner plates (45001), nailers behind backs (41003), front edges as sheets of their own (41003),
 runners and sliders beside drawers (22692, 26608), posts (22692), feet of four millimetres (45963), things on shelves
 (47315).
@@ -61,9 +61,9 @@ def _swept_boxes(asset: Asset) -> Boxes:
         boxes = [s.mesh.box for part in moving for s in part.surfaces]
         if motion_kind(joint.type).slides:
             ends = np.array([(b.low, b.high) for b in boxes])
-            way = joint.axis.direction * joint.upper
+            shift = joint.axis.direction * joint.upper
             found.append(
-                np.stack([np.minimum(ends[:, 0], ends[:, 0] + way), np.maximum(ends[:, 1], ends[:, 1] + way)], 1)
+                np.stack([np.minimum(ends[:, 0], ends[:, 0] + shift), np.maximum(ends[:, 1], ends[:, 1] + shift)], 1)
             )
             continue
         corners = np.concatenate([b.corners() for b in boxes])
@@ -212,10 +212,13 @@ def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     at = between(rng, (-0.3, 0.3))
     for joint in asset.joints:
         box = asset.part(joint.part).box
-        way = joint.axis.direction
+        direction = joint.axis.direction
         if motion_kind(joint.type).turns:
-            way = np.cross(way, box.center - joint.axis.point)
-        if way[int(np.argmax(np.abs(way)))] * -1 < 0.9 * float(np.linalg.norm(way)) or np.argmax(np.abs(way)) != 1:
+            direction = np.cross(direction, box.center - joint.axis.point)
+        if (
+            direction[int(np.argmax(np.abs(direction)))] * -1 < 0.9 * float(np.linalg.norm(direction))
+            or np.argmax(np.abs(direction)) != 1
+        ):
             continue  # only on fronts that face -Y
         x, z, y = float(box.center[0]), float(box.center[2] + at * box.size[2]), float(box.low[1])
         mesh = block((x - w / 2, y - t, z - h / 2), (x + w / 2, y, z + h / 2))

@@ -61,7 +61,7 @@ class Cut:
     """One part in several: by its surfaces, in planks, with a front edge strip, or a drawer's box apart."""
 
     part: str
-    way: Literal["pieces", "planks", "edge strip", "box apart"]
+    kind: Literal["pieces", "planks", "edge strip", "box apart"]
     label: PartLabel | None = None  # of the pieces
     count: int = 2
     axis: int = 0
@@ -197,7 +197,7 @@ def _recut(asset: Asset, noise: ModellingNoise) -> Asset:
 
 
 def _cut(asset: Asset, cut: Cut) -> Asset:
-    match cut.way:
+    match cut.kind:
         case "pieces":
             return in_pieces(asset, cut.part, cut.label)
         case "planks":

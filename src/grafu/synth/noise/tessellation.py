@@ -51,10 +51,10 @@ def rounded_board(low: Points, high: Points, radius: float, steps: int) -> tuple
 
     The radius is smaller on boards that are too thin for it.
     """
-    signs, ways, faces = _corner_lattice(steps)
+    signs, directions, faces = _corner_lattice(steps)
     middle, half = (low + high)[:, None] / 2, (high - low)[:, None] / 2
     radii = np.minimum(radius, 2 * WIDEST * half.min(axis=2, keepdims=True))
-    return middle + signs * (half - radii) + ways * radii, faces
+    return middle + signs * (half - radii) + directions * radii, faces
 
 
 def _redrawn(surface: Surface, density: Density, edge: float, both_sides: bool) -> Surface:
@@ -100,14 +100,14 @@ def _corner_lattice(steps: int) -> tuple[Points, Points, Faces]:
     octant /= np.linalg.norm(octant, axis=1, keepdims=True)
     corners = np.array(list(product((-1.0, 1.0), repeat=3)))
     signs = np.repeat(corners, len(octant), axis=0)
-    ways = signs * np.tile(octant, (8, 1))
-    points = 2.0 * signs + ways
+    directions = signs * np.tile(octant, (8, 1))
+    points = 2.0 * signs + directions
     hull = ConvexHull(points)
     a, b, c = (points[hull.simplices[:, k]] for k in range(3))
     inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0
     faces = hull.simplices.astype(np.int64)
     faces[inward] = faces[inward][:, ::-1]
-    return signs, ways, faces
+    return signs, directions, faces
 
 
 def _mapped(part: Part, edit: Callable[[Surface], Surface]) -> Part:

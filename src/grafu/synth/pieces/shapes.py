@@ -66,7 +66,7 @@ def domed_board(box: Box, rise: float, steps: int = 12) -> TriangleMesh:
 
 
 def turned(start: Vec3, end: Vec3, profile: Sequence[tuple[float, float]], sides: int = 12) -> TriangleMesh:
-    """Returns a turned solid from `start` to `end`; `profile` lists (fraction of the way, radius), radii above 0."""
+    """Returns a turned solid from `start` to `end`; `profile` lists (fraction of the length, radius), radii above 0."""
     direction = (end - start) / np.linalg.norm(end - start)
     across = np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))])
     across /= np.linalg.norm(across)

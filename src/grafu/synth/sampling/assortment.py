@@ -19,7 +19,7 @@ ROUNDED = {0.01: 1.0, 0.015: 1.5, 0.018: 3.0, 0.02: 4.0, 0.025: 2.0, 0.03: 1.5, 
 THIN_BACK = {0.003: 3.0, 0.004: 3.0, 0.006: 2.0, 0.009: 1.5, 0.018: 0.5}
 ANY_BACK = {0.003: 2.0, 0.006: 2.0, 0.01: 1.5, 0.018: 2.0, 0.025: 0.7}
 
-# Modelled drawers: two in three are whole boxes, the others were simplified in one way or another.
+# Modelled drawers: two in three are whole boxes, the others were simplified.
 BOXES: dict[DrawerBox, float] = {
     "whole": 6.0,
     "no bottom": 0.8,

@@ -177,7 +177,7 @@ def _guides(spec: Table, out: float) -> Iterator[Piece]:
 
 
 def _moulding(spec: Table, top: Box) -> Piece:
-    """Returns four boards around a straight top: as one part, above the drawers' way."""
+    """Returns four boards around a straight top: as one part, above the drawers' path."""
     (x0, y0, _), (x1, y1, high) = top.low.tolist(), top.high.tolist()
     low, t = max(high - spec.moulding, spec.under - spec.rails), MOULDING
     spans: tuple[Span, ...] = (
