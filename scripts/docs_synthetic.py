@@ -20,49 +20,49 @@ HEAD = """\
 
 <!-- drawn by scripts/docs.py from the tables in src/grafu/synth -->
 
-What the generator of [synthetic furniture](synthetic.md) draws, and how often. Families stand on that page. Numbers are
-per cent where nothing else is said; an empty cell is never drawn. The reason for each number stands beside it in the
-code. What families decide for themselves (sizes, layouts) stands in their own modules.
+What the generator of [synthetic furniture](synthetic.md) draws, and how often. That page lists the families. Numbers
+are per cent unless stated otherwise; an empty cell means never. The reason for each number is beside it in the code.
+What each family decides for itself (sizes, layouts) is in its own module.
 """
 TRADITIONS_HEAD = f"""\
 ## Traditions
 
 One piece is built in one tradition, so that what goes together in real furniture is drawn together: a shaker leaf on a
 hairpin leg is rare. Each family names the traditions that it comes in ([families]({SYNTH}/families/table.py)), and may
-narrow a table. Thicknesses are those of boards as they are sold, and the rounder ones of bare models from modelling
-sites; fractions follow what is sold and what the real development models show
+narrow a table. Thicknesses are those of boards as they are sold, and the round numbers of simple models on
+modelling sites; fractions follow what is sold and what the real development models show
 ([traditions]({SYNTH}/sampling/traditions.py)). Thicknesses are given as least · median · most.
 """
 STYLE_HEAD = f"""\
 ## Doors and handles
 
-A hinge is drawn first and the handle follows it, so that a handle tells about its hinge as often as it does in real
-furniture ([style]({SYNTH}/sampling/style.py), [carpentry]({SYNTH}/sampling/carpentry.py)). A piece carries them all
-alike. Reach: on the free edge, as near to the hand as the door allows; middle and corner: of the free edge; top line:
-lying in the middle of the upper or lower edge, which does not depend on the hinge; middle line: in the middle of the
-door.
+A hinge is drawn first and the handle follows it, so that a handle indicates the side of the hinge as often as in real
+furniture ([style]({SYNTH}/sampling/style.py), [carpentry]({SYNTH}/sampling/carpentry.py)). The position is drawn once
+for each piece. Reach: on the free edge, as near to the hand as the door allows; middle and corner: of the free edge;
+top line: horizontal in the middle of the upper or lower edge, which does not depend on the hinge; middle line: in the
+middle of the door.
 """
 MODELLING_HEAD = f"""\
 ## Modelling styles
 
 A modeller who draws one panel as a sheet does so all over the model. So a style is drawn first, and it makes the rest
-likely or not ([habits]({SYNTH}/noise/modelling_styles.py)). The fractions come from the seventeen development models,
-which are few, widened towards what other sources are known for. Chances are per model; that of sheets is for each group
-of panels, that of loose objects for each kind, both times the factors below.
+likely or not ([modelling styles]({SYNTH}/noise/modelling_styles.py)). The fractions come from the seventeen development
+models, which are few, and are widened to what other sources are known to have. Chances are per model; that of sheets is
+for each group of panels, that of loose objects for each kind, both times the factors below.
 """
 MISSING_HEAD = """\
 ## Missing parts
 
 Of the parts that a whole piece has, these are not in the model as it was modelled. What carries a door, a drawer or a
-handle stays, and so does a top that something stands on. Cases under a common worktop and fronts that are pushed lack
-theirs in any case; the whole holds what a completion would add.
+handle stays, and so does a top that something stands on. Cases under a common worktop never have a top
+of their own, push-to-open fronts never a handle; the repaired version holds what a completion would add.
 """
 WORDING_HEAD = f"""\
-## Words, faces, cuts
+## Labels, faces, cuts
 
-A divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such
-wording holds for the model and for its truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how
-finely faces are drawn in [habits]({SYNTH}/noise/modelling_styles.py).
+A divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such labels are those of the
+model and of its ground truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
+drawn in [modelling styles]({SYNTH}/noise/modelling_styles.py).
 """
 
 # A tradition's tables of weights, in the order of the page, and what each decides.
@@ -77,7 +77,7 @@ CHOICES = {
     "top": "tops",
 }
 LENGTHS = {"panel": "panels, mm", "front": "fronts, mm", "back": "backs, mm"}
-SPANS = {"gap": ("gaps, mm", 1e3), "overhang": ("tops jut out, mm", 1e3), "opening": ("doors open, degrees", 1.0)}
+SPANS = {"gap": ("gaps, mm", 1e3), "overhang": ("overhang of tops, mm", 1e3), "opening": ("doors open, degrees", 1.0)}
 RATIOS = {
     "bare": "drawn with the fewest parts",
     "plain_drawers": "plain drawers beside the doors' leaf",
@@ -205,12 +205,12 @@ def wording_tables() -> str:
     models = {
         "every face drawn from both sides": modelling_styles.BOTH_SIDES,
         "the same, where edges are finely rounded": modelling_styles.FINE_BOTH_SIDES,
-        "parts in a drawn order": modelling_styles.SHUFFLED,
+        "parts in random order": modelling_styles.SHUFFLED,
         "stretched by up to a tenth": modelling_styles.STRETCHED * (1 - modelling_styles.WIDELY),
         "stretched by up to a quarter": modelling_styles.STRETCHED * modelling_styles.WIDELY,
         "scaled wrongly": modelling_styles.MIS_SCALED,
-        "its front mistaken by quarter turns": modelling_styles.TURNED,
-        "askew by up to four degrees": modelling_styles.YAWED,
+        "rotated by quarter turns": modelling_styles.TURNED,
+        "rotated by up to four degrees": modelling_styles.YAWED,
         "one front ajar": modelling_styles.AJAR,
         "one label wrong": modelling_styles.MISLABELLED,
         "of face frames: drawn as bars": cutting.FRAME_IN_BARS,
@@ -219,7 +219,7 @@ def wording_tables() -> str:
         ratio_table({name: ratio for name, (_, ratio) in naming.STYLES.items()}),
         "**What is joined, where panels are joined**\n",
         weight_table(("", "%"), [{name: weight for name, (weight, _) in cutting.GROUPS.items()}]),
-        "**Faces, where they are out of order**\n",
+        "**Faces, where they have faults**\n",
         weight_table(("", "%"), [modelling_styles.FACES]),
         "**How finely models are drawn**\n",
         weight_table(("", "%"), [modelling_styles.DENSITY]),

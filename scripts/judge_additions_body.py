@@ -1,4 +1,4 @@
-"""What is wrong with what was added to a piece: faults of tops, insides and joints, for `judge_additions.py`."""
+"""Faults of what was added to a piece: tops, interiors and joints, for `judge_additions.py`."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""Judges how doors and drawers of annotated models are said to move, before anything is built: type, side, direction.
+"""Judges which motions are predicted for doors and drawers of annotated models: type, side, direction; it builds none.
 
     python scripts/judge_motions.py MODELS [--rule] [--copies 4] [--jobs 2] [--json FILE]
 

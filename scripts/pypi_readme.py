@@ -1,4 +1,4 @@
-"""The description of the package on PyPI: README.md, with links that lead somewhere from there.
+"""The description of the package on PyPI: README.md, with links that work there.
 
 hatchling runs this when it builds the package. Links are made absolute with the address `Repository` in
 `[project.urls]`; while none is stated, pictures are left out and links become their text.

@@ -1,4 +1,4 @@
-"""Makes and judges many specimens: how many are wrong beyond what they declare, how many are alike, how long it takes.
+"""Makes and judges many specimens: how many have undeclared faults, how many are alike, how long it takes.
 
     python scripts/survey.py [--count 10000] [--seed 0] [--jobs 2] [--points 512] [--out survey]
 

@@ -45,7 +45,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "motions"): motions(store),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
-        ("synthetic.md", "made and real"): "\n".join(store["made and real"].lines).strip(),
+        ("synthetic.md", "made and real"): "\n".join(["```text", *store["made and real"].lines, "```"]),
     }
 
 
@@ -114,7 +114,7 @@ def figures_page(store: Store) -> str:
 
 
 def age(name: str, store: Store) -> str:
-    """Returns whether figures were printed by the command as it is, or stood in a page before."""
+    """Returns whether figures were printed by the command as it is, or were in a page before."""
     if name not in store:
         return "not printed yet"
     return "carried over" if store[name].carried else "printed"
@@ -140,22 +140,22 @@ are drawn from there: a figure that is changed by hand is refused by `make check
     make figures FIGURES="--quick"                                      # few models: do all commands work?
 
 `{models}` is the folder of real models that `GRAFU_MODELS` names, `{out}` a folder below `build/figures`. A command
-that ended is not run again for the same code and weights; one that was stopped goes on where it can. Figures that are
-`carried over` stood in a page before this list was kept, and were not printed again since.
+that ended is not run again for the same code and weights; one that was stopped is resumed where possible. Figures that
+are `carried over` were in a page before this list was kept, and were not printed again since.
 
 """
 SCRIPTS = """
 
 ## To state a number in a page
 
-* A figure that a command prints: `<!-- figure: MEASURE: ROW / COLUMN -->0.95<!-- end -->`; the measure stands in
+* A figure that a command prints: `<!-- figure: MEASURE: ROW / COLUMN -->0.95<!-- end -->`; the measure is defined in
   `scripts/stated/measures.py`, row and column in its table in `docs/figures.json`. `python scripts/docs.py` writes
   the value.
 * A table of such figures: one row in `tables` of `scripts/stated/drawn.py`, and its marks in the page.
 * A number of the code: a line in `scripts/stated/constants.py` (or `constants_built.py`), the words of the
   page with `{}` for
   the number, and the value.
-* What looks like a figure and is none (a definition, an example): `<!-- no figure: why -->` in the same
+* What is no figure but looks like one (a definition, an example): `<!-- no figure: why -->` in the same
   paragraph, or in the line above a table.
 
 ## Scripts

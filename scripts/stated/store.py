@@ -19,7 +19,7 @@ Table = list[list[str]]  # its header first
 class Stored:
     """What a command printed last. `weights` begins the sha256 of the network's file then; empty: they do not matter.
 
-    `carried` figures are older than this store: they stood in a page, and were not printed again since.
+    `carried` figures are older than this store: they were in a page, and were not printed again since.
     """
 
     command: str

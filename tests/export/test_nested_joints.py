@@ -61,7 +61,7 @@ def test_the_second_leaf_hangs_on_the_first_and_follows_it(folding):
 
 
 def test_the_free_edge_of_a_folding_door_stays_at_the_front(folding):
-    """Leaf 2 turns by twice as much, in the opposite direction: its far edge keeps to the plane of the cabinet's front."""
+    """Leaf 2 turns back by twice as much: its far edge keeps to the plane of the cabinet's front."""
     edge = np.array([0.415, -0.21, 0.4, 1.0])
     upper = joint_of(folding, "leaf_1").upper
     ends = [link_poses(folding.object, {"leaf_1_joint": v})["leaf_2"] @ edge for v in np.linspace(0, upper, 9)]

@@ -74,7 +74,7 @@ def functionalize(
     templates: PathLikeStr | None = None,
     **reading: Any,
 ) -> Result:
-    """Returns a piece of furniture that works, and how it came about.
+    """Returns the articulated furniture, its functional graph and its report.
 
     Args:
         source: a path, as for `grafu.load`, or the asset that it returned.

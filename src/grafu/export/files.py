@@ -178,7 +178,7 @@ def _raised(error: OSError) -> None:
 
 
 def _require_room(kept: Iterable[str], files: ExportFiles, folder: Path) -> None:
-    """Refuses to replace what is not ours: where it has a name that we need, of a file or a folder, nothing is written."""
+    """Refuses to replace what is not ours: where it has the name of a file or folder of ours, nothing is written."""
     places = {same_place(name) for name in (*files.names, MARKER)}
     above = {str(parent) for place in places for parent in PurePosixPath(place).parents}
     for name in kept:

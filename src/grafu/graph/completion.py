@@ -42,7 +42,7 @@ class Decision:
 @final
 @dataclass(frozen=True, repr=False)
 class GraphCompletion:
-    """A completed graph and how it came about.
+    """A completed graph and how it was completed.
 
     `source` names what completed it (rule, network). No door and no drawer of the completed graph is left without a
     motion in silence: each has its edge or stands in `refused`.

@@ -166,7 +166,7 @@ def functionalize(
     cache: Cache = NO_CACHE,
     budget: Budget = UNLIMITED,
 ) -> Functionalized:
-    """Returns the asset as an object that works, and how it came about.
+    """Returns the asset as an articulated object, and how it was made.
 
     `source` is also what another system predicted, as `grafu.pipeline.foreign.read_foreign` reads it. A door or drawer
     that cannot be made to move is no error: the report states which, and why. `on_stage` is called with each stage as

@@ -111,7 +111,7 @@ class ClearanceRecord(ReportRecord):
     )
     surface_share: Ratio = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
     volume_share: Ratio = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
-    why: str = Field(description="what it was in the way of")
+    why: str = Field(description="what it blocked")
 
 
 class JointRecord(ReportRecord):
@@ -204,13 +204,13 @@ class GuessRecord(ReportRecord):
 
 
 class FaultRecord(ReportRecord):
-    """One thing that is amiss."""
+    """One fault."""
 
     part: str = Field(description="the part, or what was asked for; empty: the object as a whole")
     kind: FaultKind = Field(description=", ".join(FaultKind))
     colour: Colour = Field(description="red: it does not work; yellow: it works, with something to look at")
     why: str = Field(description="why, in words, with its figure")
-    option: str = Field(description="what may set it right, for the same command with --overwrite; or empty")
+    option: str = Field(description="what may correct it, for the same command with --overwrite; or empty")
 
 
 class VerdictRecord(ReportRecord):
@@ -218,7 +218,7 @@ class VerdictRecord(ReportRecord):
 
     colour: Colour = Field(description="red, yellow or green: that of the worst line; green: there is none")
     sentence: str = Field(description="the same in one sentence")
-    lines: tuple[FaultRecord, ...] = Field(description="all that is amiss, red lines first")
+    lines: tuple[FaultRecord, ...] = Field(description="all faults, red lines first")
     least_confidence: Ratio = Field(description="a decision with a lower score is a guess")
     least_opening: Ratio = Field(description="a joint that opens by a smaller fraction of what it should is restricted")
     most_carved: Ratio = Field(description="a part of which a larger fraction was cut away is carved too much")
@@ -244,7 +244,7 @@ class Report(ReportRecord):
     added: tuple[AddedRecord, ...] = Field(description="parts that were added")
     skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
     notes: tuple[str, ...] = Field(
-        default=(), description="what was done in a simpler way, or left out, because the budget was too small"
+        default=(), description="what was simplified or left out because the budget was too small"
     )
     guesses: tuple[GuessRecord, ...] = Field(default=(), description="decisions that motions rest on")
     moves: dict[str, tuple[str, ...]] = Field(

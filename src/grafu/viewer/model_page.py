@@ -32,7 +32,7 @@ _LEAD = "A click copies an option: give it to the same command, with --overwrite
 
 
 def verdict_view(report: Report, verdict: VerdictRecord) -> Html:
-    """Returns the traffic light, what is amiss with the option that may set it right, and the facts below it."""
+    """Returns the traffic light, the faults with the option that may correct each, and the facts below it."""
     light = tag("p", light_of(verdict.colour), " ", verdict.sentence, class_="verdict")
     rows = [_line(fault, {part.id for part in report.parts}) for fault in verdict.lines]
     lead = [tag("p", _LEAD, class_="lead")] if any(fault.option for fault in verdict.lines) else []
@@ -41,7 +41,7 @@ def verdict_view(report: Report, verdict: VerdictRecord) -> Html:
 
 
 def _line(fault: FaultRecord, known: set[str]) -> Html:
-    """Returns one fault: the part, what is amiss, why, and the option to copy."""
+    """Returns one fault: the part, its kind, why, and the option to copy."""
     part = part_button(fault.part) if fault.part in known else tag("span", fault.part)
     copy = correction_buttons((fault.option,) if fault.option else ())
     said = [part, " "] if fault.part else []
