@@ -135,6 +135,26 @@ def test_what_lies_enclosed_in_a_drawer_moves_with_it():
     assert "runner" in {v.name for v in result.object.link("drawer").visuals}
 
 
+@pytest.mark.parametrize(("sides_from", "is_trimmed"), [(-0.188, True), (-0.2, False)], ids=["hidden", "seen"])
+def test_the_sides_of_a_drawer_are_lowered_where_its_front_hides_them(sides_from, is_trimmed):
+    """A rail of the case stands 8 mm deep in the way of the sides; the drawer's front covers it."""
+    asset, t = drawer(), 0.012
+    sides = [box("side", (x, sides_from, 0.02), (x + t, 0.2, 0.17)) for x in (-0.2, 0.2 - t)]
+    front = box("front", (-0.2, -0.2, 0.02), (0.2, -0.188, 0.17))
+    floor = box("floor", (-0.188, -0.188, 0.02), (0.188, 0.2, 0.03))
+    tray = replace(asset.part("drawer"), surfaces=tuple(b.surfaces[0] for b in (front, floor, *sides)))
+    rail = box("rail", (-0.21, -0.186, 0.162), (0.21, -0.16, 0.2))
+    parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
+    result = realized(replace(asset, parts=(*parts, rail)), RealizationConfig(max_carve=1e-6, max_carve_fitting=1e-6))
+
+    done = installed(result)["drawer"].clearances if "drawer" in installed(result) else ()
+    assert [c.part for c in done if c.kind == "trimmed"] == (["drawer"] if is_trimmed else [])
+    if is_trimmed:
+        assert installed(result)["drawer"].collision_share == 0.0
+        before, after = tray.mesh.box, visuals(result)["drawer"].mesh.box
+        np.testing.assert_allclose(after.size, before.size, atol=1e-9)
+
+
 def test_a_part_of_very_many_faces_is_not_carved():
     door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
     lip = box("lip", (0.1, -0.04, 0.55), (0.5, -0.021, 0.6))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import radians
 from typing import final
 
-from grafu.scene.checks import require_positive, require_ratios
+from grafu.scene.checks import require_not_negative, require_positive, require_ratios
 
 
 @final
@@ -196,6 +196,11 @@ class RealizationConfig:
     """Whether material may be taken away to give clearance."""
     max_trim: float = 0.02
     """Largest fraction of a side by which a moving part is made smaller (design, section 5)."""
+    hidden_trim: float = 0.013
+    """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres on furniture of
+    usual size): its sides are not seen, and runners take as much."""
+    thinnest_front: float = 0.003
+    """What ends so far behind the outer face of a drawer's front is hidden by it (metres on furniture of usual size)."""
     max_carve: float = 0.05
     """Largest fraction of a static part's volume or surface that is carved (design, section 5)."""
     max_carve_fitting: float = 0.6
@@ -232,6 +237,7 @@ class RealizationConfig:
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
         require_positive(self, "bare_gap", "carved_faces")
+        require_not_negative(self, "hidden_trim", "thinnest_front")
         require_ratios(
             self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
         )
