@@ -200,7 +200,7 @@ class RealizationConfig:
     """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres on furniture of
     usual size): its sides are not seen, and runners take as much."""
     thinnest_front: float = 0.003
-    """What ends so far behind the outer face of a drawer's front is hidden by it (metres on furniture of usual size)."""
+    """What ends so far behind a drawer's front is hidden by it (metres on furniture of usual size)."""
     max_carve: float = 0.05
     """Largest fraction of a static part's volume or surface that is carved (design, section 5)."""
     max_carve_fitting: float = 0.6
