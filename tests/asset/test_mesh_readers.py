@@ -148,7 +148,15 @@ def test_missing_and_empty_places_are_told_apart(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "way"),
-    [("a.fbx", "export it as GLB"), ("a.3DS", "export it as GLB"), ("a.zip", "unpack it"), ("a.jpg", "no model")],
+    [
+        ("a.blend", "export it as GLB"),
+        ("a.xacro", "xacro FILE.xacro > FILE.urdf"),
+        ("a.skp", "GLB or COLLADA"),
+        ("a.step", "glTF"),
+        ("a.3DS", "export it as GLB"),
+        ("a.zip", "unpack it"),
+        ("a.jpg", "no model"),
+    ],
 )
 def test_files_of_other_kinds_are_told_a_way_in(tmp_path, name, way):
     (tmp_path / name).write_bytes(b"\0\1")

@@ -7,7 +7,7 @@ import pytest
 from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.additions.grip.config import GripKind
 from grafu.additions.interior.request import AUTO, InteriorKind, InteriorRequest
-from grafu.cli.addition_options import GRIPS, TOP_SHAPES, add_addition_options, addition_config
+from grafu.cli.part_options import GRIPS, TOP_SHAPES, add_addition_options, addition_config
 from grafu.errors import OptionError
 from grafu.templates.handles import HANDLES
 

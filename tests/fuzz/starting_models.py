@@ -14,6 +14,7 @@ import numpy as np
 
 from collada_documents import collada_text, write_collada
 from draco_scenes import write_draco
+from fbx_scenes import fbx_bytes, fbx_records, write_fbx
 from fuzz.bombs import png_of
 from grafu.geometry.mesh import TriangleMesh
 from robot_models import mjcf_text, sdf_text, write_mjcf, write_sdf
@@ -160,6 +161,14 @@ def collada(folder: Path) -> str:
     return "cabinet.dae"
 
 
+def fbx(folder: Path) -> str:
+    looks = {"shelf-6": "steel", "handle-8": "glass"}
+    pose = {"RotationActive": 1, "PreRotation": (0.0, 0.0, 90.0), "Lcl_Translation": (0.0, 0.0, 0.1)}
+    records = fbx_records(materials=looks, below={"drawer_front-9": "drawer_1"}, poses={"drawer_1": pose}, image=PNG)
+    write_fbx(folder, fbx_bytes(records), PNG)
+    return "cabinet.fbx"
+
+
 def usda(folder: Path) -> str:
     glass = "rel material:binding = </Looks/glass>"
     write_usd(folder, scene_of(back_panel_5="rel material:binding = </Looks/wood>", handle_8=glass), PNG)
@@ -281,6 +290,7 @@ MODELS: dict[str, Maker] = {
     "folder of ply": ply_folder,
     "sweet home": sweet_home,
     "collada": collada,
+    "fbx": fbx,
     "usda": usda,
     "usdz": usdz,
     "urdf": urdf,

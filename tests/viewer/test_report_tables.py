@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from page_reader import PageReader
 
-from grafu.cli.move_option import part_move
+from grafu.cli.part_options import part_move
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline import move_options as options_of
 from grafu.pipeline.motion_choices import motions_of

@@ -11,6 +11,8 @@ from typing import Final
 
 from grafu.asset.collada import read_collada
 from grafu.asset.cutting import cut_where_fronts_appear
+from grafu.asset.fbx import read_fbx
+from grafu.asset.fbx_document import MAGIC
 from grafu.asset.folder import divide, looked_for_fronts, mesh_files_in, read_mesh, read_mesh_folder
 from grafu.asset.folders import files_below
 from grafu.asset.frame import settle_frame, whole_box
@@ -44,6 +46,7 @@ READERS: Final[dict[str, Reader]] = {
     "gltf": read_gltf,
     "collada": read_collada,
     "usd": read_usd,
+    "fbx": read_fbx,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
@@ -54,19 +57,24 @@ _SCENES: Final = {
     "gltf": (".glb", ".gltf"),
     "collada": (".dae",),
     "usd": USD_SUFFIXES,
+    "fbx": (".fbx",),
     "mjcf": (".xml",),
 }
 _HEAD: Final = 4096  # bytes of a file that tell what it is
 _EXPECTED = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA or OpenUSD scene, an OBJ "
+    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD or FBX scene, an OBJ "
     "with groups, or a folder of meshes"
 )
 
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
 # What people try, by the way it ends, and what they can do with it.
 _WAYS_IN: Final[dict[str, str]] = {
-    **dict.fromkeys((".fbx", ".blend", ".3ds", ".max", ".skp", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
-    **dict.fromkeys((".step", ".stp", ".iges", ".igs"), _AS_GLB),
+    ".xacro": "expand it first: xacro FILE.xacro > FILE.urdf",
+    ".skp": "in SketchUp, export it as GLB or COLLADA, groups and components kept",
+    **dict.fromkeys(
+        (".step", ".stp", ".iges", ".igs"), "in a CAD program (FreeCAD), export it as glTF, a body for each part"
+    ),
+    **dict.fromkeys((".blend", ".3ds", ".max", ".3mf", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
     **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
     **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
 }
@@ -148,7 +156,7 @@ def _detect_file(path: Path) -> tuple[str, Path]:
     if model is not None:
         return "hssd", model
     head = read_head(path, _HEAD)
-    if suffix == ".urdf" or b"<robot" in head:
+    if suffix == ".urdf" or (b"<robot" in head and suffix != ".xacro"):
         return "urdf", path
     if suffix == ".sdf" or b"<sdf" in head:
         return "sdf", path
@@ -160,6 +168,8 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "collada", path
     if suffix in USD_SUFFIXES or head[:8] == b"PXR-USDC" or head[:5] == b"#usda":
         return "usd", path
+    if suffix == ".fbx" or head.startswith(MAGIC):
+        return "fbx", path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
     way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""

@@ -7,11 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grafu.cli.addition_options import add_addition_options
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.messages import complain
-from grafu.cli.move_option import motion_choice, part_move, with_moves
+from grafu.cli.part_options import add_addition_options, motion_choice, part_move, with_moves
 from grafu.errors import AssetError, OptionError
 from grafu.export.formats import known_formats
 from grafu.templates.available import open_gallery
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
 
 _DESCRIPTION = """\
-Reads part-segmented furniture (GLB, glTF, USD, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
+Reads part-segmented furniture (GLB, glTF, USD, FBX, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
 PartNet-Mobility or HSSD folder) and writes for each input DIR/<name>/ with model.glb (animated), model.urdf with
 meshes/, graph.json, report.json and report.html; of several inputs DIR/index.html shows all, worst first.
 """
@@ -223,7 +222,7 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
     Raises:
         FunctionalizationError: if the file cannot be read or is wrong, or an option is.
     """
-    from grafu.cli.addition_options import addition_config
+    from grafu.cli.part_options import addition_config
     from grafu.pipeline.settings import Settings
     from grafu.templates.available import open_handles
 

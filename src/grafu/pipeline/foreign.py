@@ -3,23 +3,58 @@
 The kind of a file is detected from its content; `grafu.asset.foreign.attach.attach_motions` lays it over an asset.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from grafu.asset.folders import files_below, is_within
-from grafu.asset.foreign.motions import ForeignMotions, ForeignSource
+from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart, ForeignSource
 from grafu.asset.foreign.particulate import read_particulate
-from grafu.asset.foreign.robot import read_robot
 from grafu.asset.foreign.singapo import TREES, read_singapo
 from grafu.asset.json_files import parse_json
-from grafu.asset.options import Limits, LoadOptions
-from grafu.asset.partnet_mobility import is_partnet_mobility
-from grafu.asset.resources import read_bytes
-from grafu.errors import UnreadableAsset
+from grafu.asset.options import Limits, LoadOptions, check_parts
+from grafu.asset.part import AnnotatedJoint, Annotation
+from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
+from grafu.asset.resources import ModelFiles, read_bytes
+from grafu.asset.urdf import read_urdf
+from grafu.errors import AssetError, UnreadableAsset
 from grafu.graph.official_prediction import SUFFIX, is_prediction, read_prediction
 from grafu.pipeline.motion_source import SourceOption
+
+_JOINT_NAMES = re.compile(rb"<joint\b[^>]*\bname=[\"']([^\"']*)")
+_PARTICULATE = re.compile(rb"joint_\d+_\d+")  # joint_<parent>_<child>
+
+
+def read_robot(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMotions:
+    """Returns the joints of a URDF file (or of a folder that is a PartNet-Mobility model) as a prediction.
+
+    A URDF whose joints are all named in Particulate's way comes out as Particulate's.
+
+    Raises:
+        UnreadableAsset: if the file is missing or damaged.
+        AssetTooLarge: if it exceeds the limits.
+    """
+    files = ModelFiles(path, options.limits)
+    reading = read_partnet_mobility(path, options, files) if path.is_dir() else read_urdf(path, options, files)
+    stated = reading.annotation or Annotation(reading.parts)
+    check_parts(len(stated.parts), path, options.limits)
+    parts = tuple(ForeignPart(p.id, p.mesh, label=p.label, parent=p.rides_on) for p in stated.parts)
+    joints = tuple(_joint(joint) for joint in stated.joints)
+    named = [] if path.is_dir() else _JOINT_NAMES.findall(read_bytes(path, options.limits))
+    is_particulate = bool(named) and all(_PARTICULATE.fullmatch(name) for name in named)
+    try:
+        return ForeignMotions(
+            "particulate" if is_particulate else "urdf", str(path), parts, joints, notes=(*reading.notes, *stated.notes)
+        )
+    except AssetError as error:
+        raise UnreadableAsset(str(error)) from None
+
+
+def _joint(joint: AnnotatedJoint) -> ForeignJoint:
+    return ForeignJoint(joint.part, joint.type, joint.axis, joint.lower, joint.upper, joint.limited)
+
 
 Reader = Callable[[Path, LoadOptions], ForeignMotions]
 
