@@ -186,6 +186,13 @@ def test_doors_that_lap_in_two_planes_slide_past_each_other():
     assert {d.question for d in completion.decisions if d.part == "door_1"} >= {"slide", "mount"}
 
 
+@pytest.mark.parametrize(("offset", "slides"), [(0.03, 2), (0.01, 0)], ids=["in two planes", "a step"])
+def test_doors_that_meet_slide_where_one_stands_clearly_before_the_other(offset, slides):
+    behind = ([0.501, offset, 0], [0.98, offset + 0.02, 1])
+    graph = scene(**case(), door_1=([0.02, 0.0, 0], [0.499, 0.02, 1]), door_2=behind)
+    assert len(complete_by_rule(graph).completed.slides) == slides
+
+
 def test_a_sliding_door_without_anything_above_or_below_is_refused():
     graph = scene(
         back=([0, 0.5, 0], [1, 0.52, 1]),

@@ -17,6 +17,7 @@ _SHARED_HEIGHT = 0.8
 _SEAM = 0.25
 # Sliding doors lie in planes a good part of a thickness apart and lap by at least this fraction of a width.
 _LAP = 0.02
+_IN_TWO_PLANES = 1.2  # thicknesses apart: doors that merely meet are no pair that swings
 _MOST_LAP = 0.6
 
 
@@ -60,7 +61,9 @@ def _laps(door: PartNode, other: PartNode) -> bool:
     nearest = float(max(door.box.size[thin], other.box.size[thin])) * 3
     lap = -float(door.box.axis_gaps(other.box)[axis])
     width = float(min(door.box.size[axis], other.box.size[axis]))
-    return 0.6 * thickness <= apart <= nearest and _LAP * width <= lap <= _MOST_LAP * width
+    laps = _LAP * width <= lap <= _MOST_LAP * width
+    meets = abs(lap) <= _LAP * width and apart >= _IN_TWO_PLANES * thickness
+    return 0.6 * thickness <= apart <= nearest and (laps or meets)
 
 
 def _row_of(door: PartNode, scene: RuleScene) -> list[PartNode]:
