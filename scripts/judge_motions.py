@@ -3,10 +3,9 @@
     python scripts/judge_motions.py MODELS [--rule] [--copies 4] [--jobs 2] [--json FILE]
 
 MODELS is a folder as `grafu evaluate --data` takes it. Of each model the network (with --rule the rule-based baseline)
-is asked about the parts alone (as the annotation groups them), no joints, in seven ways: as they are, without labels,
-and of copies that lack something. What is drawn is drawn --copies times. A motion is right by the definition of `grafu
-evaluate`: `aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two ways each part that is
-wrong.
+gets the parts alone (as the annotation groups them), no joints, in seven variants: as they are, without labels, and
+with parts removed. Random variants are drawn --copies times. A motion is right by the definition of `grafu evaluate`:
+`aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two variants each part that is wrong.
 """
 
 import argparse
@@ -40,7 +39,7 @@ Change = Callable[[Asset, Asset, int], Asset]
 @final
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One way in which a model is asked about; `drawn` states whether chance decides what it lacks."""
+    """One variant of the input of a model; `drawn` states whether chance decides what it lacks."""
 
     name: str
     change: Change
@@ -50,9 +49,9 @@ class Variant:
 @final
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What was said of one model in one way, all draws together."""
+    """What was said of one model in one variant, all draws together."""
 
-    way: str
+    variant: str
     right: int
     parts: int
     wrong: tuple[str, ...]
@@ -81,15 +80,15 @@ def main() -> int:
 
 
 def judge(rule: bool, copies: int, ref: ModelRef) -> list[Found]:
-    """Returns what is said of one model in each way."""
+    """Returns what is said of one model in each variant."""
     asset = load_model(ref)
     truth = counted_parts(asset)
     bare = asset.without_annotation()
     found = []
-    for way in WAYS:
-        draws = range(copies if way.drawn else 1)
-        wrong = [part for draw in draws for part in wrong_parts(rule, way.change(asset, bare, draw), truth)]
-        found.append(Found(way.name, len(truth) * len(draws) - len(wrong), len(truth) * len(draws), tuple(wrong)))
+    for variant in VARIANTS:
+        draws = range(copies if variant.drawn else 1)
+        wrong = [part for draw in draws for part in wrong_parts(rule, variant.change(asset, bare, draw), truth)]
+        found.append(Found(variant.name, len(truth) * len(draws) - len(wrong), len(truth) * len(draws), tuple(wrong)))
     return [replace(one, wrong=tuple(f"{ref.id}/{part}" for part in one.wrong)) for one in found]
 
 
@@ -131,7 +130,7 @@ def as_it_is(_: Asset, bare: Asset, __: int) -> Asset:
     return bare
 
 
-WAYS = (
+VARIANTS = (
     Variant("labels given", as_it_is),
     Variant("no labels", unlabelled(as_it_is)),
     Variant("half of the labels", lambda _, bare, draw: masked(bare, 0.5, draw), drawn=True),
@@ -143,8 +142,8 @@ WAYS = (
 
 
 def counts(found: list[Found]) -> dict[str, dict[str, object]]:
-    """Returns for each way how many motions are right, of how many, and which are wrong."""
-    of = {way.name: [one for one in found if one.way == way.name] for way in WAYS}
+    """Returns for each variant how many motions are right, of how many, and which are wrong."""
+    of = {variant.name: [one for one in found if one.variant == variant.name] for variant in VARIANTS}
     return {
         name: {
             "right": sum(one.right for one in ones),
@@ -156,7 +155,7 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
 
 
 def table(found: list[Found]) -> str:
-    """Returns the counts as a table, and below it what is wrong in the ways that nothing is drawn for."""
+    """Returns the counts as a table, and below it what is wrong in the variants that nothing is drawn for."""
     counted = counts(found)
     lines = ["| asked about | motions | right | fraction |", "|---|---|---|---|"]
     for name, one in counted.items():

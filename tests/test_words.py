@@ -40,6 +40,10 @@ RETIRED |= {
     r"\blet[_ ]in\b|LET_IN": "inset",
     r"\b(asset|scene|view)\.unit\b|\blargest side is `unit`": "extent",
     r"\battention_shares\b|\bAveragedWeights\b": "attention_weights, AveragedModel",
+    # As the name of a value, or where it is a distance; "in this way" and "in the way" are fine.
+    r"\bways? = |\.ways?\b(?: ==|[,)\]])|\bways?\[|\bfor ways? in|\bin ways\b|, ways?: ": "path, direction",
+    r"\b(?:of|on|along) the way (?:from|to|along|out)\b|\bon its way out\b|\bleaned_way\b": "path, distance",
+    r"\bcame about\b": "was made",
     r"\bmade (eased|smaller all round)|\bwithout play\b": "shrunk, without clearance",
     # The verb "to share" stays, and so do fields of report.json and of template annotations.
     r"(?i)\b(?:a|the|its|their|this|each|least|largest|in) shares?\b|\bshares? of\b": "ratio, fraction",

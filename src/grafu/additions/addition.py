@@ -1,4 +1,4 @@
-"""A part that the input did not have. How it came about is its maker's business."""
+"""A part that the input did not have, as a step of the additions returns it."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass

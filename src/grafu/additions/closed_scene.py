@@ -39,8 +39,8 @@ class ClosedScene:
         """
         nearest = float("inf")
         for other in self.requests:
-            way = float(np.asarray(other.axis.direction) @ np.asarray(request.axis.direction))
-            if other.moving == request.moving or not other.kind.slides or way > -opposite:
+            cosine = float(np.asarray(other.axis.direction) @ np.asarray(request.axis.direction))
+            if other.moving == request.moving or not other.kind.slides or cosine > -opposite:
                 continue
             local = (self.scene.parts[other.moving].mesh.vertices - frame.origin) @ frame.rotation
             low, high = local.min(axis=0), local.max(axis=0)

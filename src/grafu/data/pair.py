@@ -22,7 +22,7 @@ class GraphPair:
     """What a network is given and what it is to answer: the paper's non-functional and functional graph.
 
     A node of the input is anchored to the node of the target that has its id: the same part in the same place, but
-    perhaps with another label, and with edges of its own. `strategy` names how the input came about (`natural`, or one
+    perhaps with another label, and with edges of its own. `strategy` names how the input was made (`natural`, or one
     of `grafu.data.corruption`), `model_id` the model that both show, the same for all its pairs.
 
     Raises:

@@ -203,12 +203,12 @@ def _stated(folder: Path) -> dict[str, Any]:
 
 
 def _require_same(asked: dict[str, Any], stated: dict[str, Any], folder: Path) -> None:
-    """Refuses to go on with what was made in another way."""
-    ways = "choose another --out, or give --overwrite to start again"
+    """Refuses to resume what was made with other options."""
+    advice = "choose another --out, or give --overwrite to start again"
     for key, word in _SAID.items():
         if stated.get(key) != asked[key]:
-            raise ExportError(f"`{folder}` was made with {stated.get(key)} as its {word}, not {asked[key]}: {ways}")
+            raise ExportError(f"`{folder}` was made with {stated.get(key)} as its {word}, not {asked[key]}: {advice}")
     if stated != asked:
         made, now = stated.get("grafu"), asked["grafu"]
         which = f"grafu {made}, and this is {now}" if made != now else "a generator that makes other models"
-        raise ExportError(f"`{folder}` was made with {which}: {ways}")
+        raise ExportError(f"`{folder}` was made with {which}: {advice}")

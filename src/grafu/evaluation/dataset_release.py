@@ -125,7 +125,9 @@ def _listed(folder: Path) -> dict[str, Path]:
         return {}
     entries = load_graph_json(path).get("parts", [])
     rows = [e for e in entries if isinstance(e, dict)] if isinstance(entries, list) else []
-    names = {str(e.get("id")): Path(str(e.get("obj_file"))).name for e in rows}  # a name, never a way out of the folder
+    names = {
+        str(e.get("id")): Path(str(e.get("obj_file"))).name for e in rows
+    }  # a name, never a path out of the folder
     places = {k: [folder / "objs" / name, folder / name] for k, name in names.items()}
     return {k: next((f for f in files if f.is_file()), files[0]) for k, files in places.items()}
 

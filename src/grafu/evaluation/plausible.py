@@ -25,7 +25,7 @@ from grafu.vocabulary import PartLabel
 
 NEAR = 0.03  # of the object's largest side: what is farther from the pin, or from a slide, holds nothing
 HELD = 0.5  # of the hinge line must have both the part and the body beside it
-LEVER = 1 / 3  # of the way from the pin to the far edge: a handle nearer than that opens nothing
+LEVER = 1 / 3  # of the distance from the pin to the far edge: a handle nearer than that opens nothing
 _LINE_POINTS, _SAMPLES = 9, 200
 _POSES = 35  # of 50: those up to the opening that is asked for
 

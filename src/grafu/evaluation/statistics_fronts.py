@@ -21,7 +21,7 @@ HingeSide = Literal["left", "right", "top", "bottom", "lid"]
 HandlePlace = Literal["opposite", "centre", "same"]
 
 _UP = np.array([0.0, 0.0, 1.0])
-_THIRDS = (0.4, 0.6)  # a handle between these fractions of the way from the pin to the free edge sits in the middle
+_THIRDS = (0.4, 0.6)  # between these fractions of the distance from pin to free edge, a handle is in the middle
 _GRID = 12  # points a side at which a top is looked for
 _LEVEL = 0.8  # least |cosine| between a face's normal and Z for it to be level
 _BELOW = 0.03  # fraction of the object's largest side by which a top may lie below the upper edge of what it covers

@@ -140,11 +140,11 @@ def _in_rows(corner: SomePoints, along: SomePoints, up: SomePoints, lines: Indic
     owner = np.repeat(np.arange(len(corner)), lines)
     ratio = _counted(lines) / lines[owner]
     starts = corner[owner] + ratio[:, None] * up[owner]
-    ways = (1 - ratio)[:, None] * along[owner]
-    counts = np.ceil(np.linalg.norm(ways, axis=1) / spacing - 1e-9).astype(np.int64) + 1
+    rows = (1 - ratio)[:, None] * along[owner]
+    counts = np.ceil(np.linalg.norm(rows, axis=1) / spacing - 1e-9).astype(np.int64) + 1
     step = _counted(counts) / np.repeat(np.maximum(counts - 1, 1), counts)
     points = np.repeat(starts, counts, axis=0)
-    points += step[:, None] * np.repeat(ways, counts, axis=0)
+    points += step[:, None] * np.repeat(rows, counts, axis=0)
     return points
 
 

@@ -70,7 +70,7 @@ def block(name: str, footing: Footing, length: float, material: Material = WOOD)
 
 
 def shortest_bridge(footings: Iterable[Footing], target: RayCaster, reach: float) -> tuple[Footing, float] | None:
-    """Returns the footing that meets the target after the shortest way, and that way; None where none does."""
+    """Returns the footing that meets the target over the shortest gap, and that gap; None where none does."""
     found = [(footing, footing.gap(target, reach)) for footing in footings]
     reached = [(footing, gap) for footing, gap in found if np.isfinite(gap)]
     return min(reached, key=lambda pair: pair[1], default=None)

@@ -2,7 +2,7 @@
 
 They are measured on an articulated object and share nothing with what makes panels and finds compartments; they know
 no scene. trimesh's collision manager looks for panels that float (an end does not rest on anything that is static),
-pierce (cut into anything at rest) or block (stand in the way of what moves).
+pierce (cut into anything at rest) or block (are in the path of what moves).
 
 Empty rooms are found by rays: points in a grid look along the axes at what is at rest. A room has walls on both sides,
 a floor, a ceiling and a back that are static; in front of it is nothing, or a door. Its middle, a cube, must be empty,
@@ -29,7 +29,7 @@ from grafu.vocabulary import PartLabel
 
 _MANAGER: Any = trimesh.collision.CollisionManager  # untyped
 _STEPS = 30  # points along the object's longest side
-LEAST = 0.25  # metres, each way: smaller rooms are pigeonholes
+LEAST = 0.25  # metres, along each axis: smaller rooms are pigeonholes
 LEAST_RATIO = 0.2  # of the largest side: no room needs to be larger in a model of another scale
 _MOST_TRIED = 40  # candidates that are looked at one by one
 _ACROSS, _COVERED = 7, 0.5  # rays along each side of a face, and the fraction of them that meets a wall there

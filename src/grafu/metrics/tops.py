@@ -21,7 +21,7 @@ Field = Float[np.ndarray, "x y"]
 Mask = Bool[np.ndarray, "x y"]
 Counts = Int[np.ndarray, "x y"]
 
-_WAYS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
+_DIRECTIONS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
 _CELLS = 160  # along the longer side
 _NEAR = 0.1  # of the piece's height: what ends farther below a top does not stand under it
 _LEVEL = 0.1  # of the height: tops that differ by less are one, stepped at most
@@ -139,7 +139,7 @@ class _Grid:
         """Returns towards how many sides of four one meets something from each cell at a height."""
         starts = np.column_stack([self.starts[:, :2], np.full(len(self.starts), height)])
         caster = RayCaster(merge_meshes(meshes))
-        met = [np.isfinite(caster.along(starts, np.array([*way, 0.0]))) for way in _WAYS]
+        met = [np.isfinite(caster.along(starts, np.array([*direction, 0.0]))) for direction in _DIRECTIONS]
         return np.sum(met, axis=0).reshape(self.shape)
 
     def between(self, stands: Mask, meshes: Sequence[TriangleMesh], least: float) -> Mask:

@@ -28,8 +28,8 @@ def move_options(result: Functionalized) -> dict[str, tuple[str, ...]]:
     motions = motions_of(result.object)
     moving = {joint.child: _instead(motions.get(joint.child)) for joint in result.object.moving_joints}
     still = {part.id: list(_into_motion(part, result)) for part in _still(result, set(moving))}
-    ways = {part: (*found, str(Moves.FIXED)) for part, found in (moving | still).items()}
-    return {part: tuple(f"--move {part}={way}" for way in found) for part, found in ways.items()}
+    choices = {part: (*found, str(Moves.FIXED)) for part, found in (moving | still).items()}
+    return {part: tuple(f"--move {part}={choice}" for choice in found) for part, found in choices.items()}
 
 
 def _instead(motion: MotionChoice | None) -> list[str]:

@@ -45,7 +45,7 @@ class _Strict(BaseModel):
 
 @final
 class AxisNote(_Strict):
-    """A line in mesh coordinates: the pin, opening by the right-hand rule; or the way a drawer slides out."""
+    """A line in mesh coordinates: the pin, opening by the right-hand rule; or the direction that a drawer slides in."""
 
     point: Triple = (0.0, 0.0, 0.0)
     direction: Triple
@@ -142,7 +142,9 @@ def rail_frame(note: RailNote) -> Mat4:
     """
     y, x = -_unit(note.axis.direction, "axis.direction"), -_unit(note.static_snap.normal, "static_snap.normal")
     if abs(float(y @ x)) > _SQUARE:
-        raise TemplateError("`static_snap.normal` must be square to `axis.direction` (the way the drawer slides out)")
+        raise TemplateError(
+            "`static_snap.normal` must be square to `axis.direction` (the direction in which the drawer slides out)"
+        )
     x = x - y * float(x @ y)
     x /= np.linalg.norm(x)
     return _frame(np.stack([x, y, np.cross(x, y)]), np.array(note.static_snap.center), note.unit)

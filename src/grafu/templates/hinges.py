@@ -60,7 +60,7 @@ class HingeStyle:
 @final
 @dataclass(frozen=True, slots=True)
 class _Side:
-    """Which way one end's leaf runs (`s`), which way its part lies (`d`), and at what d the leaf begins and ends."""
+    """In which direction one end's leaf runs (`s`) and its part lies (`d`), and at what d the leaf begins and ends."""
 
     s: Vec3
     d: Vec3

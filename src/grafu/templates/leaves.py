@@ -90,7 +90,7 @@ class LeafArea:
         return self.leaf - self.start
 
     def s(self, ratio: float) -> float:
-        """Returns the s at a fraction of the way from the barrel to the far edge."""
+        """Returns the s at a fraction of the distance from the barrel to the far edge."""
         return self.start + ratio * self.width
 
     def screw_radius(self) -> float:

@@ -22,7 +22,7 @@ from grafu.training.targets import ROW_STEP, SLOT_STEP, TargetBatch, mirrored_ta
 @final
 @dataclass(frozen=True)
 class TrainingBatch:
-    """What the network is shown, what it is to answer, and how each graph came about."""
+    """What the network is shown, what it is to answer, and how each graph was made."""
 
     graphs: GraphBatch
     targets: TargetBatch

@@ -136,9 +136,9 @@ def _switch(key: str, word: str, on: bool) -> Html:
 
 
 def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
-    ways = {joint.part: report.moves[joint.part] for joint in report.joints if joint.part in report.moves}
+    options = {joint.part: report.moves[joint.part] for joint in report.joints if joint.part in report.moves}
     return [
-        section("Joints", joints_table(report, completion, ways), lead=LEAD if ways else "", name="joints"),
+        section("Joints", joints_table(report, completion, options), lead=LEAD if options else "", name="joints"),
         section("What was missing", lacks_table(report)),
         section("What was added", added_table(report)),
         section("What was not built", not_built_table(report)),

@@ -94,19 +94,21 @@ class Bay(ArrayValue):
 
 def find_views(scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[View, ...]:
     """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
-    ways = {r.moving: way for r in requests if (way := _outward(scene, r, config)) is not None}
+    directions = {r.moving: outward for r in requests if (outward := _outward(scene, r, config)) is not None}
     groups: list[tuple[Vec3, list[str]]] = []
-    for moving, way in ways.items():
-        group = next((g for g in groups if float(g[0] @ way) > config.same_way), None)
+    for moving, outward in directions.items():
+        group = next((g for g in groups if float(g[0] @ outward) > config.same_way), None)
         if group is None:
-            groups.append((way, [moving]))
+            groups.append((outward, [moving]))
         else:
             group[1].append(moving)
     still = merge_meshes([_coarse(p.mesh, scene.extent, config) for p in scene.static_parts])
     if not groups or not len(still.faces):
         return ()
     rays = RayCaster(still)
-    return tuple(_view(scene, still, rays, (way, tuple(moving_bodies)), config) for way, moving_bodies in groups)
+    return tuple(
+        _view(scene, still, rays, (outward, tuple(moving_bodies)), config) for outward, moving_bodies in groups
+    )
 
 
 def _coarse(mesh: TriangleMesh, extent: float, config: CarcassConfig) -> TriangleMesh:
@@ -119,7 +121,7 @@ def _outward(scene: Scene, request: JointRequest, config: CarcassConfig) -> Vec3
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
     if request.kind.slides and not slides_in_its_plane(mesh, direction):
-        way = direction
+        outward = direction
     else:
         axes = part_axes(mesh)
         thin = axes[:, int(np.argmin(np.ptp(mesh.vertices @ axes, axis=0)))]
@@ -127,10 +129,10 @@ def _outward(scene: Scene, request: JointRequest, config: CarcassConfig) -> Vec3
             towards = np.cross(direction, mesh.box.center - request.axis.point)
         else:
             towards = mesh.box.center - np.mean([p.box.center for p in scene.parts.values()], axis=0)
-        way = thin * (1.0 if float(thin @ towards) >= 0 else -1.0)
-    if abs(float(way[2])) > config.upright:
+        outward = thin * (1.0 if float(thin @ towards) >= 0 else -1.0)
+    if abs(float(outward[2])) > config.upright:
         return None
-    level = vec3(float(way[0]), float(way[1]), 0.0)
+    level = vec3(float(outward[0]), float(outward[1]), 0.0)
     level = level / np.linalg.norm(level)
     nearest = int(np.argmax(np.abs(level)))  # carved leaves lie a little crooked in their boxes
     square = np.sign(level[nearest]) * np.eye(3)[nearest]
@@ -144,8 +146,8 @@ def _view(
     group: tuple[Vec3, tuple[str, ...]],
     config: CarcassConfig,
 ) -> View:
-    way, moving_bodies = group
-    y = -way
+    outward, moving_bodies = group
+    y = -outward
     rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
     own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
     others = merge_meshes([_coarse(scene.parts[i].mesh, scene.extent, config) for i in sorted(scene.moving_ids - own)])

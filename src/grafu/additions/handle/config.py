@@ -110,7 +110,7 @@ class GraspConfig:
     pinch: float = 0.045
     """The thickest thing that is taken between thumb and fingers."""
     lever: float = 0.5
-    """Fraction of the way from the hinge to the free edge beyond which a door can be pulled open."""
+    """Fraction of the distance from the hinge to the free edge beyond which a door can be pulled open."""
     small: float = 0.3
     """Fraction of the front's two sides multiplied: an unlabelled part that is larger is no handle."""
     sits: float = 0.006

@@ -37,7 +37,7 @@ class Hooks:
 
 
 def find_hooks(relief: Relief, config: GraspConfig, where: Cells) -> list[Hooks]:
-    """Returns the cells from which fingers reach round an edge of the moving body, one of the four ways at a time."""
+    """Returns the cells from which fingers reach round an edge of the moving body, one of the four steps at a time."""
     return [_hooks_towards(relief, config, where, step) for step in STEPS]
 
 
@@ -70,10 +70,10 @@ def _hooks_towards(relief: Relief, config: GraspConfig, where: Cells, step: Step
     return Hooks(step, cells[kept], lip[kept], start[good])
 
 
-def _reaches(relief: Relief, cells: Int[np.ndarray, "k 2"], depths: Float[np.ndarray, "k d"], way: Vec3) -> np.ndarray:
+def _reaches(relief: Relief, cells: Int[np.ndarray, "k 2"], depths: Float[np.ndarray, "k d"], step: Vec3) -> np.ndarray:
     """Returns how far each cell sees along the front at each depth before it meets anything."""
     points = np.stack([*np.broadcast_arrays(relief.u[cells[:, :1]], depths, relief.v[cells[:, 1:]])], axis=-1)
-    moving, others = relief.cast(points.reshape(-1, 3), way)
+    moving, others = relief.cast(points.reshape(-1, 3), step)
     return np.minimum(moving, others).reshape(depths.shape)
 
 
@@ -82,13 +82,13 @@ def _pulls(
     cells: Int[np.ndarray, "k 2"],
     start: Float[np.ndarray, " k"],
     edge: Float[np.ndarray, " k"],
-    way: Vec3,
+    step: Vec3,
     config: GraspConfig,
     lip: Float[np.ndarray, " k"],
 ) -> Mask:
     """Whether a fingertip behind the edge meets the moving body, and nothing else, when it is pulled back."""
     hook, tip = relief.factor * config.hook, config.fingers.tip * relief.factor
-    tips = _points(relief, cells, start) + (edge + 0.8 * hook)[:, None] * way
+    tips = _points(relief, cells, start) + (edge + 0.8 * hook)[:, None] * step
     moving, others = relief.cast(tips, vec3(0.0, -1.0, 0.0))
     return (moving <= others) & (moving <= start - lip + tip)
 
@@ -143,11 +143,11 @@ def _walled(
     past = inside & (relief.first >= relief.plane + sizes[0])
     seen = np.where(past, np.minimum(relief.first, relief.plane + config.through * relief.factor), seen)
     deep, least, most = sizes[0], *(max(round(width / relief.cell), 1) for width in sizes[1:])
-    for ways in OPPOSITE_STEPS:
-        wall = [_distance_to_wall(relief, seen, way, most, deep, config) for way in ways]
+    for steps in OPPOSITE_STEPS:
+        wall = [_distance_to_wall(relief, seen, step, most, deep, config) for step in steps]
         pairs = [(wall[0], wall[1])]
         if at_border:
-            border = [_distance_to_border(inside, way, most) for way in ways]
+            border = [_distance_to_border(inside, step, most) for step in steps]
             pairs = [(wall[0], border[1]), (border[0], wall[1])]
         for a, b in pairs:
             found |= (a + b - 1 >= least) & (a + b - 1 <= most) & (a <= most) & (b <= most)
@@ -161,26 +161,26 @@ def _inside(relief: Relief) -> Cells:
 
 
 def _distance_to_wall(
-    relief: Relief, seen: Grid, way: Step, most: int, rise: float, config: FingerRoomConfig
+    relief: Relief, seen: Grid, step: Step, most: int, rise: float, config: FingerRoomConfig
 ) -> Int[np.ndarray, "n m"]:
     """Returns for each cell how many cells on a steep wall rises from its level; `most` + 1: none within reach."""
     s = relief.factor
     run = max(round(s * config.steep / relief.cell), 1)
-    steep = seen - _shifted(seen, (run * way[0], run * way[1]), np.nan) >= rise
+    steep = seen - _shifted(seen, (run * step[0], run * step[1]), np.nan) >= rise
     foot = np.where(steep, seen, np.nan)
     distance = np.full(seen.shape, most + 1)
     for k in range(most, -1, -1):
-        level = _shifted(foot, (k * way[0], k * way[1]), np.nan)
+        level = _shifted(foot, (k * step[0], k * step[1]), np.nan)
         distance[np.abs(seen - level) <= s * config.flat] = max(k, 1)
     return distance
 
 
-def _distance_to_border(inside: Cells, way: Step, most: int) -> Int[np.ndarray, "n m"]:
+def _distance_to_border(inside: Cells, step: Step, most: int) -> Int[np.ndarray, "n m"]:
     """Returns for each cell how many cells on the outline ends; `most` + 1: farther."""
     distance = np.full(inside.shape, most + 1)
     grid = inside.astype(np.float64)
     for k in range(most, 0, -1):
-        distance[_shifted(grid, (k * way[0], k * way[1]), 0.0) == 0.0] = k
+        distance[_shifted(grid, (k * step[0], k * step[1]), 0.0) == 0.0] = k
     return distance
 
 
@@ -191,8 +191,8 @@ def find_ridges(relief: Relief, drop: float, wide: float, gap: float, where: Cel
     """
     seen = np.where(relief.face <= relief.first + 1e-6, relief.face, np.inf)
     counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
-    for ways in OPPOSITE_STEPS:
-        ends = [_distance_to_drop(relief.first, seen, way, counts, drop) for way in ways]
+    for steps in OPPOSITE_STEPS:
+        ends = [_distance_to_drop(relief.first, seen, step, counts, drop) for step in steps]
         found |= ends[0] + ends[1] - 1 <= counts[0]
     return found & where & np.isfinite(seen)
 
@@ -203,9 +203,9 @@ def find_lips(relief: Relief, drop: float, wide: float, gap: float, where: Cells
     seen = np.where((relief.face <= relief.first + 1e-6) & inside, relief.face, np.inf)
     beside = np.where(np.isfinite(seen), seen, -np.inf)
     counts, found = _counts(relief, wide, gap), np.zeros(seen.shape, bool)
-    for ways in OPPOSITE_STEPS:
-        free = [_distance_to_drop(beside, seen, way, counts, drop) for way in ways]
-        border = [_distance_to_border(inside, way, counts[0]) for way in ways]
+    for steps in OPPOSITE_STEPS:
+        free = [_distance_to_drop(beside, seen, step, counts, drop) for step in steps]
+        border = [_distance_to_border(inside, step, counts[0]) for step in steps]
         found |= (free[0] + border[1] - 1 <= counts[0]) | (border[0] + free[1] - 1 <= counts[0])
     return found & where & np.isfinite(seen)
 
@@ -215,7 +215,7 @@ def _counts(relief: Relief, wide: float, gap: float) -> tuple[int, int]:
 
 
 def _distance_to_drop(
-    first: Grid, seen: Grid, way: Step, counts: tuple[int, int], drop: float
+    first: Grid, seen: Grid, step: Step, counts: tuple[int, int], drop: float
 ) -> Int[np.ndarray, "n m"]:
     """Returns for each cell how many cells on all lies lower by `drop`, for some cells; one more than the most: not so.
 
@@ -224,9 +224,9 @@ def _distance_to_drop(
     most, clear = counts
     low = first
     for k in range(1, clear):
-        low = np.minimum(low, _shifted(first, (k * way[0], k * way[1])))
+        low = np.minimum(low, _shifted(first, (k * step[0], k * step[1])))
     distance = np.full(seen.shape, most + 1)
     finite = np.where(np.isfinite(seen), seen, 0.0)
     for k in range(most, 0, -1):
-        distance[_shifted(low, (k * way[0], k * way[1])) - finite >= drop] = k
+        distance[_shifted(low, (k * step[0], k * step[1])) - finite >= drop] = k
     return distance

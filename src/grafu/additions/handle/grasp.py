@@ -17,7 +17,7 @@ def find_grasp(
     """Returns how a moving body of the scene can be grasped at rest.
 
     Handles come first; then what fingers can reach round, get into or pinch, wherever it opens the moving body: on
-    doors beyond `config.lever` of the way from the hinge. `reliefs` are the scene's, if they exist already.
+    doors beyond `config.lever` of the distance from the hinge. `reliefs` are the scene's, if they exist already.
 
     Raises:
         KeyError: if the scene has no such moving body, or no motion for it.

@@ -109,33 +109,33 @@ def _beyond_lever(relief: Relief, config: GraspConfig) -> Cells:
 def _hooked(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
     """Yields what fingers reach round."""
     hooks = find_hooks(relief, config, where)
-    ways = np.repeat(np.arange(len(STEPS)), [len(h.cells) for h in hooks])
+    steps = np.repeat(np.arange(len(STEPS)), [len(h.cells) for h in hooks])
     lips = np.concatenate([h.lip for h in hooks])
     for cluster in clusters_of(np.vstack([h.cells for h in hooks])):
-        grip = _hook(relief, config, cluster, ways[cluster.rows], float(np.median(lips[cluster.rows])))
+        grip = _hook(relief, config, cluster, steps[cluster.rows], float(np.median(lips[cluster.rows])))
         if grip is not None:
             yield grip
 
 
-def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, ways: np.ndarray, lip: float) -> Grip | None:
+def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, steps: np.ndarray, lip: float) -> Grip | None:
     s, center = relief.factor, _center(relief, cluster, lip)
-    runs = {int(way): _run_along(relief, cluster, ways == way, int(way)) for way in np.unique(ways)}
-    way, length = max(runs.items(), key=lambda item: item[1])
+    runs = {int(step): _run_along(relief, cluster, steps == step, int(step)) for step in np.unique(steps)}
+    step, length = max(runs.items(), key=lambda item: item[1])
     if lip < relief.plane - s * config.stands_out:
         out = length + relief.cell >= s * config.knob
         return Grip("edge", 0.95, "a grip of its own mesh stands out of it", center, length) if out else None
     within = _ratio_within(relief, cluster)
     narrow = min(cluster.extent(relief, 0), cluster.extent(relief, 1)) + relief.cell
-    if within > 0.9 and any(way ^ 1 in runs for way in runs) and narrow >= s * config.hole:
+    if within > 0.9 and any(other ^ 1 in runs for other in runs) and narrow >= s * config.hole:
         return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
     if length < min(s * config.length, config.long_ratio * relief.front.width, config.long_ratio * relief.front.height):
         return None
-    if within > 0.5 and not _open_to_border(relief, cluster.cells[ways == way], STEPS[way], lip + s * config.hollow):
+    if within > 0.5 and not _open_to_border(relief, cluster.cells[steps == step], STEPS[step], lip + s * config.hollow):
         return None  # behind slats or mouldings
     if within > 0.5:
         return Grip("recess", 0.85, "fingers reach round the edge of a cut-out", center, length)
     return Grip(
-        "edge", _sureness(relief.front.held, STEPS[way]), "fingers reach round a free edge of it", center, length
+        "edge", _sureness(relief.front.held, STEPS[step]), "fingers reach round a free edge of it", center, length
     )
 
 
@@ -148,9 +148,9 @@ def _sureness(held: Side | None, step: Step) -> float:
     return 0.75 if step == usual else 0.6
 
 
-def _run_along(relief: Relief, cluster: Cluster, rows: np.ndarray, way: int) -> float:
+def _run_along(relief: Relief, cluster: Cluster, rows: np.ndarray, step: int) -> float:
     side = Cluster(cluster.cells[rows], cluster.rows[rows])
-    return side.longest_run(relief, 1 if STEPS[way][0] else 0)
+    return side.longest_run(relief, 1 if STEPS[step][0] else 0)
 
 
 def _standing_out(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:

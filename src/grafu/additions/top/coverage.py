@@ -112,8 +112,8 @@ def _slants(rim: Heights, grid: Grid, config: OpeningConfig) -> CellMask:
     low, high = config.least_slant * grid.cell, config.most_slant * grid.cell
     found = np.zeros(rim.shape, dtype=bool)
     for axis in (0, 1):
-        for way in (1.0, -1.0):
-            rises = way * np.diff(rim, axis=axis)
+        for sign in (1.0, -1.0):
+            rises = sign * np.diff(rim, axis=axis)
             steady = (rises >= low) & (rises <= high)
             ends = [(0, 0), (0, 0)]
             ends[axis] = (1, 1)

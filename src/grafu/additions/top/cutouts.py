@@ -47,13 +47,13 @@ def cutouts_of(
             cuts.append(_beyond(moving, outline, own, metre))
         if top <= seat - gap:
             continue
-        way = offset(_swept(moving, seat - gap, own.opening), gap)
-        if not way.intersects(outline):
+        path = offset(_swept(moving, seat - gap, own.opening), gap)
+        if not path.intersects(outline):
             continue
         if top + gap - seat > (1 - own.left) * thickness:
-            cuts.append(way)
+            cuts.append(path)
         else:
-            grooves.append((way, top + gap))
+            grooves.append((path, top + gap))
     return Cutouts(shapely.union_all(cuts) if cuts else EMPTY, tuple(grooves))
 
 

@@ -175,9 +175,9 @@ def _rise_of_uprights(flat: Corners, z: Rises, at: Float[np.ndarray, "t 2"]) -> 
     reach = np.linalg.norm(flat - np.roll(flat, 1, axis=1), axis=2)
     longest = reach.argmax(axis=1)[:, None, None]
     ends = [np.take_along_axis(np.roll(flat, shift, axis=1), longest, axis=1)[:, 0] for shift in (0, 1)]
-    way = (ends[1] - ends[0]) / np.maximum(reach.max(axis=1), 1e-12)[:, None]
-    along = np.einsum("tkd,td->tk", flat, way)
-    middle = (at * way).sum(axis=1)
+    direction = (ends[1] - ends[0]) / np.maximum(reach.max(axis=1), 1e-12)[:, None]
+    along = np.einsum("tkd,td->tk", flat, direction)
+    middle = (at * direction).sum(axis=1)
     found = np.full(len(flat), -np.inf)
     for step in (-0.5, 0.0, 0.5):
         t = np.clip(middle + step, _least(along), -_least(-along))

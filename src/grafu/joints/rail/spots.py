@@ -36,7 +36,7 @@ class RailSpot:
 class FlankGaps:
     """The gap in metres from each flank outwards to the static body; infinity where no wall is in reach.
 
-    `passage` is the narrowest that the drawer's way out leaves beside it: a face frame may stand in before the walls.
+    `passage` is the narrowest that the drawer's path leaves beside it: a face frame may stand in before the walls.
     """
 
     left: float

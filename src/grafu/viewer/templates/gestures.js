@@ -82,9 +82,9 @@ class Gestures {
       "+": () => camera.zoom(0.88), "=": () => camera.zoom(0.88), "-": () => camera.zoom(1 / 0.88),
       Home: () => camera.reset(), 0: () => camera.reset(), Escape: () => this.clicked(null),
     };
-    const way = side[event.key];
-    const action = way
-      ? () => (event.shiftKey ? camera.pan(0.05 * way[0], -0.05 * way[1]) : camera.orbit(-STEP * way[0], -STEP * way[1]))
+    const direction = side[event.key];
+    const action = direction
+      ? () => (event.shiftKey ? camera.pan(0.05 * direction[0], -0.05 * direction[1]) : camera.orbit(-STEP * direction[0], -STEP * direction[1]))
       : actions[event.key];
     if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
