@@ -54,7 +54,7 @@ to fix it. The command prints it on stderr and exits with 2; with several inputs
 REASONS_HEAD = """\
 ## Reasons, not errors
 
-A part that cannot be made to move, or a thing that cannot be added, is no exception: it stands in `skipped` of the
+A part that cannot be made to move, or a thing that cannot be added, is no exception: it is listed in `skipped` of the
 [report](report.md) with one of these reasons as its `cause`, and the rest of the piece is built.
 """
 
