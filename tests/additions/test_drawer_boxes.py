@@ -232,7 +232,7 @@ def with_walls_in_the_case(back: bool) -> Asset:
 def test_walls_that_were_drawn_with_the_case_are_not_missing():
     made = found(with_walls_in_the_case(back=True))
     assert (made.verdicts[0].kind, made.verdicts[0].missing) == ("whole", ())
-    assert "part of what stands still" in made.verdicts[0].why
+    assert "part of what is static" in made.verdicts[0].why
     assert made.additions == made.refused == ()
 
 
