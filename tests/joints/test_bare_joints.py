@@ -61,6 +61,16 @@ def test_a_drawer_without_room_for_rails_slides_without_them():
     assert joint.opening >= 0.3
 
 
+def test_a_side_of_a_drawer_does_not_slide_alone():
+    narrow = [replace(part) for part in CASE if part.id not in ("right", "top")]
+    side = box("drawer_side", (0.0, -0.4, 0.0), (0.02, 0.0, 0.3))
+    right = box("right", (0.02, -0.4, 0.0), (0.04, 0.0, 0.3))
+    top = box("top", (-0.02, -0.4, 0.3), (0.42, 0.0, 0.32))
+    asset = scene(side, *narrow, right, top, joints=(sliding("drawer_side", (0.0, -1.0, 0.0)),))
+
+    assert skipped(realized(asset, UNTRIMMED)) == {"drawer_side": Reason.NO_ROOM}
+
+
 def test_what_is_only_guessed_to_be_a_drawer_is_none_without_rails():
     guessed = replace(DRAWER, label=PartLabel.UNKNOWN, labelled_by="none")
     result = realized(scene(guessed, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)

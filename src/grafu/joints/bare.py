@@ -42,10 +42,11 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
 def bare_drawer(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
-    It is None too where hardware was chosen, where the drawer would come away from all static parts, and where only a
-    guess states that the part is a drawer: the case that drawers are in slides as freely.
+    It is None too for a single board of a drawer, where hardware was chosen, where the drawer would come away from all
+    static parts, and where only a guess states that it is a drawer: the case that drawers are in slides as freely.
     """
-    if not search.scene.parts[search.request.moving].label.is_movable:
+    is_board = search.frame.width < search.config.bare_width * search.frame.depth
+    if is_board or not search.scene.parts[search.request.moving].label.is_movable:
         return None
     upper = search.travel(search.reach)
     if upper < search.config.restricted * (search.request.reference or search.wanted):

@@ -199,6 +199,8 @@ class RealizationConfig:
     hidden_trim: float = 0.013
     """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres on furniture of
     usual size): its sides are not seen, and runners take as much."""
+    bare_width: float = 0.25
+    """What slides without rails is at least this wide over its depth: a drawer, and no side of one."""
     thinnest_front: float = 0.003
     """What ends so far behind a drawer's front is hidden by it (metres on furniture of usual size)."""
     max_carve: float = 0.05
@@ -241,5 +243,6 @@ class RealizationConfig:
         require_ratios(
             self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
         )
+        require_ratios(self, "bare_width")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")
