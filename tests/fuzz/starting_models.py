@@ -31,6 +31,7 @@ from small_assets import (
     write_pnm,
     write_urdf,
 )
+from threemf_packages import threemf_bytes, threemf_text, write_threemf
 from usd_scenes import scene_of, write_usd
 
 MTL = (
@@ -169,6 +170,10 @@ def fbx(folder: Path) -> str:
     return "cabinet.fbx"
 
 
+def threemf(folder: Path) -> str:
+    return write_threemf(folder, threemf_bytes(threemf_text(below={"drawer_front-9": "drawer_1"}))).name
+
+
 def usda(folder: Path) -> str:
     glass = "rel material:binding = </Looks/glass>"
     write_usd(folder, scene_of(back_panel_5="rel material:binding = </Looks/wood>", handle_8=glass), PNG)
@@ -291,6 +296,7 @@ MODELS: dict[str, Maker] = {
     "sweet home": sweet_home,
     "collada": collada,
     "fbx": fbx,
+    "3mf": threemf,
     "usda": usda,
     "usdz": usdz,
     "urdf": urdf,

@@ -5,9 +5,9 @@ from dataclasses import replace
 from grafu.additions.step import DeficiencyKind
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.deficiencies import find_deficiencies
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.records import find_deficiencies
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery

@@ -24,7 +24,7 @@ from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation
 
-_ORDERS = ("xyz", "xzy", "yzx", "yxz", "zxy", "zyx")  # about axes that stand still, the first turn first
+_ORDERS = ("xyz", "xzy", "yzx", "yxz", "zxy", "zyx")  # about fixed axes, the first turn first
 _LARGEST = 1e12  # of a number in a transform or a position: products of some of them stay finite
 _BASE_COLOURS = ("diffusecolor", "basecolor", "base_color", "base_color_map", "basecolormap", "tex_color_map")
 _NOTHING = (0.0, 0.0, 0.0)

@@ -30,6 +30,7 @@ from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.asset.regular_files import read_head
 from grafu.asset.resources import ModelFiles
 from grafu.asset.sdf import read_sdf
+from grafu.asset.threemf import read_threemf
 from grafu.asset.urdf import read_urdf
 from grafu.asset.usd import USD_SUFFIXES, read_usd
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
@@ -47,6 +48,7 @@ READERS: Final[dict[str, Reader]] = {
     "collada": read_collada,
     "usd": read_usd,
     "fbx": read_fbx,
+    "3mf": read_threemf,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
@@ -58,12 +60,13 @@ _SCENES: Final = {
     "collada": (".dae",),
     "usd": USD_SUFFIXES,
     "fbx": (".fbx",),
+    "3mf": (".3mf",),
     "mjcf": (".xml",),
 }
 _HEAD: Final = 4096  # bytes of a file that tell what it is
 _EXPECTED = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD or FBX scene, an OBJ "
-    "with groups, or a folder of meshes"
+    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD, FBX or 3MF scene, "
+    "an OBJ with groups, or a folder of meshes"
 )
 
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
@@ -74,7 +77,7 @@ _WAYS_IN: Final[dict[str, str]] = {
     **dict.fromkeys(
         (".step", ".stp", ".iges", ".igs"), "in a CAD program (FreeCAD), export it as glTF, a body for each part"
     ),
-    **dict.fromkeys((".blend", ".3ds", ".max", ".3mf", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
+    **dict.fromkeys((".blend", ".3ds", ".max", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
     **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
     **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
 }
@@ -170,6 +173,8 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "usd", path
     if suffix == ".fbx" or head.startswith(MAGIC):
         return "fbx", path
+    if suffix == ".3mf":
+        return "3mf", path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
     way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""

@@ -6,11 +6,11 @@ from pydantic import Field, FiniteFloat
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.pipeline.deficiencies import find_deficiencies
 from grafu.pipeline.records import (
     axis_record,
     coupling_record,
     deficiency_record,
+    find_deficiencies,
     frame_record,
     input_record,
     source_record,

@@ -8,13 +8,13 @@ from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.joints.report import Installed
 from grafu.pipeline.certainty import guesses_of
-from grafu.pipeline.deficiencies import find_deficiencies
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.move_options import move_options
 from grafu.pipeline.records import (
     axis_record,
     coupling_record,
     deficiency_record,
+    find_deficiencies,
     frame_record,
     input_record,
     source_record,
