@@ -238,3 +238,9 @@ def test_what_a_library_logs_of_a_damaged_file_is_not_printed(tmp_path):
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert run.stderr.count("Traceback") == 1  # that of our own exception alone
     assert "UnsegmentedAsset" in run.stderr
+
+
+def test_xacro_is_no_urdf_yet(tmp_path):
+    (tmp_path / "a.urdf.xacro").write_text('<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="a"/>')
+    with pytest.raises(UnreadableAsset, match=r"xacro FILE\.xacro > FILE\.urdf"):
+        load_asset(tmp_path / "a.urdf.xacro")
