@@ -76,6 +76,14 @@ def test_a_single_board_of_a_drawer_does_not_slide_alone(width, slides):
     assert slides or skipped(result) == {"drawer": Reason.NO_ROOM}
 
 
+def test_a_board_that_fills_its_opening_does_not_slide_out_of_it():
+    panel = box("drawer", (0.0, -0.006, 0.0), (0.4, 0.0, 0.3))
+    case = [part for part in CASE if part.id != "back"]
+    result = realized(scene(panel, *case, joints=(sliding("drawer", (0.0, -1.0, 0.0), 0.004),)), UNTRIMMED)
+
+    assert skipped(result) == {"drawer": Reason.NO_ROOM}
+
+
 def test_what_is_only_guessed_to_be_a_drawer_is_none_without_rails():
     guessed = replace(DRAWER, label=PartLabel.UNKNOWN, labelled_by="none")
     result = realized(scene(guessed, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)

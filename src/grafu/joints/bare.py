@@ -6,6 +6,7 @@ from grafu.geometry.axis import Axis
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
+from grafu.joints.rail.body_region import is_shallow
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.report import Placement
 from grafu.scene.scene import Scene
@@ -42,10 +43,10 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
 def bare_drawer(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
-    It is None too for a single board of a drawer, where hardware was chosen, where the drawer would come away from all
-    static parts, and where only a guess states that it is a drawer: the case that drawers are in slides as freely.
+    It is None too for a single board, such as a front without a box, where hardware was chosen, where the drawer would
+    come away from all static parts, and where only a guess states that it is a drawer: cases slide as freely.
     """
-    is_board = search.frame.width < search.config.bare_width * search.frame.depth
+    is_board = search.frame.width < search.config.bare_width * search.frame.depth or is_shallow(search.frame)
     if is_board or not search.scene.parts[search.request.moving].label.is_movable:
         return None
     upper = search.travel(search.reach)
