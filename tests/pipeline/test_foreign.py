@@ -146,6 +146,15 @@ def test_a_folder_may_hold_an_entry_for_each_input(tmp_path: Path) -> None:
         prediction_for(choice, "four", alone=False)
 
 
+def test_an_entry_that_leads_out_of_its_folder_is_not_read(tmp_path: Path) -> None:
+    write_files(FILES["urdf"], tmp_path / "elsewhere")
+    (tmp_path / "given").mkdir()
+    (tmp_path / "given" / "cabinet.urdf").symlink_to(tmp_path / "elsewhere" / "model.urdf")
+
+    with pytest.raises(UnreadableAsset, match="leads out of"):
+        prediction_for(SourceOption(MotionSource.URDF, tmp_path / "given"), "cabinet")
+
+
 def test_a_choice_names_its_file_or_has_none() -> None:
     with pytest.raises(OptionError, match="motions of urdf are read from a file, which must be named: urdf:FILE"):
         SourceOption(MotionSource.URDF)

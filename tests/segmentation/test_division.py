@@ -183,6 +183,14 @@ def test_a_handle_on_a_curved_front_stands_out_of_the_front_beside_it():
     assert boxes(found, "handle") == rounded([bar])
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_speck_at_the_very_border_is_seen_by_the_last_ray():
+    plate = board((0.0, -0.21001, 0.9797), (0.0003, -0.21, 0.98))
+    behind = board((0.0, -0.2099, 0.9797), (0.0003, -0.2095, 0.98))
+
+    assert cut(merge_meshes(CASE), merge_meshes([plate, behind])) == {}
+
+
 def test_marks_printed_on_a_front_are_no_handles():
     mark = board((-0.05, -0.2225, 0.8), (0.05, -0.2224, 0.85))
     found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR, mark]), movers=[False, True])

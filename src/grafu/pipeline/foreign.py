@@ -127,6 +127,8 @@ def prediction_for(choice: SourceOption, name: str, alone: bool = True, limits: 
     entry = next((path for path in (folder / f"{name}{end}" for end in _ENTRIES) if path.exists()), None)
     if entry is None and not alone:
         raise UnreadableAsset(f"{folder} holds nothing for {name}: for several inputs {folder}/{name} is expected")
+    if entry is not None and not is_within(entry, folder):
+        raise UnreadableAsset(f"{entry} leads out of {folder}: expected {_expected(source)} in the folder itself")
     return read_foreign(entry or folder, source, limits)
 
 

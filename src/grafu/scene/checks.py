@@ -1,17 +1,19 @@
 """Checks of the numbers in a config. Every config of joints and additions uses them when it is made."""
 
+from math import inf
+
 
 def require_positive(config: object, *names: str) -> None:
-    """Raises ValueError unless these fields of a config are above 0."""
+    """Raises ValueError unless these fields of a config are above 0 and finite."""
     for name in names:
-        if not getattr(config, name) > 0:
+        if not 0 < getattr(config, name) < inf:
             raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {getattr(config, name)}")
 
 
 def require_not_negative(config: object, *names: str) -> None:
-    """Raises ValueError unless these fields of a config are at least 0."""
+    """Raises ValueError unless these fields of a config are at least 0 and finite."""
     for name in names:
-        if not getattr(config, name) >= 0:
+        if not 0 <= getattr(config, name) < inf:
             raise ValueError(f"`{type(config).__name__}.{name}` must not be negative: got {getattr(config, name)}")
 
 

@@ -53,7 +53,9 @@ class View(ArrayValue):
         """Returns the rows and columns of the rays within the outline of a shell's box, at least one of each."""
         first = np.ceil((self.low[shell, :2] - self.origin) / self.cell - 1e-9).astype(int)
         last = np.floor((self.high[shell, :2] - self.origin) / self.cell + 1e-9).astype(int)
-        last = np.maximum(last, first)
+        ends = np.array(self.seen.shape[::-1]) - 1  # a speck at the very border lies beyond the last ray
+        first = np.clip(first, 0, ends)
+        last = np.clip(last, first, ends)
         return slice(first[1], last[1] + 1), slice(first[0], last[0] + 1)
 
 

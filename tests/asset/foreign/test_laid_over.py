@@ -48,6 +48,12 @@ def test_joints_come_back_from_any_frame(
     assert {part.id: part.rides_on for part in found.parts} == {part.id: part.rides_on for part in CABINET.parts}
 
 
+@pytest.mark.parametrize("scale", [1e-80, 1e80])
+def test_a_prediction_of_a_size_that_no_number_holds_does_not_fit(scale: float) -> None:
+    with pytest.raises(AssetError, match="does not fit"):
+        attach_motions(CABINET, predicted(CABINET, way(TURNS[0], scale, (0.0, 0.0, 0.0))))
+
+
 @pytest.mark.parametrize("degrees", [12.0, 40.0, -77.0, 160.0])
 def test_a_prediction_may_stand_askew(degrees: float) -> None:
     yaw = rotation_matrix(vec3(0.0, 0.0, 1.0), np.radians(degrees))

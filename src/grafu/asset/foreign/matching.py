@@ -24,6 +24,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import scale_of
 from grafu.vocabulary import JointType, PartLabel
 
+_SMALLEST_SCALE = 1e-60  # of a transform: its cube is still a number
 _SIDEWAYS = 0.8  # how much of setting off to the front it is to set off sideways, or out behind
 
 
@@ -132,10 +133,17 @@ def match_parts(asset: Asset, foreign: ForeignMotions) -> Match:
     return min(fitting, key=lambda match: _doubts(asset, foreign, match))
 
 
+def _is_usable(T: Mat4) -> bool:
+    """Whether a transform can be inverted in floating-point numbers: predictions may be of any size."""
+    largest = float(np.abs(T[:3, :3]).max())
+    return bool(np.isfinite(T).all()) and _SMALLEST_SCALE < largest < 1 / _SMALLEST_SCALE
+
+
 def _weighed(comparison: Comparison, guesses: Iterable[FrameGuess]) -> list[tuple[FrameGuess, Agreement]]:
     """Returns the guesses in which the two as a whole are about alike, with what comes of them."""
-    wholes = [(guess, comparison.whole_overlap(guess.T_object_foreign)) for guess in guesses]
-    least = _WHOLE * max(overlap for _, overlap in wholes)
+    usable = (guess for guess in guesses if _is_usable(guess.T_object_foreign))
+    wholes = [(guess, comparison.whole_overlap(guess.T_object_foreign)) for guess in usable]
+    least = _WHOLE * max((overlap for _, overlap in wholes), default=0.0)
     return [(g, comparison.agreement(g.T_object_foreign)) for g, overlap in wholes if overlap >= least]
 
 
