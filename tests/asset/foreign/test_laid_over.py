@@ -1,15 +1,16 @@
 """Predictions laid over an asset: the frame is found, parts are told by their places, joints come out as stated."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grafu.asset.foreign import agreement
+from grafu.asset.foreign import agreement, matching
 from grafu.asset.foreign.attach import attach_motions
-from grafu.asset.foreign.frames import quarter_turns
+from grafu.asset.foreign.frames import FrameGuess, quarter_turns
 from grafu.asset.foreign.matching import match_parts
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
 from grafu.asset.part import Asset, Frame
@@ -48,10 +49,18 @@ def test_joints_come_back_from_any_frame(
     assert {part.id: part.rides_on for part in found.parts} == {part.id: part.rides_on for part in CABINET.parts}
 
 
-@pytest.mark.parametrize("scale", [1e-80, 1e80])
-def test_a_prediction_of_a_size_that_no_number_holds_does_not_fit(scale: float) -> None:
-    with pytest.raises(AssetError, match="does not fit"):
-        attach_motions(CABINET, predicted(CABINET, way(TURNS[0], scale, (0.0, 0.0, 0.0))))
+@pytest.mark.parametrize("scale", [0.0, 1e-120, 1e120, np.inf])
+def test_frames_that_no_number_can_invert_are_passed_over(scale: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = matching.fitted_frames
+
+    def with_a_useless_one(*args: Any) -> list[FrameGuess]:
+        guesses = list(found(*args))
+        T = np.diag([scale, scale, scale, 1.0])
+        return [replace(guesses[0], T_object_foreign=T), *guesses]
+
+    monkeypatch.setattr(matching, "fitted_frames", with_a_useless_one)
+
+    require_same_joints(attach_motions(CABINET, predicted(CABINET, way(TURNS[5], 3.0, (1.0, 2.0, 0.5)))), CABINET)
 
 
 @pytest.mark.parametrize("degrees", [12.0, 40.0, -77.0, 160.0])
