@@ -319,6 +319,21 @@ def test_a_handle_of_nothing_is_decoration() -> None:
     assert "sits on no door" in complete(cupboard("left", "knob"), Answers()).refused[0].why
 
 
+@pytest.mark.parametrize(("touched", "is_attached"), [("panel", False), ("post", True)])
+def test_a_knob_on_a_static_panel_moves_with_nothing(touched: str, is_attached: bool) -> None:
+    """Whatever the network says; posts that are smaller than a handle are its own."""
+    knob = box_of("knob")
+    grown = float(knob.size.max()) * (2.0 if touched == "panel" else 0.1)
+    node = PartNode(touched, PartLabel.MISC, Box(knob.center - grown, knob.center + grown))
+    graph = cupboard()
+    graph = replace(graph, nodes=(*graph.nodes, node), edges=(*graph.edges, Contact("knob", touched)))
+
+    completion = complete(graph, told())
+
+    assert bool(completion.completed.attachments) is is_attached
+    assert ("knob" in {refusal.part for refusal in completion.refused}) is not is_attached
+
+
 def test_unlabelled_parts_get_their_labels_and_others_keep_theirs() -> None:
     graph = relabelled(cupboard(), dict.fromkeys(("door", "knob", "back"), PartLabel.UNKNOWN))
     said = told()

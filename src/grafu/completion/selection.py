@@ -29,6 +29,7 @@ from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, Hing
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
 from grafu.refusal import Reason, Refusal
+from grafu.vocabulary import PartLabel
 
 _LEAST = 1e-3  # what the rule did not vote for stays possible
 
@@ -55,6 +56,7 @@ def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
 
 _NO_SUPPORT = "there is no static part that could carry it: label the static parts"
 SOME_CHANCE = 0.05  # of being the parent, where no edge states it
+_MOVES_WITH = frozenset({PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE})
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -63,7 +65,7 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
     if not len(view.moving_bodies):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.extent]
-    if not len(slots):
+    if not len(slots) or _sits_on_static(handle, view):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     ratios, none = parent_ratios(view.place[handle.id], slots, view)
     attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
@@ -73,6 +75,18 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
         )
     ranking = ranking_of(view.ids(slots), ratios)
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
+
+
+def _sits_on_static(handle: PartNode, view: View) -> bool:
+    """Whether a handle touches what is larger and does not move, and no door, drawer or handle: a knob of an oven.
+
+    Smaller things that it touches are its own posts.
+    """
+    touched = [view.graph.node(other) for other in view.graph.neighbours[handle.id]]
+    if any(node.label in _MOVES_WITH for node in touched):
+        return False
+    largest = float(handle.box.size.max())
+    return any(node.label is PartLabel.MISC and float(np.sort(node.box.size)[1]) > largest for node in touched)
 
 
 def parent_ratios(slot: int, slots: Indices, view: View) -> tuple[Scalars, float]:
