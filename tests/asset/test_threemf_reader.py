@@ -77,6 +77,23 @@ def test_damaged_packages_are_refused_in_one_line(tmp_path, data, said):
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [(6, 99), (8, 0x01), (8, 0x20), (8, 0x40), (10, 99)],
+    ids=["version", "encrypted", "patched", "strongly encrypted", "method"],
+)
+def test_packages_that_zipfile_cannot_unpack_are_refused_in_one_line(tmp_path, field, value):
+    data = bytearray(threemf_bytes())
+    entry = data.find(b"PK\x01\x02")
+    while entry >= 0:
+        data[entry + field : entry + field + 2] = value.to_bytes(2, "little")
+        entry = data.find(b"PK\x01\x02", entry + 4)
+
+    with pytest.raises(UnreadableAsset, match="no readable package") as error:
+        load_asset(write_threemf(tmp_path, bytes(data)))
+    assert "\n" not in str(error.value)
+
+
 def test_objects_that_contain_themselves_are_refused(tmp_path):
     text = threemf_text().replace("</resources>", CIRCLE).replace("<build>", '<build><item objectid="100"/>')
     with pytest.raises(AssetTooLarge, match="depth"):

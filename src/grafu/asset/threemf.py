@@ -38,7 +38,8 @@ _EXPECTED = "a 3MF package with a model in it; export it again"
 _MODEL = re.compile(r"^3D/[^/]+\.model$", re.IGNORECASE)
 _COLOUR = re.compile(r"#([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})?")
 _LARGEST = 1e12  # of a coordinate: products of some of them stay finite
-_BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, KeyError, NotImplementedError, RuntimeError, EOFError, OSError)
+# RuntimeError: a member that is encrypted, or packed by a method or version of ZIP that `zipfile` does not unpack.
+_BROKEN = (zipfile.BadZipFile, zlib.error, ValueError, KeyError, RuntimeError, EOFError, OSError)
 
 
 def read_threemf(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
