@@ -82,6 +82,29 @@ def folding_door(folder: Path, mimic: str = '<mimic joint="leaf_1_joint" multipl
     )
 
 
+def _door_and_drawer(
+    folder: Path,
+    name: str,
+    door: dict[str, Box],
+    drawer: dict[str, Box],
+    front: tuple[float, float, float],
+    axis: str,
+    opening: float,
+) -> Path:
+    """A cabinet whose door hangs on its left side, and a drawer on that door: frame at `front`, `opening` in metres."""
+    pin = (-0.415, -0.22, 0.0)
+    from_pin = tuple(b - a for a, b in zip(pin, front, strict=True))
+    return _written(
+        folder,
+        name,
+        _link("base", _CARCASS),
+        _link("door", door, pin),
+        _link("drawer", drawer, front),
+        _joint("door_joint", "revolute", "base", "door", pin, "0 0 -1", (0.0, 1.5)),
+        _joint("drawer_joint", "prismatic", "door", "drawer", from_pin, axis, (0.0, opening)),
+    )
+
+
 DOOR_DRAWER: dict[str, Box] = {
     "drawer_front": (-0.28, -0.22, 0.26, 0.28, -0.201, 0.54),
     "drawer_wall_left": (-0.26, -0.201, 0.28, -0.25, 0.05, 0.5),
@@ -101,24 +124,7 @@ DOOR_FRAME: dict[str, Box] = {
 
 def drawer_in_door(folder: Path) -> Path:
     """A cabinet with one door, through which a drawer is pulled out that runs between two cheeks on the door."""
-    pin, front = (-0.415, -0.22, 0.0), (0.0, -0.22, 0.4)
-    return _written(
-        folder,
-        "drawer_in_door",
-        _link("base", _CARCASS),
-        _link("door", DOOR_FRAME, pin),
-        _link("drawer", DOOR_DRAWER, front),
-        _joint("door_joint", "revolute", "base", "door", pin, "0 0 -1", (0.0, 1.5)),
-        _joint(
-            "drawer_joint",
-            "prismatic",
-            "door",
-            "drawer",
-            tuple(b - a for a, b in zip(pin, front, strict=True)),
-            "0 -1 0",
-            (0.0, 0.2),
-        ),
-    )
+    return _door_and_drawer(folder, "drawer_in_door", DOOR_FRAME, DOOR_DRAWER, (0.0, -0.22, 0.4), "0 -1 0", 0.2)
 
 
 INNER_DRAWER: dict[str, Box] = {
@@ -137,21 +143,4 @@ PLAIN_DOOR: dict[str, Box] = {
 
 def drawer_behind_door(folder: Path) -> Path:
     """A cabinet with one door; a drawer on its inner side slides inwards, which the cabinet's back stops."""
-    pin, front = (-0.415, -0.22, 0.0), (0.0, 0.05, 0.4)
-    return _written(
-        folder,
-        "drawer_behind_door",
-        _link("base", _CARCASS),
-        _link("door", PLAIN_DOOR, pin),
-        _link("drawer", INNER_DRAWER, front),
-        _joint("door_joint", "revolute", "base", "door", pin, "0 0 -1", (0.0, 1.5)),
-        _joint(
-            "drawer_joint",
-            "prismatic",
-            "door",
-            "drawer",
-            tuple(b - a for a, b in zip(pin, front, strict=True)),
-            "0 1 0",
-            (0.0, 0.19),
-        ),
-    )
+    return _door_and_drawer(folder, "drawer_behind_door", PLAIN_DOOR, INNER_DRAWER, (0.0, 0.05, 0.4), "0 1 0", 0.19)
