@@ -54,7 +54,7 @@ demo: .venv/installed
 	@touch $@
 
 test: .venv/installed-dev .venv/installed-train .venv/installed-validator
-	$(BIN)/pytest -n auto
+	$(BIN)/pytest -n auto --dist worksteal
 
 check: .venv/installed-dev .venv/installed-train
 	$(BIN)/ruff check src tests scripts examples blender_addon

@@ -25,6 +25,11 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    # Where tests run in several processes, a slow one that starts last leaves the others idle; else the order is kept
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+
+
 # The fixtures import what they need when they are asked for: what is imported earlier escapes the shape checks
 
 

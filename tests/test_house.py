@@ -51,6 +51,11 @@ def test_every_module_says_what_it_does() -> None:
     assert [p for p in SOURCES if not ast.get_docstring(ast.parse(p.read_text()))] == []
 
 
+def test_slow_tests_start_first(request: pytest.FixtureRequest) -> None:
+    slow = [item.get_closest_marker("slow") is not None for item in request.session.items]
+    assert slow == sorted(slow, reverse=True)
+
+
 def functions() -> list[tuple[Path, ast.FunctionDef]]:
     nodes = ((p, node) for p in SOURCES for node in ast.walk(ast.parse(p.read_text())))
     return [(p, node) for p, node in nodes if isinstance(node, ast.FunctionDef)]

@@ -17,6 +17,8 @@ from grafu.metrics.graph_accuracy import GraphAccuracy, graph_accuracy, total_ac
 from grafu.synth.generate import make_specimen
 from grafu.vocabulary import PartLabel
 
+pytestmark = pytest.mark.slow  # for what `accuracies` computes once per process
+
 CARD = Path(__file__).parents[2] / "docs" / "network.md"
 MODELS = 60
 VALIDATION_SEED = 990_001

@@ -37,6 +37,7 @@ def test_a_mirror_image_swaps_left_and_right():
             np.testing.assert_allclose(image.features[2:9], door.features[2:9])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not MODELS.is_dir(), reason="the real furniture is not here")
 def test_made_doors_teach_about_real_ones():
     train, asked = synthetic_doors(300), real_doors(MODELS)

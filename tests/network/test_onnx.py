@@ -14,6 +14,8 @@ from grafu.network.batch import one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.export import OUTPUTS, PAIR_OUTPUTS
 
+pytestmark = pytest.mark.slow  # for the export in `files`, once per process
+
 
 def farthest(file: bytes, n: int) -> float:
     session = onnx_runtime().InferenceSession(file, providers=["CPUExecutionProvider"])

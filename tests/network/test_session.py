@@ -19,6 +19,8 @@ from grafu.network.batch import one_graph
 from grafu.network.grafu import GraFu
 from small_graphs import cabinet
 
+pytestmark = pytest.mark.slow  # for the export in `files`, as in test_onnx
+
 FEW = FeatureConfig(points=POINTS, anchors=ANCHORS, neighbours=NEIGHBOURS)
 
 

@@ -204,6 +204,7 @@ def test_a_handle_that_finds_no_room_is_told_with_what_took_its_place():
     assert "`bail` finds no room" in said[2][0]
 
 
+@pytest.mark.slow
 def test_rejected_additions_are_left_out_and_the_rest_stays(asset):
     chosen = BASE.with_compartment(0, CompartmentChoice(shelves=2))
     full = run(asset, chosen)

@@ -13,6 +13,8 @@ from grafu.synth.specimen import Specimen
 from grafu.synth.truth.check import faults_in
 from grafu.vocabulary import PartLabel
 
+pytestmark = pytest.mark.slow  # the specimens are made once per process
+
 NUMBER = 200
 
 
