@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass
 class Clock:
-    """A clock that stands still until `now` is set; with `step` it goes on by as much whenever it is asked."""
+    """A clock that does not advance until `now` is set; with `step` it goes on by as much whenever it is asked."""
 
     now: float = 0.0
     step: float = 0.0

@@ -47,7 +47,7 @@ def true_joints(asset: Asset) -> dict[str, AnnotatedJoint]:
 
 
 def hardware(result: Realized, moving_id: str) -> tuple[list[Visual], list[Visual]]:
-    """The hardware of one moving body: what moves with it, and what stands still."""
+    """The hardware of one moving body: what moves with it, and what is static."""
     obj = result.object
     moving = [v for v in obj.link(moving_id).visuals if v.role is VisualRole.HARDWARE]
     # static pieces are found by the moving body's name, whole words only: door_1 is not door_10

@@ -50,7 +50,7 @@ def without_joints(folder: Path, target: Path) -> Path:
 
 
 def with_merged_bodies(folder: Path, target: Path) -> Path:
-    """Returns a copy of a PartNet-Mobility folder with all parts in one body that stands still."""
+    """Returns a copy of a PartNet-Mobility folder with all parts in one body that is static."""
 
     def merged(links: list[dict[str, Any]]) -> list[dict[str, Any]]:
         parts = [part for link in links for part in link["parts"]]

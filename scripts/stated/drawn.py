@@ -39,13 +39,13 @@ def with_figures(page: Path, text: str, store: Store) -> str:
 def tables(store: Store) -> dict[tuple[str, str], str]:
     """Returns the measured tables by page and name."""
     return {
-        ("network.md", "made"): copied(store["made"], 0),
+        ("network.md", "synthetic"): copied(store["synthetic"], 0),
         ("network.md", "network and rules"): beside(store),
         ("network.md", "doors"): doors(store),
         ("network.md", "motions"): motions(store),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
-        ("synthetic.md", "made and real"): "\n".join(["```text", *store["made and real"].lines, "```"]),
+        ("synthetic.md", "synthetic and real"): "\n".join(["```text", *store["synthetic and real"].lines, "```"]),
     }
 
 
@@ -66,7 +66,7 @@ def copied(kept: Stored, number: int) -> str:
 def beside(store: Store) -> str:
     """Returns the network's figures on synthetic furniture beside the rules'."""
     rows = [
-        [name, *(f"{bare(store['made'], name, k)} / {bare(store['made by rules'], name, k)}" for k in KINDS)]
+        [name, *(f"{bare(store['synthetic'], name, k)} / {bare(store['synthetic by rules'], name, k)}" for k in KINDS)]
         for name in BESIDE_RULES
     ]
     return drawn_table([["figure", *KINDS], *rows])
@@ -79,7 +79,9 @@ def bare(kept: Stored, row: str, column: str) -> str:
 
 def doors(store: Store) -> str:
     """Returns how many doors turn as they should, by what the input shows of them."""
-    mine, theirs = (next(t for t in store[name].tables if len(t[0]) == 3) for name in ("made", "made by rules"))
+    mine, theirs = (
+        next(t for t in store[name].tables if len(t[0]) == 3) for name in ("synthetic", "synthetic by rules")
+    )
     rows = [[*a, b[2]] for a, b in zip(mine[1:], theirs[1:], strict=True)]
     return drawn_table([[mine[0][0], "doors", "turn as they should: network", "rules"], *rows])
 

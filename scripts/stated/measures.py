@@ -58,7 +58,7 @@ _FEW = "--config tiny --steps 2 --jobs 2"
 
 MEASURES = (
     Measure(
-        "made",
+        "synthetic",
         "python scripts/judge_network.py --count 600 --jobs {jobs}",
         "python scripts/judge_network.py --count 4 --jobs {jobs}",
         "the network on synthetic furniture that was not used in training",
@@ -67,7 +67,7 @@ MEASURES = (
         weights=True,
     ),
     Measure(
-        "made by rules",
+        "synthetic by rules",
         "python scripts/judge_network.py --rule --count 600 --jobs {jobs}",
         "python scripts/judge_network.py --rule --count 4 --jobs {jobs}",
         "the rules on the same furniture",
@@ -130,7 +130,7 @@ MEASURES = (
         read=ablation_table,
     ),
     Measure(
-        "made and real",
+        "synthetic and real",
         "grafu synth --stats {models}/pnm --count 4000 --jobs {jobs}",
         "grafu synth --stats {models}/pnm --count 20 --jobs {jobs}",
         "statistics of synthetic and real furniture",

@@ -52,7 +52,7 @@ def test_hinges_are_as_they_are_chosen(wardrobe: grafu.Result) -> None:
     assert wardrobe.joint(door).upper > 1.0  # the first result is as it was
 
 
-def test_a_part_stands_still(wardrobe: grafu.Result) -> None:
+def test_a_part_is_static(wardrobe: grafu.Result) -> None:
     door = doors(wardrobe)[0]
     stopped = wardrobe.with_motion(door, "fixed")
     assert door not in [joint.part for joint in stopped.joints]

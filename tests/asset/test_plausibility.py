@@ -80,7 +80,7 @@ def test_labels_that_the_user_gives_are_kept():
     assert labels(stated, part("shelf", *INSIDE), part("y", *LEAF))["x"] is PartLabel.DOOR
 
 
-def test_a_panel_with_buttons_on_it_stands_still():
+def test_a_panel_with_buttons_on_it_is_static():
     panel, button = part("Panel", *LEAF), part("Button", (0.5, -0.04, 0.5), (0.53, -0.02, 0.53))
     assert labels(part("oven", *CASE), panel, button)["Panel"] is PartLabel.MISC
     assert labels(part("oven", *CASE), panel)["Panel"] is PartLabel.UNKNOWN

@@ -45,7 +45,7 @@ def test_every_other_step_is_taken_back_and_done_again(steps):
     assert_taken_back(steps, least=5)
 
 
-def test_a_rejected_door_stands_still_and_can_be_hung_anew(steps):
+def test_a_rejected_door_is_static_and_can_be_hung_anew(steps):
     assert "door_1" not in steps["reject"]["joints"]
     assert steps["reject"]["rows"]["door_1"] == "ok"
     assert steps["reject"]["row"] == "is static"

@@ -71,7 +71,7 @@ def test_a_drawer_pushed_inwards_collides_from_where_it_meets_the_back() -> None
     assert not found.works
 
 
-def test_a_part_that_stands_still_is_neither_aligned_nor_connected_and_hits_nothing() -> None:
+def test_a_part_that_is_static_is_neither_aligned_nor_connected_and_hits_nothing() -> None:
     asset = cabinet()
     found = measured(asset, RealizationPlan())
     assert {m.found for m in found.values()} == {None}

@@ -133,7 +133,7 @@ def test_objects_come_first_and_a_failure_counts_as_standing_still() -> None:
     assert by_parts.value == pytest.approx(3 / 7)
 
 
-def test_what_stands_still_hits_nothing_but_is_not_connected() -> None:
+def test_what_is_static_hits_nothing_but_is_not_connected() -> None:
     outcomes = results().outcomes("rule")
     collision, connected = over_objects(outcomes, "collision"), over_objects(outcomes, "connected")
     assert collision is not None

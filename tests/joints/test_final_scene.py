@@ -31,7 +31,7 @@ def test_the_final_scene_holds_the_parts_as_they_are_built_and_all_hardware() ->
     assert set(built) == {*final.parts, *(visual.name for _, visual in final.hardware)}
 
 
-def test_what_got_no_joint_stands_still_in_the_final_scene() -> None:
+def test_what_got_no_joint_is_static_in_the_final_scene() -> None:
     far = box("door_far", (3.0, -0.02, 0.0), (3.4, 0.0, 0.6))
     joints = (hinged(), hinged("door_far", axis=hinged().axis.through(np.array([3.0, 0.0, 0.0]))))
     result = realized(scene(DOOR, SIDE, far, joints=joints))

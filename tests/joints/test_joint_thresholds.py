@@ -19,7 +19,7 @@ NUMBERING = "the rank of a row in a table, or a direction"
 LOOK = "the colour of hardware"
 
 REASONS = {
-    "bare.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
+    "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT},
     "clearance/make.py": {"_STEPS": EFFORT},
     "coupled.py": {"_ALIKE": TOLERANCE},

@@ -125,7 +125,7 @@ def test_a_plain_glb_and_a_folder_with_joints_are_the_same_furniture(tmp_path: P
         np.testing.assert_allclose(part.box.high, theirs[name].box.high, atol=1e-6)
 
 
-def test_a_front_that_stands_still_in_the_file_is_a_drawer_like_any_other(tmp_path: Path) -> None:
+def test_a_front_that_is_static_in_the_file_is_a_drawer_like_any_other(tmp_path: Path) -> None:
     folder = with_fixed_joints(write_pnm(tmp_path / "full"), tmp_path / "bare")
     assert load_asset(folder).part("drawer_front_9").label is PartLabel.DRAWER
     assert load_asset(tmp_path / "full").part("drawer_front_9").label is PartLabel.DRAWER

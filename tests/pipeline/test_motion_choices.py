@@ -1,4 +1,4 @@
-"""What somebody says of how a part moves is built, whoever completed the graph; what is rejected stands still."""
+"""What somebody says of how a part moves is built, whoever completed the graph; what is rejected is static."""
 
 import json
 from dataclasses import replace
@@ -19,7 +19,7 @@ from grafu.geometry.transform import from_rotation, rotation_matrix, transform_p
 from grafu.graph.serialize import completion_from_json, completion_to_json
 from grafu.joints.motion_choice import (
     DIRECTIONS,
-    STANDS_STILL,
+    FIXED,
     MotionChoice,
     Moves,
     Side,
@@ -72,10 +72,10 @@ def opened(result: Functionalized, part: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("source", SOURCES)
-def test_what_is_rejected_stands_still_with_all_that_sits_on_it(asset, source):
+def test_what_is_rejected_is_static_with_all_that_sits_on_it(asset, source):
     door = named(asset, PartLabel.DOOR)
     attached = {p.id for p in asset.parts if p.rides_on == door}
-    result = run(asset, Settings(source).with_motion(door, STANDS_STILL))
+    result = run(asset, Settings(source).with_motion(door, FIXED))
     report = report_of(result)
     assert door not in result.object.joint_of
     assert {door, *attached} <= {v.name for v in result.object.link(result.object.root).visuals}
@@ -161,7 +161,7 @@ def test_choices_for_the_joint_hold_on_a_stated_motion(asset):
 @pytest.mark.parametrize(
     ("part", "choice", "labels", "words"),
     [
-        ("nobody", STANDS_STILL, {}, "has no nobody"),
+        ("nobody", FIXED, {}, "has no nobody"),
         (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.FRONT), {}, "front is a broad face"),
         (PartLabel.DRAWER, MotionChoice(Moves.SLIDES, Side.TOP), {}, "must slide level"),
         (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.LEFT), PartLabel.MISC, "must not be misc"),
@@ -186,14 +186,14 @@ def test_a_motion_that_contradicts_itself_is_no_setting(given_values):
 def test_settings_of_earlier_versions_may_spell_fixed_in_the_old_way():
     old = settings_from_json({"schema": "grafu.settings/1", "motions": {"door": {"moves": "not"}}})
 
-    assert old.motions["door"] == STANDS_STILL
+    assert old.motions["door"] == FIXED
     with pytest.raises(OptionError, match="use fixed"):
         choice_in_words("not")
 
 
 def test_a_choice_of_none_is_forgotten():
     base = Settings(MotionSource.RULE)
-    assert base.with_motion("door", STANDS_STILL).with_motion("door", None) == base
+    assert base.with_motion("door", FIXED).with_motion("door", None) == base
 
 
 def _turned_door(angle):
@@ -260,6 +260,6 @@ def test_a_door_of_a_sample_can_be_rejected_and_hung_anew(sample):
     asset = load_asset(SAMPLES / f"{sample}.glb")
     door = next(p.id for p in asset.parts if p.label is PartLabel.DOOR)
     base = Settings(MotionSource.RULE)
-    assert door not in run(asset, base.with_motion(door, STANDS_STILL)).object.joint_of
+    assert door not in run(asset, base.with_motion(door, FIXED)).object.joint_of
     again = run(asset, base.with_motion(door, MotionChoice(Moves.TURNS, Side.RIGHT)))
     assert opened(again, door)[1] < -0.05

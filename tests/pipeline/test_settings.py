@@ -19,7 +19,7 @@ from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
-from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
+from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
@@ -45,7 +45,7 @@ choices = st.builds(
 )
 turns = st.builds(MotionChoice, st.just(Moves.TURNS), st.sampled_from(Side), st.booleans())
 slides = st.builds(MotionChoice, st.just(Moves.SLIDES), st.none() | st.sampled_from(Side))
-motions = turns | slides | st.just(STANDS_STILL)
+motions = turns | slides | st.just(FIXED)
 handles = st.builds(
     HandleChoice,
     style=st.sampled_from(["", "none", "grip", *(h.id for h in HANDLES)]),

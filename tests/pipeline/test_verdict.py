@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from grafu.additions.config import NO_ADDITIONS
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
-from grafu.joints.motion_choice import STANDS_STILL, MotionChoice, Moves, Side
+from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -93,8 +93,8 @@ FAULTS: dict[str, tuple[BAD, set[FaultKind]]] = {
     "collides": (lambda r, j, s: with_joint(r, j.part, collision_share=s), {FaultKind.COLLIDES}),
     "loose": (lambda r, j, s: with_joint(r, j.part, largest_gap=0.0051 * max(r.size or ()) + s), {FaultKind.LOOSE}),
     "short": (short, {FaultKind.RESTRICTED, FaultKind.SHUT}),
-    "silent": (lambda r, j, _: without_joint(r, j.part), {FaultKind.STILL}),
-    "skipped": (skipped, {FaultKind.STILL}),
+    "silent": (lambda r, j, _: without_joint(r, j.part), {FaultKind.NO_JOINT}),
+    "skipped": (skipped, {FaultKind.NO_JOINT}),
     "guessed": (guessed, {FaultKind.GUESSED}),
     "no grasp": (lambda r, j, _: with_joint(r, j.part, grasp="none"), {FaultKind.NO_GRASP}),
     "carved": (carved, {FaultKind.CARVED}),
@@ -167,7 +167,7 @@ def test_the_list_of_joints_has_the_colours_of_the_verdict(data):
 def test_a_part_that_somebody_stopped_is_no_fault():
     asset = cabinet(1)
     door = next(joint.part for joint in sound(1).joints if joint.type is JointType.REVOLUTE)
-    verdict = verdict_of(reported(asset, motions={door: STANDS_STILL}))
+    verdict = verdict_of(reported(asset, motions={door: FIXED}))
 
     assert (verdict.colour, verdict.lines) == (Colour.GREEN, ())
     assert verdict.sentence.startswith("Everything works: 1 drawer;")
@@ -175,7 +175,7 @@ def test_a_part_that_somebody_stopped_is_no_fault():
 
 def test_where_all_was_stopped_nothing_moves_as_asked_and_where_nothing_could_is_yellow():
     asset = cabinet(0)
-    stopped = verdict_of(reported(asset, motions={joint.part: STANDS_STILL for joint in asset.joints}))
+    stopped = verdict_of(reported(asset, motions={joint.part: FIXED for joint in asset.joints}))
     board = replace(asset, joints=(), parts=tuple(p for p in asset.parts if p.id.startswith("side")))
     nothing = verdict_of(reported(board))
 

@@ -134,7 +134,7 @@ def test_a_face_frame_narrows_the_opening_and_carries_a_bar_before_each_partitio
     assert asset.part("divider").box.low[2] == pytest.approx(asset.part("bottom_panel").box.high[2])
 
 
-def test_a_muntin_stands_still_between_a_pair():
+def test_a_muntin_is_static_between_a_pair():
     asset = make_cabinet(Cabinet(layout=Pair(muntin=0.03)))
     muntin = asset.part("muntin")
     assert asset.part("door_1").box.high[0] < muntin.box.low[0]

@@ -70,7 +70,7 @@ def test_all_places_show_one_colour_and_the_same_line(made, fault, capsys, tmp_p
     assert (Level.ERROR in levels) is (verdict.colour is Colour.RED)
 
 
-def test_a_front_that_stands_still_has_the_line_that_moves_it_on_the_page_and_in_the_terminal(made, capsys, tmp_path):
+def test_a_front_that_is_static_has_the_line_that_moves_it_on_the_page_and_in_the_terminal(made, capsys, tmp_path):
     part = made.report.joints[0].part
     changes = {**silent(made), "moves": {part: (f"--move {part}=left", f"--move {part}=fixed")}}
     read = page_with(made, **changes)
@@ -78,7 +78,7 @@ def test_a_front_that_stands_still_has_the_line_that_moves_it_on_the_page_and_in
     print_results([Succeeded(Job(Path("made.glb"), "made", JobOptions(tmp_path)), report, 1.0)])
 
     assert f"--move {part}=left" in [button["data-copy"] for button in read.all("button", class_="copy")]
-    assert f"  {part} stands still (--move {part}=left)" in capsys.readouterr().out
+    assert f"  {part} no joint (--move {part}=left)" in capsys.readouterr().out
     assert "Everything" not in text_of(read)
 
 

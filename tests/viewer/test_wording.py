@@ -13,7 +13,7 @@ from grafu.viewer.wording import (
     direction_words,
     facts,
     moved_words,
-    still_lacking,
+    remaining_deficiencies,
     unused_joints,
 )
 from grafu.vocabulary import JointType, PartLabel
@@ -62,8 +62,8 @@ def test_what_was_built_is_no_longer_lacking(made):
     top = DeficiencyRecord(kind=DeficiencyKind.TOP, part="", detail="")
     report = made.report.model_copy(update={"deficiencies": (*lacks, top), "added": ()})
 
-    assert still_lacking(report) == (top,)
-    assert still_lacking(report.model_copy(update={"joints": ()})) == (*lacks, top)
+    assert remaining_deficiencies(report) == (top,)
+    assert remaining_deficiencies(report.model_copy(update={"joints": ()})) == (*lacks, top)
 
 
 def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
@@ -76,9 +76,9 @@ def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
         return made.report.model_copy(update={**changes, "skipped": (skips[reason],)})
 
     assert facts(said(Reason.REJECTED)).endswith(f"Fixed by the user: {door}.")
-    assert still_lacking(said(Reason.REJECTED)) == ()
+    assert remaining_deficiencies(said(Reason.REJECTED)) == ()
     assert "Fixed by" not in facts(said(Reason.BLOCKED))
-    assert still_lacking(said(Reason.BLOCKED)) == (lack,)
+    assert remaining_deficiencies(said(Reason.BLOCKED)) == (lack,)
 
 
 def test_counts_and_lists_are_words():

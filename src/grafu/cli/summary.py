@@ -11,11 +11,11 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.tables import plain_table, wide_console
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
-from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
+from grafu.pipeline.verdict import fixed_by_user, parts_without_joint, verdict_of
 from grafu.pipeline.words import Colour, FaultKind, counted, cut_in_words, hardware_in_words, listed, percent
 from grafu.viewer.wording import added, unused_joints
 
-_NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT)
+_NOT_BUILT = (FaultKind.NO_JOINT, FaultKind.NOT_BUILT)
 _READ_NOTES = 5  # of one input; the report has all
 _ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
 
@@ -32,7 +32,7 @@ def print_results(results: Sequence[JobResult]) -> None:
             console.print(line, highlight=False)
     elif isinstance(results[0], Succeeded):
         report = results[0].report
-        if report.joints or report.skipped or still_fronts(report):
+        if report.joints or report.skipped or parts_without_joint(report):
             console.print(_joints_table(report))
         for line in _said_of_one(report):
             console.print(line, markup=False, highlight=False)
@@ -57,7 +57,7 @@ def _read(notes: Sequence[str]) -> list[str]:
 
 
 def _fault(line: FaultRecord) -> str:
-    """Returns one thing that is amiss, with its option; why something was not built stands in the table."""
+    """Returns one fault, with its option; why something was not built stands in the table."""
     why = "" if line.kind in _NOT_BUILT else f": {line.why}"
     return f"  {line.part or 'the whole'} {line.kind}{why}{f' ({line.option})' if line.option else ''}"
 
@@ -87,7 +87,7 @@ def _joints_table(report: Report) -> Table:
         table.add_row(requests[0], "skipped", "", "", escape(why))
         if len(requests) > 1:
             table.add_row("", "", "", "", escape(f"so are {listed(requests[1:])}"))
-    for part in stopped(report):
+    for part in fixed_by_user(report):
         table.add_row(part, "fixed", "", "", "by the user")
     return table
 
@@ -161,7 +161,7 @@ def _joint_notes(joint: JointRecord) -> list[str]:
 
 
 def _report_notes(report: Report) -> list[str]:
-    """Returns what is amiss, by kind with its parts."""
+    """Returns the faults, by kind with their parts."""
     parts = defaultdict[str, list[str]](list)
     for line in verdict_of(report).lines:
         parts[line.kind].append(line.part)

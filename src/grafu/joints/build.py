@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.geometry.axis import Axis
-from grafu.joints.bare import bare_door, bare_drawer
 from grafu.joints.clearance.carve import Path
 from grafu.joints.clearance.make import make_clearance
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.place import place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
+from grafu.joints.no_hardware import door_without_hardware, drawer_without_hardware
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
@@ -63,7 +63,7 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
         wider = None if again[0] is search else _hinged(again[0], gallery)
         found, placement = (again, wider) if _is_wide(wider, search) else (found, placement)
     search, clearances = found
-    placement = placement or bare_door(search)
+    placement = placement or door_without_hardware(search)
     if placement is None:
         return _skipped(request, search.best().free / search.wanted, search.scene, config)
     return _built(request, (placement, search.scene, clearances), search.wanted)
@@ -105,8 +105,8 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
             search, scene, clearances = again, cleared.scene, cleared.clearances
     placement = place_rails(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
-    bare = None if found else bare_drawer(search)
-    found = (bare, scene, clearances) if bare else found
+    free = None if found else drawer_without_hardware(search)
+    found = (free, scene, clearances) if free else found
     if found is None:
         return _skipped(request, search.free_ratio(), scene, config)
     return _built(request, found, request.reference or search.wanted)

@@ -196,10 +196,10 @@ class RealizationConfig:
     """Whether material may be taken away to give clearance."""
     max_trim: float = 0.02
     """Largest fraction of a side by which a moving part is made smaller (design, section 5)."""
-    hidden_trim: float = 0.013
+    max_hidden_trim: float = 0.013
     """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres on furniture of
     usual size): its sides are not seen, and runners take as much."""
-    bare_width: float = 0.25
+    no_hardware_width: float = 0.25
     """What slides without rails is at least this wide over its depth: a drawer, and no side of one."""
     thinnest_front: float = 0.003
     """What ends so far behind a drawer's front is hidden by it (metres on furniture of usual size)."""
@@ -219,7 +219,7 @@ class RealizationConfig:
     """An opening below this fraction of the wanted one is no motion."""
     carved_faces: int = 400_000
     """A static part of more faces is not carved: every attempt would take hundreds of megabytes."""
-    bare_gap: float = 0.005
+    no_hardware_gap: float = 0.005
     """Widest gap (extent) to static parts at which a door or drawer moves without hardware: wider ones come loose."""
     kept: float = 0.4
     """Fraction of its own thickness that a trimmed piece keeps at least."""
@@ -238,11 +238,11 @@ class RealizationConfig:
         require_positive(
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
-        require_positive(self, "bare_gap", "carved_faces")
-        require_not_negative(self, "hidden_trim", "thinnest_front")
+        require_positive(self, "no_hardware_gap", "carved_faces")
+        require_not_negative(self, "max_hidden_trim", "thinnest_front")
         require_ratios(
             self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
         )
-        require_ratios(self, "bare_width")
+        require_ratios(self, "no_hardware_width")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

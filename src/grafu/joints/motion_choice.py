@@ -89,7 +89,7 @@ class MotionChoice:
         return types.get(self.moves, JointType.FIXED)
 
 
-STANDS_STILL = MotionChoice(Moves.FIXED)
+FIXED = MotionChoice(Moves.FIXED)
 
 TURNING_SIDES = ("left", "right", "top", "bottom")
 """The borders that a part can turn about, as words."""

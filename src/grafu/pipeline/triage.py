@@ -6,7 +6,7 @@ from enum import StrEnum
 from typing import final
 
 from grafu.pipeline.report_schema import NOT_ADDED, FaultRecord, Report
-from grafu.pipeline.verdict import still_fronts, stopped, verdict_of
+from grafu.pipeline.verdict import fixed_by_user, parts_without_joint, verdict_of
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked
 
@@ -40,8 +40,8 @@ def joint_states(report: Report) -> tuple[JointState, ...]:
     """
     lines = [line for line in verdict_of(report).lines if line.kind is not FaultKind.CARVED]
     joints = {joint.part: joint.id for joint in report.joints}
-    joints |= {part: joints.get(part, "") for part in (*still_fronts(report), *stopped(report))}
-    asked = set(stopped(report))
+    joints |= {part: joints.get(part, "") for part in (*parts_without_joint(report), *fixed_by_user(report))}
+    asked = set(fixed_by_user(report))
     as_asked = {skip.request: skip.detail for skip in report.skipped if skip.request in asked}
     return tuple(
         _state(part, joint, [line for line in lines if line.part == part], as_asked.get(part, ""))

@@ -55,7 +55,7 @@ def not_built(report: Report) -> tuple[SkippedRecord, ...]:
     return tuple(skip for skip in report.skipped if skip.reason is not Reason.REJECTED)
 
 
-def stopped(report: Report) -> tuple[str, ...]:
+def fixed_by_user(report: Report) -> tuple[str, ...]:
     """Returns the parts that are static because the user fixed them."""
     return tuple(skip.request for skip in report.skipped if skip.reason is Reason.REJECTED)
 
@@ -66,7 +66,7 @@ def reason_of(report: Report, fault: FaultRecord) -> str:
     return next((skip.sentence for skip in told), "")
 
 
-def still_fronts(report: Report) -> dict[str, str]:
+def parts_without_joint(report: Report) -> dict[str, str]:
     """Returns the parts that should move and do not, and why: doors and drawers, and others that were to move."""
     category = {part.id: part.category for part in report.parts}
     moving = {joint.part for joint in report.joints}
@@ -77,23 +77,23 @@ def still_fronts(report: Report) -> dict[str, str]:
         for skip in reversed(not_built(report))
         if _is_motion(skip) and category.get(skip.request, PartLabel.HANDLE) is not PartLabel.HANDLE
     }
-    still = dict.fromkeys(fronts, "it has no joint") | wanted
-    answered = moving | carried | set(stopped(report))
-    return {part: why for part, why in still.items() if part not in answered}
+    without = dict.fromkeys(fronts, "it has no joint") | wanted
+    answered = moving | carried | set(fixed_by_user(report))
+    return {part: why for part, why in without.items() if part not in answered}
 
 
 def _faults(report: Report) -> Iterator[FaultRecord]:
-    still = still_fronts(report)
-    yield from (_fault(report, part, FaultKind.STILL, why) for part, why in still.items())
+    without = parts_without_joint(report)
+    yield from (_fault(report, part, FaultKind.NO_JOINT, why) for part, why in without.items())
     for joint in report.joints:
         yield from _faults_of(joint, report)
-    yield from (_guessed(guess, report) for guess in _unsure(report) if guess.part not in still)
+    yield from (_guessed(guess, report) for guess in _unsure(report) if guess.part not in without)
     yield from _carved(report)
     for skip in not_built(report):
-        if not (_is_motion(skip) and skip.request in still):
+        if not (_is_motion(skip) and skip.request in without):
             yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.sentence or str(skip.reason))
     yield from (_fault(report, "", FaultKind.NOTED, note, "") for note in report.notes)
-    if not (report.joints or still or stopped(report)):
+    if not (report.joints or without or fixed_by_user(report)):
         yield _fault(report, "", FaultKind.NOTHING_MOVES, "no part is a door or a drawer")
 
 
@@ -158,7 +158,8 @@ def _sentence(report: Report, faults: tuple[FaultRecord, ...]) -> str:
     """Returns one sentence that states the same as the faults: what works, what to look at, or what does not work."""
     fronts = _fronts_words(report)
     if not fronts:
-        return f"Nothing moves: {'the user fixed all parts' if stopped(report) else 'no part is a door or a drawer'}."
+        why = "the user fixed all parts" if fixed_by_user(report) else "no part is a door or a drawer"
+        return f"Nothing moves: {why}."
     if not faults:
         return f"Everything works: {fronts}; nothing collides, nothing comes loose."
     red = tuple(fault for fault in faults if fault.colour is Colour.RED)
@@ -168,7 +169,7 @@ def _sentence(report: Report, faults: tuple[FaultRecord, ...]) -> str:
 
 
 def _names(faults: tuple[FaultRecord, ...]) -> str:
-    """Returns the parts, each with what is amiss: the first few, and how many more."""
+    """Returns the parts, each with its faults: the first few, and how many more."""
     kinds: dict[str, list[str]] = {}
     for fault in faults:
         kinds.setdefault(fault.part or "the whole", []).append(fault.kind.value)
@@ -181,6 +182,6 @@ def _fronts_words(report: Report) -> str:
     """Returns how many doors and drawers there are that should move; empty where there is none."""
     category = {part.id: part.category for part in report.parts}
     slides = [motion_kind(joint.type).slides for joint in report.joints]
-    slides += [category.get(part) is PartLabel.DRAWER for part in still_fronts(report)]
+    slides += [category.get(part) is PartLabel.DRAWER for part in parts_without_joint(report)]
     counts = Counter("drawer" if slide else "door" for slide in slides)
     return listed(counted(counts[kind], kind) for kind in ("door", "drawer") if counts[kind])

@@ -1,4 +1,4 @@
-"""Words for people: the colours of a verdict, the fixed list of what can be amiss, numbers and lists."""
+"""Words for people: the colours of a verdict, the fixed list of faults, numbers and lists."""
 
 from collections.abc import Iterable
 from enum import StrEnum
@@ -15,9 +15,9 @@ class Colour(StrEnum):
 
 
 class FaultKind(StrEnum):
-    """What can be amiss."""
+    """The kind of a fault: what a user should know of a part or of the whole."""
 
-    STILL = "stands still"  # a door or drawer, or another part that was to move, has no joint
+    NO_JOINT = "no joint"  # a door or drawer, or another part that was to move, has no joint
     COLLIDES = "collides"  # it cuts into something along its path
     LOOSE = "comes loose"  # a gap opens between it and what carries it
     SHUT = "does not open"  # it opens so little that it is no motion
@@ -32,7 +32,7 @@ class FaultKind(StrEnum):
     @property
     def colour(self) -> Colour:
         """How bad it is: red where a part does not work, else yellow."""
-        works = self not in (FaultKind.STILL, FaultKind.COLLIDES, FaultKind.LOOSE, FaultKind.SHUT)
+        works = self not in (FaultKind.NO_JOINT, FaultKind.COLLIDES, FaultKind.LOOSE, FaultKind.SHUT)
         return Colour.YELLOW if works else Colour.RED
 
 

@@ -54,16 +54,16 @@ def fronts_among(view: View, plates: Indices) -> tuple[FrontShells, ...]:
         view: what is seen.
         plates: the candidates, the largest first.
     """
-    look: Final = _Look(view, Scale.of(view))
+    finder: Final = _FrontFinder(view, Scale.of(view))
     chosen: list[int] = []
     for plate in _ranked(view, plates):
         over = [k for k in chosen if overlaps(view, plate)[k] >= _NESTED]
-        if not over and not look.is_fixed(plate, plates):
+        if not over and not finder.is_fixed(plate, plates):
             chosen.append(plate)
     taken: set[int] = set(chosen)
     found = []
     for plate in chosen:
-        front = look.with_members(plate, taken)
+        front = finder.with_members(plate, taken)
         taken |= front.all_shells
         found.append(front)
     return tuple(found)
@@ -76,8 +76,8 @@ def _ranked(view: View, plates: Indices) -> list[int]:
 
 
 @final
-class _Look:
-    """What is asked of a view for every front; not a value."""
+class _FrontFinder:
+    """Finds the shells of fronts in a view; what it computes once for all fronts is kept."""
 
     def __init__(self, view: View, scale: Scale) -> None:
         self._view, self._scale = view, scale

@@ -17,8 +17,8 @@ from grafu.viewer.report_tables import (
     LEAD,
     added_table,
     correction_buttons,
+    deficiencies_table,
     joints_table,
-    lacks_table,
     lines,
     not_built_table,
     part_button,
@@ -36,8 +36,8 @@ def verdict_view(report: Report, verdict: VerdictRecord) -> Html:
     light = tag("p", light_of(verdict.colour), " ", verdict.sentence, class_="verdict")
     rows = [_line(fault, {part.id for part in report.parts}) for fault in verdict.lines]
     lead = [tag("p", _LEAD, class_="lead")] if any(fault.option for fault in verdict.lines) else []
-    amiss = [tag("ul", joined(rows), class_="faults"), *lead] if rows else []
-    return joined([light, *amiss, tag("p", facts(report))])
+    faults = [tag("ul", joined(rows), class_="faults"), *lead] if rows else []
+    return joined([light, *faults, tag("p", facts(report))])
 
 
 def _line(fault: FaultRecord, known: set[str]) -> Html:
@@ -139,7 +139,7 @@ def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
     options = {joint.part: report.moves[joint.part] for joint in report.joints if joint.part in report.moves}
     return [
         section("Joints", joints_table(report, completion, options), lead=LEAD if options else "", name="joints"),
-        section("What was missing", lacks_table(report)),
+        section("What was missing", deficiencies_table(report)),
         section("What was added", added_table(report)),
         section("What was not built", not_built_table(report)),
         section("Functional graph", _graph(completion), _legend(), name="graph"),

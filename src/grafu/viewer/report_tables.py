@@ -11,11 +11,11 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.report_schema import ClearanceRecord, JointRecord, Report
-from grafu.pipeline.verdict import reason_of, stopped, verdict_of
+from grafu.pipeline.verdict import fixed_by_user, reason_of, verdict_of
 from grafu.pipeline.words import FaultKind, counted, cut_in_words, hardware_in_words, listed, percent
 from grafu.refusal import Reason
 from grafu.viewer.shell import Html, joined, tag
-from grafu.viewer.wording import added, axis_words, moved_words, still_lacking
+from grafu.viewer.wording import added, axis_words, moved_words, remaining_deficiencies
 
 LEAD = (
     "One is wrong? Copy its line, give it to the same command, with --overwrite. Instead of the last word: left, "
@@ -29,7 +29,7 @@ def correction_buttons(options: tuple[str, ...]) -> Html:
     return joined(buttons)
 
 
-_NOT_BUILT = (FaultKind.STILL, FaultKind.NOT_BUILT, FaultKind.NOTHING_MOVES)
+_NOT_BUILT = (FaultKind.NO_JOINT, FaultKind.NOT_BUILT, FaultKind.NOTHING_MOVES)
 _SHOWN = 6  # ids in a cell; more of them are counted
 _LEAST = 5e-4  # a fraction that is not written as 0.0 %
 
@@ -80,19 +80,19 @@ def _hardware(joint: JointRecord) -> str:
 
 
 def not_built_table(report: Report) -> Html:
-    """Returns one row per door or drawer without a joint, request that was not built, and part that was stopped."""
+    """Returns one row per door or drawer without a joint, request that was not built, and part that the user fixed."""
     faults = [fault for fault in verdict_of(report).lines if fault.kind in _NOT_BUILT]
     rows = [(fault.part, fault.kind.value, reason_of(report, fault), fault.why) for fault in faults]
-    rows += [(part, "as asked", Reason.REJECTED.sentence, "the user fixed it") for part in stopped(report)]
+    rows += [(part, "as asked", Reason.REJECTED.sentence, "the user fixed it") for part in fixed_by_user(report)]
     columns = ("part or request", "what", "reason", "what was found")
     none = "Every door and drawer has its joint, and all else that was asked for was built."
     return plain_rows(columns, rows, "Not built") if rows else tag("p", none, class_="none")
 
 
-def lacks_table(report: Report) -> Html:
+def deficiencies_table(report: Report) -> Html:
     """Returns one row per kind of thing that was missing: how often before, how often still."""
     before = Counter(lack.kind for lack in report.deficiencies)
-    left = still_lacking(report)
+    left = remaining_deficiencies(report)
     after = Counter(lack.kind for lack in left)
     rows = [
         (kind.value, str(count), str(after[kind]), _ids([lack.part for lack in left if lack.kind is kind]))

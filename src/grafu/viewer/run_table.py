@@ -12,7 +12,7 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.report_schema import Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
 from grafu.pipeline.words import Colour, FaultKind, listed
-from grafu.viewer.wording import still_lacking
+from grafu.viewer.wording import remaining_deficiencies
 
 Cell = str | int | float | None
 ColumnKind = Literal["text", "light", "number", "percent", "seconds"]
@@ -138,7 +138,7 @@ _COLUMNS = (
 )
 # What is worse comes first: the colour above all, then by how much, whatever the numbers below it are.
 _FAILED, _COLOURS = 1e12, {Colour.RED: 1e9, Colour.YELLOW: 1e7, Colour.GREEN: 0.0}
-_AMISS: Final[dict[FaultKind, float]] = {FaultKind.STILL: 1e4, FaultKind.SHUT: 1e4, FaultKind.LOOSE: 1e4}
+_SERIOUS: Final[dict[FaultKind, float]] = {FaultKind.NO_JOINT: 1e4, FaultKind.SHUT: 1e4, FaultKind.LOOSE: 1e4}
 _MINOR, _COLLIDES = 1.0, 1e3
 _ORDER = (Colour.RED, Colour.YELLOW, Colour.GREEN)
 
@@ -170,18 +170,18 @@ def _row(entry: RunEntry) -> RunRow:
     report, verdict = entry.report, verdict_of(entry.report)
     joints = report.joints
     turning = sum(motion_kind(joint.type).turns for joint in joints)
-    amiss = Counter(line.kind for line in verdict.lines)
+    faults = Counter(line.kind for line in verdict.lines)
     cells: tuple[Cell, ...] = (
         entry.name,
         verdict.colour.value,
         _to_look_at(report, verdict),
         turning,
         len(joints) - turning,
-        amiss[FaultKind.STILL] + amiss[FaultKind.NOT_BUILT],
-        amiss[FaultKind.RESTRICTED] + amiss[FaultKind.SHUT],
+        faults[FaultKind.NO_JOINT] + faults[FaultKind.NOT_BUILT],
+        faults[FaultKind.RESTRICTED] + faults[FaultKind.SHUT],
         max((joint.collision_share for joint in joints), default=None),
         max((1000 * joint.largest_gap for joint in joints), default=None),
-        amiss[FaultKind.NO_GRASP],
+        faults[FaultKind.NO_GRASP],
         len(report.added),
         entry.seconds,
     )
@@ -189,17 +189,17 @@ def _row(entry: RunEntry) -> RunRow:
 
 
 def _badness(report: Report, verdict: VerdictRecord) -> float:
-    amiss = sum(_AMISS.get(line.kind, _MINOR) for line in verdict.lines)
-    return _COLOURS[verdict.colour] + amiss + _COLLIDES * sum(joint.collision_share for joint in report.joints)
+    faults = sum(_SERIOUS.get(line.kind, _MINOR) for line in verdict.lines)
+    return _COLOURS[verdict.colour] + faults + _COLLIDES * sum(joint.collision_share for joint in report.joints)
 
 
 def _to_look_at(report: Report, verdict: VerdictRecord) -> str:
-    """Returns what is amiss, by kind with the parts of each, and what the piece still lacks."""
+    """Returns the faults, by kind with the parts of each, and the deficiencies that remain."""
     parts: dict[FaultKind, list[str]] = {}
     for line in verdict.lines:
         parts.setdefault(line.kind, []).append(line.part)
     said = [f"{kind}: {listed(dict.fromkeys(names))}" if any(names) else str(kind) for kind, names in parts.items()]
-    lacking = {lack.kind.value for lack in still_lacking(report)} - {"handle", "hinge", "rail", "joint"}
+    lacking = {lack.kind.value for lack in remaining_deficiencies(report)} - {"handle", "hinge", "rail", "joint"}
     return "; ".join([*said, *([f"still without {listed(sorted(lacking))}"] if lacking else [])])
 
 
@@ -207,7 +207,7 @@ def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
     reports = [entry.report for entry in entries if entry.report is not None]
     verdicts = [verdict_of(report) for report in reports]
     colours = Counter(verdict.colour for verdict in verdicts)
-    amiss = Counter(line.kind for verdict in verdicts for line in verdict.lines)
+    faults = Counter(line.kind for verdict in verdicts for line in verdict.lines)
     failed, joints = len(entries) - len(reports), sum(len(report.joints) for report in reports)
     return [
         Figure(str(len(reports)), "model done" if len(reports) == 1 else "models done"),
@@ -217,7 +217,7 @@ def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
             for colour in _ORDER
         ),
         Figure(str(joints), "joint built" if joints == 1 else "joints built"),
-        Figure(str(amiss[FaultKind.STILL]), "doors and drawers that are static", amiss[FaultKind.STILL] > 0),
-        Figure(str(amiss[FaultKind.COLLIDES]), "joints that collide", amiss[FaultKind.COLLIDES] > 0),
+        Figure(str(faults[FaultKind.NO_JOINT]), "doors and drawers that are static", faults[FaultKind.NO_JOINT] > 0),
+        Figure(str(faults[FaultKind.COLLIDES]), "joints that collide", faults[FaultKind.COLLIDES] > 0),
         Figure(str(sum(len(report.added) for report in reports)), "parts added"),
     ]

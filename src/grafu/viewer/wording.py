@@ -7,7 +7,7 @@ from math import acos, degrees
 from grafu.additions.step import DeficiencyKind
 from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
-from grafu.pipeline.verdict import stopped
+from grafu.pipeline.verdict import fixed_by_user
 from grafu.pipeline.words import counted, listed
 from grafu.vocabulary import JointType, PartLabel
 
@@ -22,7 +22,7 @@ _STRAIGHT = 0.9999  # a direction this near to an axis is called by its name
 
 def facts(report: Report) -> str:
     """Returns what moves, what was missing, and what was added, in a line; whether it is good the verdict states."""
-    return " ".join([_moves(report), _lacked(report), _added(report), *_stopped(report)])
+    return " ".join([_moves(report), _lacked(report), _added(report), *_fixed(report)])
 
 
 def unused_joints(report: Report) -> str:
@@ -42,10 +42,10 @@ def added(report: Report) -> list[str]:
     return [counted(count, what) for count, what in (*counts, (len(boxes), DeficiencyKind.DRAWER_BOX.value)) if count]
 
 
-def still_lacking(report: Report) -> tuple[DeficiencyRecord, ...]:
-    """Returns those of the deficiencies that the result still has; a part that was stopped lacks nothing."""
-    still = stopped(report)
-    return tuple(lack for lack in report.deficiencies if lack.part not in still and not _mended(lack, report))
+def remaining_deficiencies(report: Report) -> tuple[DeficiencyRecord, ...]:
+    """Returns those of the deficiencies that the result still has; a part that the user fixed lacks nothing."""
+    fixed = fixed_by_user(report)
+    return tuple(lack for lack in report.deficiencies if lack.part not in fixed and not _mended(lack, report))
 
 
 def direction_words(direction: Vector) -> str:
@@ -110,9 +110,9 @@ def _added(report: Report) -> str:
     return f"Added: {listed(said)}." if said else "Nothing was added."
 
 
-def _stopped(report: Report) -> list[str]:
-    still = stopped(report)
-    return [f"Fixed by the user: {listed(still)}."] if still else []
+def _fixed(report: Report) -> list[str]:
+    fixed = fixed_by_user(report)
+    return [f"Fixed by the user: {listed(fixed)}."] if fixed else []
 
 
 def _mended(lack: DeficiencyRecord, report: Report) -> bool:

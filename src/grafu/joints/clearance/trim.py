@@ -88,7 +88,7 @@ def trim(
     whole = box_in(path.axes, part.mesh)
     most = config.max_trim * whole.size
     metre = metre_on(scene.extent)
-    hidden = np.maximum(most, config.hidden_trim * metre)
+    hidden = np.maximum(most, config.max_hidden_trim * metre)
     limits = _Limits(most, hidden, _front_of(whole, path), config.thinnest_front * metre, config.kept)
     play = 2.5 * config.depth * scene.extent
     boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]

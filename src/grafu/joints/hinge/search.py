@@ -1,4 +1,4 @@
-"""One door's search: which pins there are, and what a sweep of the bare door states about each. It installs nothing."""
+"""One door's search: its pins, and what a sweep of the door without hardware states about each. It installs nothing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -41,7 +41,7 @@ from grafu.scene.scene import Obstacle, Scene
 @final
 @dataclass(frozen=True)
 class JudgedPin:
-    """A pin with what the sweep of the bare door states about it; lower ranks are better.
+    """A pin with what the sweep of the door without hardware states about it; lower ranks are better.
 
     `free` is the opening before the door runs into the static body; `neighbours` are the moving bodies that it meets at
     rest; `is_clear` states that the door opens about it as wanted, or nearly so, past everything.
@@ -131,7 +131,7 @@ class DoorSearch:
 
     @property
     def expected_axis(self) -> Axis:
-        """The axis of the first hinge class about which the bare door is free; else the one that was asked for."""
+        """The axis of the first hinge class about which the door, without hardware, is free; else the requested one."""
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return self.request.axis
         judged = (self._judge(pin) for pin in self._allowed)
@@ -198,7 +198,7 @@ class DoorSearch:
         return next(self.in_order())
 
     def free_ratio(self) -> float:
-        """Returns the fraction of the wanted opening that the bare door turns freely about its best pin, 0..1."""
+        """Returns the fraction of the wanted opening, 0..1, that the door without hardware turns about its best pin."""
         best = self.best()
         return min(best.free, self.widest(best.axis, self.wanted)) / self.wanted
 

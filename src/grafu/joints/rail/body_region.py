@@ -81,7 +81,7 @@ def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> Dr
 class BodyRegion:
     """The container: the x of its flanks, its extent [front, back] along y, and the flanks' extent over z.
 
-    `is_bare` states that there is no container: rails hang on the back of the front, and must begin there.
+    `is_front_only` states that there is no container: rails hang on the back of the front, and must begin there.
     """
 
     left: float
@@ -90,7 +90,7 @@ class BodyRegion:
     back: float
     bottom: float
     top: float
-    is_bare: bool = False
+    is_front_only: bool = False
 
     @property
     def length(self) -> float:

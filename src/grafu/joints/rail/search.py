@@ -101,7 +101,7 @@ class DrawerSearch:
         return widest_free(self.body, self.motion, reach, near, self.config.fine_poses)
 
     def free_ratio(self) -> float:
-        """Returns the fraction of the wanted travel that the bare drawer slides freely, 0..1; 0 if blocked at rest."""
+        """Returns how much of the wanted travel the drawer slides without hardware, 0..1; 0 if blocked at rest."""
         near = in_the_way(self.obstacles, swept_box(self.box, self.motion, self.wanted))
         return free_opening(self.body, self.motion, self.wanted, near, self.config.fine_poses)[0] / self.wanted
 

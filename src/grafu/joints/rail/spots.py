@@ -85,7 +85,7 @@ def rail_spots(
     """
     flank = body.top - body.bottom
     length = ratio * body.length
-    y = body.front + length / 2 if body.is_bare else body.back - length / 2
+    y = body.front + length / 2 if body.is_front_only else body.back - length / 2
     for thickness in _thicknesses(model, gaps, config):
         tight = (thickness - min(max(gaps.nearer, 0.0), thickness)) / 2
         inset = min(max(tight, config.dynamic_reach * thickness - gaps.passage, 0.0), config.most_inset * thickness)

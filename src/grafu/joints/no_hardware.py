@@ -21,7 +21,7 @@ _POSES = 5  # from closed to open in which it must be near what stands around it
 _Search = DoorSearch | DrawerSearch
 
 
-def bare_door(search: DoorSearch) -> Placement | None:
+def door_without_hardware(search: DoorSearch) -> Placement | None:
     """Returns the joint about the axis as asked for, or one along the door's border; None where the door is not free.
 
     It is None too where hardware was chosen, and where the door would come away from all static parts.
@@ -37,27 +37,29 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
     in_way = search.bodies_in_the_way(axis, upper)
     if in_way or upper < search.config.restricted * search.wanted:
         return None
-    return _bare(search, axis, axis.rotation, upper, ())
+    return _joint(search, axis, axis.rotation, upper, ())
 
 
-def bare_drawer(search: DrawerSearch) -> Placement | None:
+def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
     It is None too for a single board, such as a front without a box, where hardware was chosen, where the drawer would
     come away from all static parts, and where only a guess states that it is a drawer: cases slide as freely.
     """
-    is_board = search.frame.width < search.config.bare_width * search.frame.depth or is_shallow(search.frame)
+    is_board = search.frame.width < search.config.no_hardware_width * search.frame.depth or is_shallow(search.frame)
     if is_board or not search.scene.parts[search.request.moving].label.is_movable:
         return None
     upper = search.travel(search.reach)
     if upper < search.config.restricted * (search.request.reference or search.wanted):
         return None
-    return _bare(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+    return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
 
 
-def _bare(search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...]) -> Placement | None:
+def _joint(
+    search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...]
+) -> Placement | None:
     request, scene = search.request, search.scene
-    near = search.config.bare_gap * scene.extent
+    near = search.config.no_hardware_gap * scene.extent
     if str(request.choice) or not _stays_near(scene, request, motion, upper, near):
         return None
     return Placement(

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from grafu.joints.bare import NO_HARDWARE
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.no_hardware import NO_HARDWARE
 from grafu.joints.plan import JointChoice
 from grafu.joints.realize import realize
 from grafu.refusal import Reason
