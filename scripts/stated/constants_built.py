@@ -8,7 +8,8 @@ from judge_additions_table import COVERED
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
-from grafu.additions.handle.config import GraspConfig, HandleConfig
+from grafu.additions.handle.config import HandleConfig
+from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.top.config import TopConfig
 from grafu.articulation.physics import DynamicsConfig

@@ -4,7 +4,7 @@ import manifold3d
 import numpy as np
 import trimesh
 
-from grafu.additions.grip.outcome import Carved
+from grafu.additions.grip.carve import Carved
 from grafu.asset.part import Part
 from grafu.geometry.mesh import TriangleMesh
 

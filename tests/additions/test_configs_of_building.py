@@ -8,7 +8,8 @@ import pytest
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
-from grafu.additions.handle.config import FingerRoomConfig, GraspConfig, HandleConfig, HandleTrials, ReliefConfig
+from grafu.additions.handle.config import HandleConfig, HandleTrials
+from grafu.additions.handle.grasp_config import FingerRoomConfig, GraspConfig, GripConfidences, ReliefConfig
 from grafu.additions.interior.config import InteriorConfig, RoomConfig
 from grafu.additions.top.config import (
     CutoutConfig,
@@ -22,8 +23,8 @@ from grafu.joints.config import HingeConfig, RailConfig, RealizationConfig
 
 CONFIGS = (
     BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig, GraspConfig,
-    GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig,
-    OutlineConfig, RailConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, TopConfig,
+    GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig,
+    OpeningConfig, OutlineConfig, RailConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -40,6 +41,7 @@ POSITIVE = [
     (GripConfig, "finger_width"),
     (GroundConfig, "seam"),
     (HandleConfig, "inset"),
+    (HandleConfig, "from_top"),
     (HandleConfig, "least"),
     (HingeConfig, "plate"),
     (InteriorConfig, "touch"),
@@ -55,13 +57,18 @@ POSITIVE = [
 RATIOS = [
     (CutoutConfig, "left"),
     (EvidenceConfig, "plate"),
+    (GraspConfig, "inside"),
     (GraspConfig, "labelled"),
     (GraspConfig, "lever"),
     (GraspConfig, "small"),
+    (GripConfidences, "hooked"),
+    (GripConfidences, "notch"),
     (GripConfig, "depth_ratio"),
     (GripConfig, "shown"),
     (GripSizes, "rim_radius"),
     (HandleConfig, "both"),
+    (HandleConfig, "central"),
+    (HandleConfig, "from_top_ratio"),
     (HingeConfig, "slim"),
     (InteriorConfig, "carried"),
     (OpeningConfig, "least"),
@@ -118,6 +125,7 @@ def test_a_grips_own_size_is_above_0(wrong: dict[str, object]) -> None:
         (HandleTrials, {"lengths": (0.0,)}),
         (HandleTrials, {"protrusions": (1.0, nan)}),
         (HandleTrials, {"insets": (-0.5,)}),
+        (HandleTrials, {"levels": (0.5, 0.0)}),
         (HandleTrials, {"spare": (("knob-round", 1.0, 0.0),)}),
     ],
 )

@@ -8,9 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_recessed_grips import DRAWER_MOTION, scene_of
 
-from grafu.additions.grip.carve import carve_grip
+from grafu.additions.grip.carve import Carved, carve_grip
 from grafu.additions.grip.config import GripConfig, GripKind
-from grafu.additions.grip.outcome import Carved
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import rotation_matrix

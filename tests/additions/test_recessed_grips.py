@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from grip_judge import assert_sound, least_wall
 
-from grafu.additions.grip.carve import carve_grip
+from grafu.additions.grip.carve import Carved, carve_grip
 from grafu.additions.grip.config import GripConfig, GripKind
-from grafu.additions.grip.outcome import Carved
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface

@@ -1,10 +1,10 @@
 """Thresholds of additions are fields of configurations: the numbers that stand in modules are listed with a reason."""
 
-import ast
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from module_numbers import floats_in_functions, modules_of, named_numbers, numbers_in
 
 ADDITIONS = Path(__file__).parents[2] / "src" / "grafu" / "additions"
 
@@ -60,15 +60,10 @@ REASONS = {
     "top/views.py": {"VIEW_CELLS": SAMPLES, "PLAN_CELLS": SAMPLES, "VIEWING_DIRECTIONS": NUMBERING},
 }
 
-
-def numbers_in(source: str) -> Iterator[str]:
-    """Yields the names that a module gives to values with a number in them; calls of its own classes are none."""
-    for node in ast.parse(source).body:
-        if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
-            continue
-        if any(isinstance(n, ast.Constant) and type(n.value) in (int, float) for n in ast.walk(node.value)):
-            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            yield from (ast.unparse(target) for target in targets)
+IN_FUNCTIONS = {
+    "grips.py": {1.2: TOLERANCE},  # cells: what lies on a border
+    "spots.py": {0.25: SAMPLES, 0.75: SAMPLES},  # the middles of two halves
+}
 
 
 @pytest.mark.parametrize(
@@ -86,10 +81,19 @@ def test_a_number_of_a_module_is_found(source: str, names: list[str]) -> None:
     assert list(numbers_in(source)) == names
 
 
+def test_a_number_of_a_function_is_found() -> None:
+    source = (
+        "NEAR = 0.3\ndef f():\n    a = 0.5 * 0.25 + 1e-9\n    return max(a, 2)\nclass A:\n    def g(self): return 0.7"
+    )
+    assert list(floats_in_functions(source)) == [0.25, 0.7]
+
+
 def test_no_threshold_stands_in_a_module() -> None:
-    paths = {path.relative_to(ADDITIONS).as_posix(): path for path in sorted(ADDITIONS.rglob("*.py"))}
-    found = {name: set(numbers_in(path.read_text())) for name, path in paths.items()}
+    assert named_numbers(ADDITIONS) == {name: set(reasons) for name, reasons in REASONS.items()}
 
-    expected = {name: set(reasons) for name, reasons in REASONS.items()}
 
-    assert {name: names for name, names in found.items() if names} == expected
+def test_grips_and_places_of_handles_hold_no_threshold() -> None:
+    sources = modules_of(ADDITIONS / "handle")
+    found = {name: set(floats_in_functions(sources[name])) for name in IN_FUNCTIONS}
+
+    assert found == {name: set(reasons) for name, reasons in IN_FUNCTIONS.items()}

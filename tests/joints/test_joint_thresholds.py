@@ -1,7 +1,6 @@
 """Thresholds of joints are fields of configurations: the numbers that stand in modules are listed with a reason."""
 
 import ast
-from collections.abc import Iterator
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import pytest
 
 from grafu.joints import config
 from grafu.joints.config import DrawerConfig, HingeConfig, PlanConfig, RailConfig, RealizationConfig, TimeConfig
+from module_numbers import named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
 
@@ -39,23 +39,8 @@ REASONS = {
 CONFIGS = (RealizationConfig, HingeConfig, RailConfig, DrawerConfig, PlanConfig, TimeConfig)
 
 
-def numbers_in(source: str) -> Iterator[str]:
-    """Yields the names that a module gives to values with a number in them."""
-    for node in ast.parse(source).body:
-        if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
-            continue
-        if any(isinstance(n, ast.Constant) and type(n.value) in (int, float) for n in ast.walk(node.value)):
-            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            yield from (ast.unparse(target) for target in targets)
-
-
 def test_no_threshold_stands_in_a_module() -> None:
-    paths = {path.relative_to(JOINTS).as_posix(): path for path in sorted(JOINTS.rglob("*.py"))}
-    found = {name: set(numbers_in(path.read_text())) for name, path in paths.items()}
-
-    expected = {name: set(reasons) for name, reasons in REASONS.items()}
-
-    assert {name: names for name, names in found.items() if names} == expected
+    assert named_numbers(JOINTS) == {name: set(reasons) for name, reasons in REASONS.items()}
 
 
 @pytest.mark.parametrize("kind", CONFIGS, ids=lambda kind: kind.__name__)

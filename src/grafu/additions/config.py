@@ -7,7 +7,8 @@ from typing import final
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
-from grafu.additions.handle.config import GraspConfig, HandleChoice, HandleConfig
+from grafu.additions.handle.config import HandleChoice, HandleConfig
+from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
 from grafu.additions.top.config import TopConfig

@@ -8,7 +8,7 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.additions.addition import Addition
-from grafu.additions.grip.outcome import Carved
+from grafu.additions.grip.carve import Carved
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.joints.plan import RealizationPlan

@@ -17,6 +17,13 @@ def require_not_negative(config: object, *names: str) -> None:
             raise ValueError(f"`{type(config).__name__}.{name}` must not be negative: got {getattr(config, name)}")
 
 
+def require_at_most_one(config: object, *names: str) -> None:
+    """Raises ValueError unless these fields of a config are at most 1."""
+    for name in names:
+        if not getattr(config, name) <= 1:
+            raise ValueError(f"`{type(config).__name__}.{name}` must be at most 1: got {getattr(config, name)}")
+
+
 def require_ratios(config: object, *names: str) -> None:
     """Raises ValueError unless these fields of a config lie between 0 and 1."""
     for name in names:

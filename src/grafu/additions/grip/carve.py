@@ -5,19 +5,19 @@ material of the front. Nothing is added outside the old part, so that every moti
 """
 
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 
-from grafu.additions.grip.config import GripConfig, GripKind
+from grafu.additions.grip.config import GripConfig, GripKind, GripProfile
 from grafu.additions.grip.ground import Site, front_part, site_of
-from grafu.additions.grip.outcome import Carved
 from grafu.additions.grip.place import levelled, spots
 from grafu.additions.grip.shape import Cut, cutters, grip_frame, lining, tilted, union
 from grafu.additions.likeness import surface_like
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Points, Vec3
+from grafu.geometry.arrays import ArrayValue, Points, Vec3, freeze_arrays
 from grafu.geometry.bodywork import CutOut, cut_out
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -29,6 +29,30 @@ from grafu.vocabulary import PartLabel
 
 BOX_TOLERANCE = 1e-6
 """Distance between the corners of boxes that are the same, metres."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Carved(ArrayValue):
+    """A part with its grip, at rest in the object frame.
+
+    `centre` is the middle of the grip's mouth on the front, `direction` the unit vector along its length, `outward`
+    the front's; `size` is its length, width and depth in metres (a through-going one is as deep as the front is
+    thick). `volume` and `area` say what was taken away: cubic metres of solids, square metres of surface.
+    """
+
+    part: Part
+    kind: GripKind
+    profile: GripProfile
+    centre: Vec3
+    direction: Vec3
+    outward: Vec3
+    size: Vec3
+    volume: float
+    area: float
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
 
 def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | None = None) -> Carved | Refusal:

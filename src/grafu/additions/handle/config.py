@@ -1,4 +1,4 @@
-"""Room for fingers, and the sizes and places of handles. Lengths are metres on furniture of a common size."""
+"""The sizes and places of handles. Lengths are metres on furniture of a common size (`grafu.scene.scale`)."""
 
 from dataclasses import dataclass
 from typing import final
@@ -9,141 +9,6 @@ NO_HANDLE = "none"
 """`HandleChoice.style` of a front that gets nothing."""
 ANY_GRIP = "grip"
 """... and of one that gets whichever grip fits."""
-
-
-@final
-@dataclass(frozen=True)
-class ReliefConfig:
-    """The depth map of a front that grasps are looked for on.
-
-    Raises:
-        ValueError: if a length is not above 0, or `plane` is no fraction.
-    """
-
-    cell: float = 0.005
-    """Least side of a cell: a fingertip covers two, metres."""
-    coarse_cell: float = 0.009
-    """Greatest side of a cell where a large front has many, metres."""
-    margin: float = 0.036
-    """Width around the front that is looked at: three fingers' thickness, metres."""
-    lead: float = 0.09
-    """Distance before the front at which rays start: beyond any grip, metres."""
-    foot_lead: float = 0.05
-    """Distance before the front at which rays to the place of a handle's foot start, metres."""
-    behind: float = 0.1
-    """Depth behind the front's plane up to which anything matters to fingers, metres."""
-    plane: float = 0.15
-    """Fraction of the area that lies no deeper than the front's plane: a grip that stands out covers less."""
-    before: float = 0.002
-    """Depth behind a front's foremost plane up to which what ends there stands before it, metres."""
-    body: float = 0.04
-    """Depth behind the plane within which the front's outline is taken, metres."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "plane")
-
-
-@final
-@dataclass(frozen=True)
-class FingerRoomConfig:
-    """How edges and hollows are looked for on the depth map of a front.
-
-    Raises:
-        ValueError: if a length is not above 0.
-    """
-
-    level: float = 0.004
-    """Distance between the depths at which a finger is tried, metres."""
-    edge: float = 0.001
-    """Distance before an edge at which it counts as met, metres."""
-    tip: float = 0.015
-    """Distance that a fingertip behind an edge may lie from the edge's inner face, metres."""
-    through: float = 0.06
-    """Depth behind the front's plane: what is seen beyond it is seen through a hole, metres."""
-    steep: float = 0.014
-    """Width within which the wall of a hollow rises, metres."""
-    flat: float = 0.003
-    """Difference in depth over the floor of a hollow, metres."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-
-
-@final
-@dataclass(frozen=True)
-class GraspConfig:
-    """What counts as room for fingers; see `grafu.scene.scale` for models in another scale.
-
-    Raises:
-        ValueError: if a number is not above 0, a fraction is not between 0 and 1, or a confidence is above 1.
-    """
-
-    gap: float = 0.012
-    """Narrowest gap that fingers enter, and the least room behind what they pull at; a fingertip is 12 to 20 mm."""
-    reach: float = 0.02
-    """How deep fingers go in behind the face that they pull at, its own thickness counted in."""
-    hook: float = 0.006
-    """How far fingertips reach behind an edge, sideways, to pull at it: the lips of finger pulls are 6 to 10 mm."""
-    length: float = 0.06
-    """Width of three fingers: the shortest edge that is pulled at."""
-    knob: float = 0.012
-    """The smallest thing that stands out and is taken between two fingers: knobs are 13 to 40 mm wide."""
-    stub: float = 0.009
-    """How far a small thing must stand out at least to be taken between two fingers."""
-    lip: float = 0.025
-    """The widest lip along a front's border; ledges that are wider are mouldings."""
-    hole: float = 0.018
-    """The narrowest finger hole."""
-    thickest: float = 0.06
-    """The thickest edge that fingers reach round."""
-    hollow: float = 0.008
-    """The shallowest channel along an edge; inside the face, where frames have sunk panels, it is `deep_hollow`."""
-    deep_hollow: float = 0.013
-    """The shallowest hollow inside a face."""
-    widest_hollow: float = 0.05
-    """The widest channel or hollow: wider ones are sunk panels."""
-    notch: float = 0.004
-    """The shallowest notch in a border that was drawn as a grip, though no finger finds room in it."""
-    longest_notch: float = 0.16
-    """The longest such notch: longer ones are profiles or rebates."""
-    pinch: float = 0.045
-    """The thickest thing that is taken between thumb and fingers."""
-    lever: float = 0.5
-    """Fraction of the distance from the hinge to the free edge beyond which a door can be pulled open."""
-    small: float = 0.3
-    """Fraction of the front's two sides multiplied: an unlabelled part that is larger is no handle."""
-    sits: float = 0.006
-    """How far a handle that is not attached may be from the front that it sits on, metres."""
-    stands_out: float = 0.008
-    """Distance before the front's plane from which on something is a grip of its own, metres."""
-    long_ratio: float = 0.6
-    """Fraction of a front's side: an edge as long as this is long enough, however small the front."""
-    local_ratio: float = 0.5
-    """Fraction of a front's side: what is longer is a profile, a moulding or a rebate, made for looks."""
-    smallest_hole: float = 0.007
-    """Width of the smallest hole that was drawn for a finger: screws and shelf pins are no holes, metres."""
-    held: float = 0.02
-    """Depth behind the front's plane at which fingers hold what is seen through, metres."""
-    most_holes: int = 2
-    """Most small holes of a front: more are a lattice or louvres."""
-    labelled: float = 1.0
-    """Confidence of a handle that is labelled as one and attached."""
-    unlabelled: float = 0.8
-    """Confidence of a small part without a category that sticks out of a front."""
-    unattached: float = 0.6
-    """Confidence of a handle that sits on a front and is not attached to it."""
-    relief: ReliefConfig = ReliefConfig()
-    """The depth map that grips are looked for on."""
-    fingers: FingerRoomConfig = FingerRoomConfig()
-    """How edges and hollows are looked for on it."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *(name for name in self.__dataclass_fields__ if name not in ("relief", "fingers")))
-        require_ratios(self, "lever", "small", "long_ratio", "local_ratio")
-        for name in ("labelled", "unlabelled", "unattached"):
-            if getattr(self, name) > 1:
-                raise ValueError(f"`GraspConfig.{name}` must be at most 1: got {getattr(self, name)}")
 
 
 @final
@@ -170,6 +35,10 @@ class HandleTrials:
     """Distances from the free edge, as fractions of the usual one."""
     shifts: tuple[float, ...] = (0.0, 0.12, -0.12, 0.25, -0.25)
     """Distances along the edge from the usual place, as fractions of the front's side."""
+    levels: tuple[float, ...] = (0.5, 0.7, 0.82, 0.3, 0.9, 0.18)
+    """Heights on a drawer after the usual one, as fractions of its front's height."""
+    drawer_shifts: tuple[float, ...] = (0.0, 0.08, -0.08, 0.2, -0.2)
+    """Distances aside from the middle of a drawer, as fractions of its front's width."""
     most_spots: int = 60
     """Places for one size before the next size is tried."""
     most_blocked: int = 150
@@ -177,9 +46,10 @@ class HandleTrials:
 
     def __post_init__(self) -> None:
         require_positive(self, "most_spots", "most_blocked")
-        sizes = (*self.lengths, *self.protrusions, *self.insets, *(size for _, *own in self.spare for size in own))
+        sizes = (*self.lengths, *self.protrusions, *self.insets, *self.levels)
+        sizes = (*sizes, *(size for _, *own in self.spare for size in own))
         if not all(size > 0 for size in sizes):
-            raise ValueError(f"sizes and insets in `HandleTrials` must be above 0: got {sizes}")
+            raise ValueError(f"sizes, insets and levels in `HandleTrials` must be above 0: got {sizes}")
 
 
 @final
@@ -210,7 +80,11 @@ class HandleConfig:
     wide: float = 0.9
     """Drawers wider than this take two handles."""
     high: float = 0.25
-    """Drawer fronts higher than this have their handle in the upper part."""
+    """Drawer fronts higher than this have their handle in the upper part ..."""
+    from_top: float = 0.08
+    """... this far below the upper edge, metres ..."""
+    from_top_ratio: float = 0.28
+    """... and at least this fraction of the front's height."""
     most: float = 0.5
     """Largest fraction of the front's side that a handle takes along it."""
     margin: float = 0.006
@@ -238,7 +112,15 @@ class HandleConfig:
     inset_ratio: float = 0.2
     """Fraction of a front's side within which a handle lies from the free edge, where there is room for more."""
     from_end: float = 0.1
-    """From the end of a door to the near end of its handle, metres."""
+    """From the end of a door to the near end of its handle, metres ..."""
+    from_end_ratio: float = 0.15
+    """... and at most this fraction of the door's height."""
+    tall_end_ratio: float = 0.25
+    """From the end of a tall door to the middle of its handle at least, a fraction of the door's height."""
+    end_inset_ratio: float = 0.4
+    """From the free edge to the near end of a level bar on a door, a fraction of the usual inset."""
+    central: float = 0.15
+    """A handle this near to the middle of another door (fraction of its height) is at the same fraction on this one."""
     knob: float = 0.05
     """Handles that are no longer than this either way are knobs, metres ..."""
     knob_ratio: float = 1.7
@@ -258,7 +140,9 @@ class HandleConfig:
         require_positive(self, "inset", "reach_height", "tall", "short", "wide", "high", "most")
         require_positive(self, "least", "uneven", "steepest", "foot_depth", "touch", "from_end")
         require_positive(self, "knob", "knob_ratio", "shortest_bar", "longest_bar")
-        require_ratios(self, "both", "inset_ratio", "bar_ratio", "lid")
+        require_positive(self, "from_top")
+        require_ratios(self, "both", "inset_ratio", "bar_ratio", "lid", "from_top_ratio")
+        require_ratios(self, "from_end_ratio", "tall_end_ratio", "end_inset_ratio", "central")
         require_not_negative(self, "length", "margin", "weak")
         if not 0 <= self.count <= 4:
             raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")

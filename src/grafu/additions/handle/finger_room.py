@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.additions.handle.config import FingerRoomConfig, GraspConfig
+from grafu.additions.handle.grasp_config import FingerRoomConfig, GraspConfig
 from grafu.additions.handle.relief import Grid, Relief
 from grafu.geometry.arrays import Mask, Points, Vec3, vec3
 

@@ -1,6 +1,6 @@
 """How a door or drawer can be grasped as it is: by a handle, a recess, an edge, or not at all. It adds nothing."""
 
-from grafu.additions.handle.config import GraspConfig
+from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.grips import grips_on
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.step import Grasp

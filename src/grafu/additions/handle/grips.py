@@ -12,7 +12,6 @@ from typing import Literal, final
 import numpy as np
 from jaxtyping import Int
 
-from grafu.additions.handle.config import GraspConfig
 from grafu.additions.handle.finger_room import (
     STEPS,
     Cells,
@@ -23,6 +22,7 @@ from grafu.additions.handle.finger_room import (
     find_lips,
     find_ridges,
 )
+from grafu.additions.handle.grasp_config import GraspConfig, GripConfidences
 from grafu.additions.handle.relief import Relief
 from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays
 from grafu.scene.front import Side
@@ -118,34 +118,33 @@ def _hooked(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]
 
 
 def _hook(relief: Relief, config: GraspConfig, cluster: Cluster, steps: np.ndarray, lip: float) -> Grip | None:
-    s, center = relief.factor, _center(relief, cluster, lip)
+    s, center, sure = relief.factor, _center(relief, cluster, lip), config.confidences
     runs = {int(step): _run_along(relief, cluster, steps == step, int(step)) for step in np.unique(steps)}
     step, length = max(runs.items(), key=lambda item: item[1])
     if lip < relief.plane - s * config.stands_out:
         out = length + relief.cell >= s * config.knob
-        return Grip("edge", 0.95, "a grip of its own mesh stands out of it", center, length) if out else None
+        return Grip("edge", sure.hooked, "a grip of its own mesh stands out of it", center, length) if out else None
     within = _ratio_within(relief, cluster)
     narrow = min(cluster.extent(relief, 0), cluster.extent(relief, 1)) + relief.cell
-    if within > 0.9 and any(other ^ 1 in runs for other in runs) and narrow >= s * config.hole:
-        return Grip("recess", 0.9, "a hole or slot goes through it", center, length)
+    if within > config.inside and any(other ^ 1 in runs for other in runs) and narrow >= s * config.hole:
+        return Grip("recess", sure.through, "a hole or slot goes through it", center, length)
     if length < min(s * config.length, config.long_ratio * relief.front.width, config.long_ratio * relief.front.height):
         return None
     if within > 0.5 and not _open_to_border(relief, cluster.cells[steps == step], STEPS[step], lip + s * config.hollow):
         return None  # behind slats or mouldings
     if within > 0.5:
-        return Grip("recess", 0.85, "fingers reach round the edge of a cut-out", center, length)
-    return Grip(
-        "edge", _sureness(relief.front.held, STEPS[step]), "fingers reach round a free edge of it", center, length
-    )
+        return Grip("recess", sure.cut_out, "fingers reach round the edge of a cut-out", center, length)
+    confidence = _edge_confidence(relief.front.held, STEPS[step], sure)
+    return Grip("edge", confidence, "fingers reach round a free edge of it", center, length)
 
 
-def _sureness(held: Side | None, step: Step) -> float:
+def _edge_confidence(held: Side | None, step: Step, sure: GripConfidences) -> float:
     """Returns the confidence that a free edge, reached round towards `step`, is what a front is opened at.
 
     The edge that a door is held at and the upper edge of a drawer are; others serve where there is nothing else.
     """
     usual = {"left": (1, 0), "right": (-1, 0), "bottom": (0, 1), "top": (0, -1)}[held or "top"]
-    return 0.75 if step == usual else 0.6
+    return sure.held_edge if step == usual else sure.other_edge
 
 
 def _run_along(relief: Relief, cluster: Cluster, rows: np.ndarray, step: int) -> float:
@@ -155,26 +154,28 @@ def _run_along(relief: Relief, cluster: Cluster, rows: np.ndarray, step: int) ->
 
 def _standing_out(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
     """Yields what fingers pinch, and lips along a border."""
-    s, front = relief.factor, relief.front
+    s, front, sure = relief.factor, relief.front, config.confidences
     for cluster in _clusters(find_ridges(relief, s * config.stub, s * config.pinch, s * config.gap, where)):
         depth, length = _depth(relief, cluster, config), _length(relief, cluster)
         out = depth < relief.plane - s * config.stands_out
         local = all(cluster.extent(relief, k) <= config.local_ratio * (front.width, front.height)[k] for k in (0, 1))
         if out and local and length + relief.cell >= s * config.knob:
-            yield Grip("edge", 0.9, "a grip of its own mesh stands out of it", _center(relief, cluster, depth), length)
+            yield Grip(
+                "edge", sure.pinched, "a grip of its own mesh stands out of it", _center(relief, cluster, depth), length
+            )
     for cluster in _clusters(find_ridges(relief, s * config.reach, s * config.pinch, s * config.gap, where)):
         if (length := _length(relief, cluster)) >= s * config.length:
             center = _center(relief, cluster, _depth(relief, cluster, config))
-            yield Grip("edge", 0.7, "it has a thin edge that is free on both sides", center, length)
+            yield Grip("edge", sure.thin_edge, "it has a thin edge that is free on both sides", center, length)
     for cluster in _clusters(find_lips(relief, s * config.stub, s * config.lip, s * config.gap, where)):
         if (length := _length(relief, cluster)) >= s * config.length:
             center = _center(relief, cluster, _depth(relief, cluster, config))
-            yield Grip("edge", 0.7, "a lip stands out along its border", center, length)
+            yield Grip("edge", sure.lip, "a lip stands out along its border", center, length)
 
 
 def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
     """Yields hollows, channels and notches that fingers do not reach round."""
-    s = relief.factor
+    s, sure = relief.factor, config.confidences
     widest, length = s * config.widest_hollow, s * config.length
     small = []
     for cluster in _clusters(
@@ -184,15 +185,15 @@ def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
         narrow, wide = min(u, v) + relief.cell, max(u, v)
         center = _center(relief, cluster, _depth(relief, cluster, config))
         if narrow >= s * config.hole and (wide >= length or wide <= widest):
-            yield Grip("recess", 0.8, "a hollow takes fingers", center, wide)
+            yield Grip("recess", sure.hollow, "a hollow takes fingers", center, wide)
         elif wide <= widest:
-            small.append(Grip("recess", 0.5, "a hole drawn for a finger", center, wide))
+            small.append(Grip("recess", sure.finger_hole, "a hole drawn for a finger", center, wide))
     yield from small if len(small) <= config.most_holes else ()
     for cluster in _clusters(find_channels(relief, s * config.hollow, s * config.gap, widest, where, config.fingers)):
         if (wide := _length(relief, cluster)) >= length:
             yield Grip(
                 "recess",
-                0.7,
+                sure.channel,
                 "a channel takes fingers",
                 _center(relief, cluster, _depth(relief, cluster, config)),
                 wide,
@@ -203,9 +204,9 @@ def _sunk(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]:
         u, v = cluster.extent(relief, 0), cluster.extent(relief, 1)
         local = u <= config.local_ratio * relief.front.width and v <= config.local_ratio * relief.front.height
         wide = max(u, v)
-        if local and 0.5 * length <= wide <= s * config.longest_notch and _meets_border(relief, cluster):
+        if local and s * config.shortest_notch <= wide <= s * config.longest_notch and _meets_border(relief, cluster):
             center = _center(relief, cluster, _depth(relief, cluster, config))
-            yield Grip("recess", 0.5, "a notch drawn for fingers", center, wide)
+            yield Grip("recess", sure.notch, "a notch drawn for fingers", center, wide)
 
 
 def _clusters(cells: Cells) -> list[Cluster]:

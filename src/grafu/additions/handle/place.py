@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.additions.addition import Addition, added_part, free_ids
-from grafu.additions.handle.config import HandleConfig, ReliefConfig
+from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.fit import HandleObstacles, Shape, fitted, ground_of, handle_obstacles
+from grafu.additions.handle.grasp_config import ReliefConfig
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.handle.spots import Extent, Spot, spots_on
 from grafu.additions.handle.style import Sibling, Style, choose_style, named_template, siblings_of

@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
-from grafu.additions.handle.config import ReliefConfig
+from grafu.additions.handle.grasp_config import ReliefConfig
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

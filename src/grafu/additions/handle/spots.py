@@ -118,7 +118,7 @@ def _above(side: Side | None, upright: bool, extent: Extent) -> Side:
 def _on_drawer(relief: Relief, extent: Extent, siblings: Sequence[Sibling], config: HandleConfig) -> Iterator[Spot]:
     s, box = relief.factor, relief.outline
     middle, height = float(box.center[0]), float(box.size[2])
-    level = 0.5 if height <= s * config.high else 1.0 - max(0.28, s * 0.08 / height)
+    level = 0.5 if height <= s * config.high else 1.0 - max(config.from_top_ratio, s * config.from_top / height)
     alike = [q for q in siblings if q.front.held is None]
     if alike:
         near = min(alike, key=lambda q: abs(q.front.height - relief.front.height))
@@ -127,12 +127,12 @@ def _on_drawer(relief: Relief, extent: Extent, siblings: Sequence[Sibling], conf
         level = 1.0
     pairs = box.size[0] > s * config.wide and 2 * extent.along < config.both * box.size[0]
     wants_two = _pairs(alike) if alike else pairs
-    for ratio in dict.fromkeys((level, 0.5, 0.7, 0.82, 0.3, 0.9, 0.18)):
+    for ratio in dict.fromkeys((level, *config.trials.levels)):
         v = float(box.low[2]) + ratio * height
         if wants_two:
             apart = [float(box.low[0]) + part * float(box.size[0]) for part in (0.25, 0.75)]
             yield from _fitting(relief, extent, [(u, v) for u in apart], "top", "two on a wide drawer", config)
-        for aside in (0.0, 0.08, -0.08, 0.2, -0.2):
+        for aside in config.trials.drawer_shifts:
             u = middle + aside * float(box.size[0])
             yield from _fitting(relief, extent, [(u, v)], "top", "centred on the drawer", config)
 
@@ -151,7 +151,7 @@ def _on_door(
     if not upright:
         above = _above(side, False, extent)
     tall = extent.along if upright else extent.across
-    heights = [*_sibling_heights(relief, alike), _usual_height(relief, tall, config)]
+    heights = [*_sibling_heights(relief, alike, config), _usual_height(relief, tall, config)]
     heights.append(float(box.center[2]))
     why = "opposite the hinge" if relief.front.hinge else "at the edge that it is pushed from"
     for inset in _insets(relief, extent, alike, upright, config):
@@ -172,7 +172,7 @@ def _insets(
         return [wide / 2 + s * config.margin]
     usual = min(s * config.inset, config.inset_ratio * float(box.size[0]))
     if not upright:
-        usual = max(usual, wide / 2 + 0.4 * usual)
+        usual = max(usual, wide / 2 + config.end_inset_ratio * usual)
     found = [_sibling_inset(q) for q in alike]
     return list(dict.fromkeys([*found[:1], *(ratio * usual for ratio in config.trials.insets)]))
 
@@ -182,7 +182,7 @@ def _sibling_inset(sibling: Sibling) -> float:
     return u if sibling.front.held == "left" else sibling.front.width - u
 
 
-def _sibling_heights(relief: Relief, alike: Sequence[Sibling]) -> list[float]:
+def _sibling_heights(relief: Relief, alike: Sequence[Sibling], config: HandleConfig) -> list[float]:
     """Returns how high the handle of the most similar door would be on this one."""
     if not alike:
         return []
@@ -191,7 +191,7 @@ def _sibling_heights(relief: Relief, alike: Sequence[Sibling]) -> list[float]:
         alike, key=lambda q: abs(q.front.height - front.height) + abs(float(q.front.origin[2] - front.origin[2]))
     )
     v, height = float(near.box.center[2]), near.front.height
-    if abs(v / height - 0.5) < 0.15:
+    if abs(v / height - 0.5) < config.central:
         return [float(box.low[2]) + v / height * float(box.size[2])]
     if v > height / 2:
         return [float(box.high[2]) - (height - v)]
@@ -206,10 +206,11 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
     if float(front.up[2]) < config.lid or height <= s * config.short:
         return (low + high) / 2
     floor = float(front.origin[2]) + low  # the door's lower edge above the floor
-    end = min(s * config.from_end, 0.15 * height) + tall / 2
+    end = min(s * config.from_end, config.from_end_ratio * height) + tall / 2
     wanted = s * config.reach_height - floor
     if height >= s * config.tall:
-        return low + min(max(wanted, 0.25 * height), 0.75 * height)
+        end = config.tall_end_ratio * height
+        return low + min(max(wanted, end), height - end)
     if wanted >= height:
         return high - end
     return low + end if wanted <= 0 else low + min(max(wanted, end), height - end)

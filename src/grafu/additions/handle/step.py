@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import final
 
-from grafu.additions.grip.carve import carve_grip
+from grafu.additions.grip.carve import Carved, carve_grip
 from grafu.additions.grip.config import GripConfig, GripKind
-from grafu.additions.grip.outcome import Carved
-from grafu.additions.handle.config import ANY_GRIP, NO_HANDLE, GraspConfig, HandleChoice, HandleConfig
+from grafu.additions.handle.config import ANY_GRIP, NO_HANDLE, HandleChoice, HandleConfig
 from grafu.additions.handle.grasp import find_grasps
+from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.place import add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
 from grafu.additions.step import Changes, Grasp, Request, StepResult
