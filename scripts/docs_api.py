@@ -30,7 +30,9 @@ METHODS = ("joint", "with_motion", "with_hinge", "with_rail", "with_handle", "wi
 
 def api_page() -> str:
     """Returns docs/api.md."""
-    functions = [_function(f"grafu.{each.__name__}", each) for each in (grafu.load, grafu.functionalize)]
+    functions = [
+        _function(f"grafu.{each.__name__}", each) for each in (grafu.load, grafu.functionalize, grafu.piece_names)
+    ]
     fields = "\n".join(f"| `{name}` | {_first(each)} |" for name, each in _properties())
     methods = [_function(f"Result.{name}", getattr(grafu.Result, name)) for name in METHODS]
     head = f"## grafu.Result\n\n{_text(inspect.getdoc(grafu.Result) or '')}\n\n| attribute | what it is |\n|---|---|\n"

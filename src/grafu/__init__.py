@@ -15,6 +15,7 @@ from grafu.version import __version__ as __version__
 if TYPE_CHECKING:
     from grafu.api.functions import functionalize as functionalize
     from grafu.api.functions import load as load
+    from grafu.api.functions import piece_names as piece_names
     from grafu.api.result import Result as Result
     from grafu.asset.part import Asset as Asset
     from grafu.errors import FunctionalizationError as FunctionalizationError
@@ -22,11 +23,12 @@ if TYPE_CHECKING:
 _HOMES = {
     "load": "grafu.api.functions",
     "functionalize": "grafu.api.functions",
+    "piece_names": "grafu.api.functions",
     "Result": "grafu.api.result",
     "Asset": "grafu.asset.part",
     "FunctionalizationError": "grafu.errors",
 }
-__all__ = ["Asset", "FunctionalizationError", "Result", "__version__", "functionalize", "load"]
+__all__ = ["Asset", "FunctionalizationError", "Result", "__version__", "functionalize", "load", "piece_names"]
 
 
 def __getattr__(name: str) -> Any:

@@ -9,10 +9,10 @@ from obj_inputs import CABINET, write_cabinet
 
 from grafu.cli.job import Failed, Job, JobOptions
 from grafu.cli.main import main
-from grafu.cli.messages import internal_fault
 from grafu.cli.progress import with_stages
 from grafu.cli.summary import print_place, print_results
 from grafu.cli.tables import plain_table, wide_console
+from grafu.cli.verb import internal_fault
 from grafu.visible import visible
 
 HOSTILE = "a\x1b]0;owned\x07\x1b[2J\u202egpj\x9b:door:"

@@ -10,8 +10,7 @@ import pytest
 
 from grafu.cli.job import Failed, Job, JobOptions, JobResult
 from grafu.cli.main import main
-from grafu.cli.messages import INTERRUPTED
-from grafu.cli.verb import EXIT_INTERRUPTED, interruption_held
+from grafu.cli.verb import EXIT_INTERRUPTED, INTERRUPTED, interruption_held
 
 
 def swallow_an_interruption() -> None:

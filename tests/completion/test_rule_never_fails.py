@@ -6,9 +6,9 @@ from hypothesis import strategies as st
 
 from grafu.completion.rule import complete_by_rule
 from grafu.geometry.box import Box
+from grafu.geometry.touching import near_pairs
 from grafu.graph.edges import Contact
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.parse import near_pairs
 from grafu.vocabulary import PartLabel
 
 steps = st.sampled_from([0.0, 0.02, 0.3, 0.5, 1.0])

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from folders import contents
-from grafu.asset.folders import MARKER
+from grafu.asset.regular_files import MARKER
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles, add_files, write_files
 from grafu.export.marker import Marker, read_marker

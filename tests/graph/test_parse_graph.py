@@ -12,8 +12,9 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.sampling import sample_surface
+from grafu.geometry.touching import near_pairs
 from grafu.graph.edges import Contact
-from grafu.graph.parse import ParsingConfig, near_pairs, parse_graph
+from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.vocabulary import PartLabel
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from constructions import CHESTS, SPECS
-from grafu.graph.touching import touching_pairs
+from grafu.geometry.touching import touching_pairs
 from grafu.synth.cabinets.bureau import Bureau, make_bureau
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.cabinets.chest import make_chest

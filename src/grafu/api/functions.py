@@ -1,6 +1,6 @@
 """`grafu.load` and `grafu.functionalize`: from a path to an asset, and from either to a result."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from os import PathLike
 from typing import Any, Final
 
@@ -14,10 +14,11 @@ from grafu.api.request import (
     require_bool_or_word,
 )
 from grafu.api.result import Result
-from grafu.asset.load import load_asset
+from grafu.asset.load import endings_in, load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
+from grafu.export.output_names import output_name, with_ending
 from grafu.joints.motion_choice import MotionChoice
 from grafu.pipeline.addition_choice import choose_additions
 from grafu.pipeline.foreign import prediction_for
@@ -26,7 +27,7 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.available import open_handles
 
 PathLikeStr = str | PathLike[str]
-_READING: Final = ("up", "front", "scale", "height", "labels", "parts")
+_READING: Final = ("up", "front", "scale", "height", "labels", "parts", "pieces", "piece")
 
 
 def load(
@@ -38,6 +39,8 @@ def load(
     height: float | None = None,
     labels: str = "input",
     parts: str = "auto",
+    pieces: str = "together",
+    piece: int | None = None,
 ) -> Asset:
     """Returns the asset at a path: its parts in metres, Z up, front -Y, standing on z = 0.
 
@@ -50,13 +53,33 @@ def load(
         labels: `input` takes categories from names, `none` ignores them.
         parts: `auto` takes the objects of the input as parts but cuts those that hide doors or drawers, `input` takes
             them as they are, `loose` takes each connected shell.
+        pieces: `together` takes all that the input holds as one model, `split` one piece of furniture of it.
+        piece: which one, from 1, in the order of `grafu.piece_names`; None: there is one only.
 
     Raises:
         TypeError: if an argument has a wrong type.
-        AssetError: if the input cannot be read, is one part only, or an argument contradicts it.
-        OptionError: if `labels` or `parts` is another word.
+        AssetError: if the input cannot be read, is one part only, holds several pieces, which are split, and none is
+            chosen, or an argument contradicts it.
+        OptionError: if `labels`, `parts` or `pieces` is another word.
     """
-    return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts))
+    return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts, pieces, piece))
+
+
+def piece_names(path: PathLikeStr, **reading: Any) -> tuple[str, ...]:
+    """Returns the names of the pieces of furniture that an input holds, from left to right; its own for a single one.
+
+    Args:
+        path: as for `grafu.load`.
+        **reading: `up`, `front`, `scale`, `height`, `labels` and `parts` of `grafu.load`.
+
+    Raises:
+        TypeError: if an argument has a wrong type or an unknown name.
+        AssetError: if the input cannot be read or holds no piece, or an argument contradicts it.
+    """
+    _require_known(reading, _READING[:-2], "piece_names")
+    found = as_path(path, "path")
+    endings = endings_in(found, _reading(**reading, pieces="split"))
+    return tuple(with_ending(output_name(found), ending) for ending in endings)
 
 
 def functionalize(
@@ -89,7 +112,8 @@ def functionalize(
         carcass: whether missing backs and bottoms are added.
         trim: whether material may be taken away to give a part clearance.
         templates: a folder of your own hinge, rail and handle templates.
-        **reading: `up`, `front`, `scale`, `height`, `labels` and `parts` of `grafu.load`, where `source` is a path.
+        **reading: `up`, `front`, `scale`, `height`, `labels`, `parts`, `pieces` and `piece` of `grafu.load`, where
+            `source` is a path.
 
     Raises:
         TypeError: if an argument has a wrong type or an unknown name.
@@ -119,9 +143,7 @@ def functionalize(
 
 
 def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, LoadOptions]:
-    unknown = sorted(set(reading) - set(_READING))
-    if unknown:
-        raise TypeError(f"`grafu.functionalize` has no argument {', '.join(unknown)}")
+    _require_known(reading, _READING, "functionalize")
     if isinstance(source, Asset):
         if reading:
             raise OptionError(f"{', '.join(reading)} say how a path is read: give them to `grafu.load`")
@@ -139,6 +161,8 @@ def _reading(
     height: float | None = None,
     labels: str = "input",
     parts: str = "auto",
+    pieces: str = "together",
+    piece: int | None = None,
 ) -> LoadOptions:
     for name, value in (("up", up), ("front", front)):
         if value is not None:
@@ -147,8 +171,18 @@ def _reading(
         raise OptionError(f"`labels` must be input or none: got {labels!r}")
     if parts not in ("auto", "input", "loose"):
         raise OptionError(f"`parts` must be auto, input or loose: got {parts!r}")
+    if pieces not in ("together", "split"):
+        raise OptionError(f"`pieces` must be together or split: got {pieces!r}")
+    if piece is not None:
+        require(piece, int, "piece", "a number such as 2, or None")
     numbers = optional_number(scale, "scale"), optional_number(height, "height")
-    return LoadOptions(up, front, *numbers, labels, parts)  # type: ignore[arg-type]  # both are checked above
+    return LoadOptions(up, front, *numbers, labels, parts, pieces, piece)  # type: ignore[arg-type]  # checked above
+
+
+def _require_known(given: Mapping[str, Any], known: Collection[str], function: str) -> None:
+    unknown = sorted(set(given) - set(known))
+    if unknown:
+        raise TypeError(f"`grafu.{function}` has no argument {', '.join(unknown)}")
 
 
 def _motions(given: Mapping[str, str] | None) -> dict[str, MotionChoice]:

@@ -15,11 +15,11 @@ import numpy as np
 from grafu.articulation.motion_kind import kind_named
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies
 from grafu.asset.drafts import PartDraft, parts_of_drafts
-from grafu.asset.folders import folders_within
 from grafu.asset.loose import shell_count
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, MeshFile, MeshPiece, Reading
+from grafu.asset.regular_files import folders_within
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnsegmentedAsset
 from grafu.geometry.appearance import Surface

@@ -132,17 +132,22 @@ class _Choice:
     why: str
 
 
-def settle_frame(reading: Reading, options: LoadOptions) -> Frame:
+def settle_frame(reading: Reading, options: LoadOptions, file: Frame | None = None) -> Frame:
     """Returns how the reading's coordinates become the object frame; what the user states wins.
+
+    Of one piece of a file, `file` is the frame that the file has as a whole: up and scale are the same for all pieces.
 
     Raises:
         AssetError: if the user's front lies on the axis that is up, or the object has no height.
     """
     whole = whole_box(reading.parts)
-    up = _up(reading, options, whole)
+    up = _up(reading, options, whole) if file is None else _Choice(file.up, "as in the whole file")
     front = _front(reading, options, whole, up.value)
     rotation = np.stack([np.cross(-vector(front.value), vector(up.value)), -vector(front.value), vector(up.value)])
-    scale, size_words = _scale(reading, options, whole, "XYZ".index(up.value[1]))
+    if file is None:
+        scale, size_words = _scale(reading, options, whole, "XYZ".index(up.value[1]))
+    else:
+        scale, size_words = file.scale, file.assumed[-1]
     T = _placed(scale, rotation, whole)
     said = (f"up is {up.value}: {up.why}", f"front is {front.value}: {front.why}", size_words)
     return Frame(T, up.value, front.value, scale, said)

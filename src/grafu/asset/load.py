@@ -5,36 +5,30 @@ The kind of an input is detected from its content: PartNet-Mobility's files, a G
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from grafu.asset.collada import read_collada
-from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.fbx import read_fbx
 from grafu.asset.fbx_document import MAGIC
-from grafu.asset.folder import divide, looked_for_fronts, mesh_files_in, read_mesh, read_mesh_folder
-from grafu.asset.folders import files_below
-from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.furniture_pieces import chosen_piece, endings_of
 from grafu.asset.gltf import read_gltf
 from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
-from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.mjcf import read_mjcf
-from grafu.asset.options import LoadOptions, check_parts
-from grafu.asset.part import Asset, Part
+from grafu.asset.options import LoadOptions
+from grafu.asset.part import Asset
 from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
-from grafu.asset.pieces import with_joined_pieces
-from grafu.asset.plausibility import with_plausible_labels
-from grafu.asset.reading import Placing, Reading, cleaned
-from grafu.asset.regular_files import read_head
+from grafu.asset.reading import Reading, cleaned
+from grafu.asset.regular_files import files_below, read_head
 from grafu.asset.resources import ModelFiles
 from grafu.asset.sdf import read_sdf
+from grafu.asset.settling import EXPECTED, pieces_in, settled
 from grafu.asset.threemf import read_threemf
 from grafu.asset.urdf import read_urdf
 from grafu.asset.usd import USD_SUFFIXES, read_usd
-from grafu.errors import UnreadableAsset, UnsegmentedAsset
-from grafu.vocabulary import PartLabel
+from grafu.errors import UnreadableAsset
 
 Reader = Callable[[Path, LoadOptions, ModelFiles], Reading]
 
@@ -64,11 +58,6 @@ _SCENES: Final = {
     "mjcf": (".xml",),
 }
 _HEAD: Final = 4096  # bytes of a file that tell what it is
-_EXPECTED = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD, FBX or 3MF scene, "
-    "an OBJ with groups, or a folder of meshes"
-)
-
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
 # What people try, by the way it ends, and what they can do with it.
 _WAYS_IN: Final[dict[str, str]] = {
@@ -94,42 +83,42 @@ def load_asset(path: Path, options: LoadOptions = LoadOptions()) -> Asset:
         UnreadableAsset: if there is nothing at the path that can be read, or it is damaged.
         UnsegmentedAsset: if it is one piece where parts were expected.
         AssetTooLarge: if it exceeds a limit.
-        AssetError: if an option contradicts the input.
+        AssetError: if an option contradicts the input, or it holds several pieces, which are split, and none is chosen.
     """
     path = Path(path)
+    reading, name = _read(path, options)
+    if options.pieces == "together":
+        return settled(reading, name, path, options)
+    pieces, frame = pieces_in(cleaned(reading), options)
+    ending, reading = chosen_piece(pieces, options.piece, path)
+    return settled(reading, f"{name}_{ending}" if ending else name, path, options, frame)
+
+
+def endings_in(path: Path, options: LoadOptions) -> tuple[str, ...]:
+    """Returns for each piece of furniture at `path` that is to be read how the name of its results ends.
+
+    It is empty where pieces are together, or there is one only.
+
+    Raises:
+        UnreadableAsset: if there is nothing at the path that can be read, it is damaged, or holds no piece.
+        AssetTooLarge: if it exceeds a limit.
+        AssetError: if an option contradicts the input, or there is no piece of the number that is chosen.
+    """
+    if options.pieces == "together":
+        return ("",)
+    pieces, _ = pieces_in(cleaned(_read(Path(path), options)[0]), options)
+    if options.piece is not None or len(pieces) < 2:
+        return (chosen_piece(pieces, options.piece, path)[0],)
+    return endings_of(pieces)
+
+
+def _read(path: Path, options: LoadOptions) -> tuple[Reading, str]:
+    """Returns what a file or folder holds, and the name of the model."""
     kind, place = detect(path)
     # named as a file of its folder, a model of the data set is that folder
     files = ModelFiles(place if kind == "partnet-mobility" else path, options.limits)
     name = _name(place if kind == "partnet-mobility" else path)  # its folder names the model, never `mobility.urdf`
-    return settled(READERS[kind](place, options, files), name, path, options)
-
-
-def settled(reading: Reading, name: str, path: Path, options: LoadOptions = LoadOptions()) -> Asset:
-    """Returns what was read as an asset in the object frame, cleaned, its loose pieces joined, its handles carried.
-
-    Raises:
-        UnreadableAsset: if it holds no part with faces.
-        UnsegmentedAsset: if it is one piece where parts were expected.
-        AssetTooLarge: if it exceeds a limit.
-        AssetError: if an option contradicts it.
-    """
-    reading = cleaned(reading)
-    if options.parts == "loose":
-        reading = _taken_apart(reading, path, options)
-    elif not reading.grouped and reading.parts:
-        reading = _joined(reading)
-    if reading.parts:
-        reading = _plausible(reading)
-    if options.parts == "auto" and reading.parts:
-        reading = _with_split_handles(cut_where_fronts_appear(reading, settle_frame(reading, options), name))
-    _check_parts(reading, path, options)
-    reading = _without_labels(reading) if options.labels == "none" else reading
-    frame = settle_frame(reading, options)
-    place = Placing(frame)
-    annotation = reading.annotation and place.annotation(reading.annotation)
-    return Asset(
-        name, str(path), reading.kind, place.parts(reading.parts), frame, notes=reading.notes, annotation=annotation
-    )
+    return READERS[kind](place, options, files), name
 
 
 def _name(path: Path) -> str:
@@ -144,11 +133,11 @@ def detect(path: Path) -> tuple[str, Path]:
     """
     try:
         if not path.exists():
-            raise UnreadableAsset(f"{path} does not exist: expected {_EXPECTED}")
+            raise UnreadableAsset(f"{path} does not exist: expected {EXPECTED}")
         return _detect_folder(path) if path.is_dir() else _detect_file(path)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or "no file can have this name"
-        raise UnreadableAsset(f"{path} cannot be read ({why}): expected {_EXPECTED}") from None
+        raise UnreadableAsset(f"{path} cannot be read ({why}): expected {EXPECTED}") from None
 
 
 def _detect_file(path: Path) -> tuple[str, Path]:
@@ -178,7 +167,7 @@ def _detect_file(path: Path) -> tuple[str, Path]:
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
     way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""
-    raise UnreadableAsset(f"{path} is not a kind of file that is read: expected {_EXPECTED}{way_in}")
+    raise UnreadableAsset(f"{path} is not a kind of file that is read: expected {EXPECTED}{way_in}")
 
 
 def _is_mjcf(head: bytes) -> bool:
@@ -197,7 +186,7 @@ def _detect_folder(folder: Path) -> tuple[str, Path]:
     if mesh_files_in(folder):
         return "mesh folder", folder
     state = "is empty" if not any(folder.iterdir()) else "holds nothing that is read"
-    raise UnreadableAsset(f"{folder} {state}: expected {_EXPECTED}")
+    raise UnreadableAsset(f"{folder} {state}: expected {EXPECTED}")
 
 
 def _several(folder: Path, found: list[Path]) -> str:
@@ -206,59 +195,3 @@ def _several(folder: Path, found: list[Path]) -> str:
     kind = found[0].suffix
     pattern = f"*{kind}" if found[0].parent == folder else "*"
     return f"{folder} holds {len(found)} {kind} files ({names}): name one, or all of them as {folder}/{pattern}"
-
-
-def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
-    count = len(reading.parts)
-    check_parts(count, path, options.limits)
-    lost = next((f" ({note})" for note in reading.notes if note.endswith("was left out")), "")
-    if count == 0:
-        raise UnreadableAsset(f"{path} holds no part with faces{lost}: expected {_EXPECTED}")
-    if count == 1:
-        only = reading.parts[0]
-        tried = f"; {looked_for_fronts(only.surfaces)}" if options.parts == "auto" else ""
-        raise UnsegmentedAsset(
-            f"{path} is one part, `{only.source.name}`{lost}: expected several{tried}; {divide(only.surfaces)}"
-        )
-
-
-def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
-    """Returns the reading with shells as parts; what an annotation lets move, ride or carry stays whole in that."""
-
-    def allow(count: int) -> None:
-        check_parts(count, path, options.limits)
-
-    parts = loose_parts(reading.parts, allow=allow)
-    note = f"each connected shell is a part (--parts loose): {len(reading.parts)} became {len(parts)}"
-    annotation = reading.annotation
-    if annotation is not None:
-        held = {joint.part for joint in annotation.joints}
-        held |= {part for p in annotation.parts if p.rides_on for part in (p.id, p.rides_on)}
-        annotation = replace(annotation, parts=loose_parts(annotation.parts, held, allow))
-    return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, note))
-
-
-def _joined(reading: Reading) -> Reading:
-    parts, notes = with_joined_pieces(reading.parts, whole_box(reading.parts))
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
-
-
-def _plausible(reading: Reading) -> Reading:
-    judged, notes = with_plausible_labels(reading.parts)
-    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes)))
-
-
-def _with_split_handles(reading: Reading) -> Reading:
-    parts, notes = with_split_handles(reading.parts)
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
-
-
-def _without_labels(reading: Reading) -> Reading:
-    stated = reading.annotation
-    annotation = stated and replace(stated, parts=tuple(_unlabelled(p) for p in stated.parts))
-    parts = tuple(_unlabelled(p) for p in reading.parts)
-    return replace(reading, parts=parts, annotation=annotation, furniture=None)
-
-
-def _unlabelled(part: Part) -> Part:
-    return replace(part, label=PartLabel.UNKNOWN, labelled_by="none")

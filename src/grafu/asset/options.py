@@ -13,6 +13,7 @@ DIRECTIONS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 
 Labelling = Literal["input", "none"]
 Division = Literal["auto", "input", "loose"]
+Pieces = Literal["together", "split"]
 
 
 def _limit(default: int, counts: str) -> Any:
@@ -94,9 +95,12 @@ class LoadOptions:
     `height` is the metric height of the whole object and wins over `scale`. `labels="none"` masks every label.
     `parts="input"` takes the input's objects as parts; `"auto"` cuts those that hide doors or drawers (see
     `cut_where_fronts_appear`); `"loose"` makes each connected shell of a mesh a part (see `loose_parts`).
+    `pieces="split"` tells the pieces of furniture in a file apart (see `told_apart`); `piece` is the number of the one
+    that is read, from 1, and None where there is one only.
 
     Raises:
-        AssetError: if a direction is not an axis, up and front lie on one axis, or a size is not positive.
+        AssetError: if a direction is not an axis, up and front lie on one axis, a size is not positive, or `piece` is
+            below 1 or given where pieces are not split.
     """
 
     up: str | None = None
@@ -105,6 +109,8 @@ class LoadOptions:
     height: float | None = None
     labels: Labelling = "input"
     parts: Division = "auto"
+    pieces: Pieces = "together"
+    piece: int | None = None
     limits: Limits = Limits()
 
     def __post_init__(self) -> None:
@@ -116,6 +122,8 @@ class LoadOptions:
             value = getattr(self, name)
             if value is not None and not 0 < value < float("inf"):
                 raise AssetError(f"--{name} must be a positive number: got {value}")
+        if self.piece is not None and (self.pieces != "split" or self.piece < 1):
+            raise AssetError(f"--piece must be a number from 1, with --pieces split: got {self.piece}, {self.pieces}")
 
 
 def _direction(name: str, value: str | None) -> str | None:

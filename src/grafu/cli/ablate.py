@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.cli.input_options import positive_count
-from grafu.cli.messages import complain, say
 from grafu.cli.synth import whole_number
 from grafu.cli.train import CONFIGS, add_training_options, training_packages
+from grafu.cli.verb import complain, say
 
 if TYPE_CHECKING:
     from grafu.training.ablation import Result

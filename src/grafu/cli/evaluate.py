@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from grafu.cli.input_options import positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of, why_stopped
-from grafu.cli.messages import complain, say
 from grafu.cli.run_page import RUN_PAGE, is_free_for_page
+from grafu.cli.verb import complain, say
 from grafu.errors import ExportError, OptionError
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from pydantic import TypeAdapter
 
 from grafu.asset.own_files import read_own
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
-from grafu.cli.messages import one_line
+from grafu.cli.verb import one_line
 from grafu.errors import FunctionalizationError, OptionError
 from grafu.export.blend.process import packed
 from grafu.export.formats import exporter_for

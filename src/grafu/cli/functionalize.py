@@ -7,16 +7,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from grafu.asset.regular_files import read_head
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
 from grafu.cli.limit_options import add_limit_options, limits_of
-from grafu.cli.messages import complain
 from grafu.cli.part_options import add_addition_options, motion_choice, part_move, with_moves
+from grafu.cli.verb import complain
 from grafu.errors import AssetError, OptionError
 from grafu.export.formats import known_formats
 from grafu.templates.available import open_gallery
 
 if TYPE_CHECKING:
-    from grafu.cli.job import Job, JobOptions, JobResult
+    from grafu.cli.job import Failed, Job, JobOptions, JobResult
     from grafu.pipeline.settings import Settings
 
 _DESCRIPTION = """\
@@ -29,6 +30,7 @@ examples:
   grafu functionalize cabinet.glb --out results
   grafu functionalize models/* --motion annotation --jobs 4 --out results
   grafu functionalize models/* --out results --resume
+  grafu functionalize room.glb --pieces split --out results
   grafu functionalize cabinet.glb --move door_2=right --move board_7=fixed --out results --overwrite
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
   grafu functionalize cabinet.obj --motion particulate:eval/pred.npz --out results
@@ -99,7 +101,17 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 
 def _is_single(options: argparse.Namespace) -> bool:
-    return len(_distinct(options.inputs)) == 1
+    return len(_distinct(options.inputs)) == 1 and not _may_split(options)
+
+
+def _may_split(options: argparse.Namespace) -> bool:
+    """Whether an input may be split into several models: each then has a process of its own."""
+    if options.pieces is not None or options.settings is None:
+        return bool(options.pieces == "split")
+    try:
+        return b'"split"' in read_head(options.settings, _MOST_SETTINGS)
+    except OSError:
+        return False  # it is refused when it is read
 
 
 def _distinct(inputs: list[Path]) -> list[Path]:
@@ -118,10 +130,15 @@ def run(options: argparse.Namespace) -> int:
     from grafu.export.whole_file import clear_remains
 
     inputs = _distinct(options.inputs)
-    jobs, refused = jobs_of(inputs, _job_options(options, alone=len(inputs) == 1))
+    shared = _job_options(options, alone=len(inputs) == 1)
+    jobs, refused = jobs_of(inputs, shared)
     clear_remains(options.out)
-    done = [_run_alone(job) for job in jobs] if len(inputs) == 1 else _run_several(jobs, options)
-    results = sorted([*done, *refused], key=lambda result: inputs.index(result.job.input))
+    if shared.settings.reading.pieces == "split":
+        jobs, unread = _told_apart(jobs, inputs, options)
+        refused += unread
+    done = [_run_alone(job) for job in jobs] if _is_single(options) else _run_several(jobs, options)
+    order = {job.name: k for k, job in enumerate(jobs)}
+    results = sorted([*done, *refused], key=lambda r: (inputs.index(r.job.input), order.get(r.job.name, -1)))
     print_results(results)
     if not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
@@ -140,8 +157,9 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     _require_weights(options)
     settings = stated_settings(options)
     prediction = options.motion if options.motion and options.motion.source.is_foreign else None
+    is_whole = settings.reading.pieces == "together" or settings.reading.piece is not None
     if options.move:
-        settings = with_moves(settings, options.move, alone, prediction)
+        settings = with_moves(settings, options.move, alone and is_whole, prediction)
     return JobOptions(
         out=options.out,
         settings=settings,
@@ -177,6 +195,23 @@ def _run_alone(job: "Job") -> "JobResult":
 
     with with_stages(job.name) as on_stage:
         return run_job(job, Listener(on_stage))
+
+
+def _told_apart(jobs: "list[Job]", inputs: list[Path], options: argparse.Namespace) -> "tuple[list[Job], list[Failed]]":
+    """Returns a job for each piece of furniture of all inputs, and the inputs that could not be read."""
+    from grafu.cli.job import Failed, jobs_of_pieces, with_places_apart
+    from grafu.cli.pool import run_all, stopped
+
+    if not jobs:
+        return [], []
+    limits = jobs[0].options.limits
+    with closing(run_all(jobs, options.jobs or os.cpu_count() or 1, jobs_of_pieces, stopped, limits)) as ended:
+        found = list(ended)
+    failed = [one for one in found if isinstance(one, Failed)]
+    pieces = [job for one in found if not isinstance(one, Failed) for job in one]
+    pieces.sort(key=lambda job: (inputs.index(job.input), job.options.settings.reading.piece or 0))
+    apart, refused = with_places_apart(pieces, inputs)
+    return apart, failed + refused
 
 
 def _run_several(jobs: "list[Job]", options: argparse.Namespace) -> "list[JobResult]":

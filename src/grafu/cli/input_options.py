@@ -45,10 +45,11 @@ def _limit(text: str) -> tuple[str, int]:
 
 LABELS = ("input", "none")
 DIVISIONS = ("auto", "input", "loose")
+PIECES = ("together", "split")
 
 
 def add_input_options(parser: argparse.ArgumentParser) -> None:
-    """Adds --labels, --parts, --up, --front, --scale and --height."""
+    """Adds --labels, --parts, --pieces, --piece, --up, --front, --scale and --height."""
     group = parser.add_argument_group("how the input is read (by default it is detected, and the report states how)")
     group.add_argument(
         "--labels",
@@ -61,6 +62,15 @@ def add_input_options(parser: argparse.ArgumentParser) -> None:
         help="take the input's objects as parts but cut those that hide doors or drawers, take them as they are, "
         "or take each connected shell of a mesh (default: auto)",
     )
+    group.add_argument(
+        "--pieces",
+        choices=PIECES,
+        help="of a file that holds several pieces of furniture (a row, a room): take all together as one model, or "
+        "split them, a model for each (default: together)",
+    )
+    group.add_argument(
+        "--piece", type=positive_count, metavar="N", help="with --pieces split: take the piece of this number alone"
+    )
     group.add_argument("--up", metavar="AXIS", help="the input's axis that points up, say +Z")
     group.add_argument("--front", metavar="AXIS", help="the input's axis that points out of the front, say -Y")
     group.add_argument("--scale", type=_number, metavar="S", help="metres per unit of the input, say 0.01")
@@ -69,16 +79,21 @@ def add_input_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+_READING = ("up", "front", "scale", "height", "labels", "parts", "pieces", "piece")
+
+
 def load_options(options: argparse.Namespace, base: LoadOptions = LoadOptions()) -> LoadOptions:
     """Returns the reader's options that the arguments state; what they leave out is as in `base`.
 
     Raises:
         AssetError: if a direction is not an axis or a size is not positive.
     """
-    given = {name: getattr(options, name) for name in ("up", "front", "scale", "height", "labels", "parts")}
+    given = {name: getattr(options, name) for name in _READING}
     stated = {name: value for name, value in given.items() if value is not None}
     if "scale" in stated:
         stated = {"height": None, **stated}  # the height of `base` would win over it
+    if stated.get("pieces") == "together":
+        stated = {"piece": None, **stated}  # that of `base` is none of this model
     return replace(base, **stated)
 
 

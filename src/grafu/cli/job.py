@@ -6,14 +6,15 @@ What goes wrong comes back as a value, so that one bad input never stops the oth
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, TypeVar, final
 
 from grafu.cli.limit_options import too_large
-from grafu.cli.messages import internal_fault, one_line
+from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
-from grafu.export.output_names import output_name, same_place, why_not_apart
+from grafu.export.output_names import output_name, same_place, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import Limits
 from grafu.templates.available import open_gallery
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from grafu.pipeline.report_schema import Report
     from grafu.pipeline.settings import Settings
 
+T = TypeVar("T")
 MODEL_PAGE = "report.html"
 _MOST_PAGE = 256 * 2**20  # bytes of a page that a picture is taken from
 
@@ -124,13 +126,41 @@ SILENT = Listener()
 
 def run_job(job: Job, listener: Listener = SILENT) -> JobResult:
     """Returns the outcome of a job; a failure is a value, except for an interruption."""
+    return _isolated(job, partial(_run, listener=listener))
+
+
+def jobs_of_pieces(job: Job) -> tuple[Job, ...] | Failed:
+    """Returns a job for each piece of furniture of the input; the job itself where there is one only."""
+    return _isolated(job, _for_each_piece)
+
+
+def _for_each_piece(job: Job) -> tuple[Job, ...]:
+    from grafu.asset.load import endings_in
+
+    settings = job.options.settings
+    endings = endings_in(job.input, settings.reading)
+    if settings.reading.piece is not None or len(endings) == 1:
+        return (replace(job, name=with_ending(job.name, endings[0])),)
+    of_piece = (replace(settings, reading=replace(settings.reading, piece=k)) for k in range(1, len(endings) + 1))
+    options = (replace(job.options, settings=one, alone=False) for one in of_piece)
+    return tuple(
+        Job(job.input, with_ending(job.name, ending), own) for ending, own in zip(endings, options, strict=True)
+    )
+
+
+def _run(job: Job, listener: Listener) -> JobResult:
+    resumed = _resumed(job) if job.options.resume else job
+    if isinstance(resumed, Succeeded):
+        return resumed
+    started = perf_counter()
+    report, picture = _functionalize(resumed, listener)
+    return Succeeded(resumed, report, perf_counter() - started, picture)
+
+
+def _isolated(job: Job, do: Callable[[Job], T]) -> T | Failed:
+    """Returns what is done for a job, or why it could not be done."""
     try:
-        resumed = _resumed(job) if job.options.resume else job
-        if isinstance(resumed, Succeeded):
-            return resumed
-        job, started = resumed, perf_counter()
-        report, picture = _functionalize(job, listener)
-        return Succeeded(job, report, perf_counter() - started, picture)
+        return do(job)
     except FunctionalizationError as error:
         return Failed(job, one_line(str(error)), users_fault=True)
     except MemoryError:
@@ -234,20 +264,31 @@ def jobs_of(inputs: Sequence[Path], shared: JobOptions) -> tuple[list[Job], list
         AssetError: if the results of two inputs would go to one place.
     """
     refused: list[Failed] = []
-    named: dict[str, list[Job]] = defaultdict(list)
+    jobs: list[Job] = []
     for path in inputs:
         try:
-            job = Job(path, output_name(path), shared)
+            jobs.append(Job(path, output_name(path), shared))
         except AssetError as error:
             refused.append(Failed(Job(path, path.name, shared), one_line(str(error)), users_fault=True))
-        else:
-            named[same_place(job.name)].append(job)
-    for jobs in named.values():
-        if len(jobs) > 1:
+    kept, more = with_places_apart(jobs, inputs)
+    return kept, refused + more
+
+
+def with_places_apart(jobs: Sequence[Job], inputs: Sequence[Path]) -> tuple[list[Job], list[Failed]]:
+    """Returns the jobs, and those that are refused because their results would go to the place of an input.
+
+    Raises:
+        AssetError: if the results of two would go to one place.
+    """
+    named: dict[str, list[Job]] = defaultdict(list)
+    for job in jobs:
+        named[same_place(job.name)].append(job)
+    for alike in named.values():
+        if len(alike) > 1:
             raise AssetError(
-                f"inputs must have different names, for results go to DIR/<name>: got {jobs[0].input} and "
-                f"{jobs[1].input}; give their folders where these differ, or run them into different --out"
+                f"inputs must have different names, for results go to DIR/<name>: got {alike[0].input} and "
+                f"{alike[1].input}; give their folders where these differ, or run them into different --out"
             )
-    judged = [(jobs[0], why_not_apart(jobs[0].folder, inputs)) for jobs in named.values()]
-    refused += [Failed(job, why, users_fault=True) for job, why in judged if why]
+    judged = [(job, why_not_apart(job.folder, inputs)) for job in jobs]
+    refused = [Failed(job, why, users_fault=True) for job, why in judged if why]
     return [job for job, why in judged if not why], refused

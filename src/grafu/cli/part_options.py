@@ -53,7 +53,7 @@ def with_moves(
     from grafu.joints.motion_choice import choice_in_words
 
     if not alone:
-        raise OptionError("`--move` names parts of one model: give one input")
+        raise OptionError("`--move` names parts of one model: give one input, of split pieces one by --piece")
     if prediction is not None:
         raise OptionError(f"`--move` and `--motion {prediction.source}` exclude each other: leave one of them out")
     for part, word in moves:

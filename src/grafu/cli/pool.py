@@ -15,8 +15,7 @@ from typing import TypeVar
 
 from grafu.cli.job import Failed, Job, JobResult, run_job
 from grafu.cli.limit_options import limits_of, why_stopped
-from grafu.cli.messages import complain
-from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, prepare_verb, run_verb
+from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, complain, prepare_verb, run_verb
 from grafu.processes.limits import Ending, Limits
 from grafu.processes.worker import quick_start, run_each
 
@@ -57,11 +56,12 @@ Run = Callable[[Job], JobResult]
 
 def run_jobs(jobs: list[Job], workers: int, run: Run = run_job) -> Generator[JobResult, None, None]:
     """Yields each job's result as it ends, `workers` at a time; `run` must be a function of a module."""
+    return run_all(jobs, workers, run, stopped, jobs[0].options.limits)
 
-    def failed(job: Job, ending: Ending) -> JobResult:
-        return Failed(job, why_stopped(ending, job.options.limits), users_fault=ending is not Ending.DIED)
 
-    return run_all(jobs, workers, run, failed, jobs[0].options.limits)
+def stopped(job: Job, ending: Ending) -> Failed:
+    """Returns the failure of a job whose process was stopped or died."""
+    return Failed(job, why_stopped(ending, job.options.limits), users_fault=ending is not Ending.DIED)
 
 
 def run_all(

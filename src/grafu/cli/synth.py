@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from grafu.cli.input_options import positive_count
-from grafu.cli.messages import complain, say
+from grafu.cli.verb import complain, say
 from grafu.errors import ExportError, UnreadableAsset
 
 if TYPE_CHECKING:

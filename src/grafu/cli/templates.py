@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     _print_gallery(gallery)
     _print_handles(handles.values())
     if options.out is not None:
-        from grafu.cli.messages import say
+        from grafu.cli.verb import say
         from grafu.export.files import ExportFiles, write_files
         from grafu.render.gallery import gallery_files, handle_files
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grafu.cli.input_options import positive_count
-from grafu.cli.messages import complain, say
 from grafu.cli.synth import whole_number
+from grafu.cli.verb import complain, say
 from grafu.errors import FunctionalizationError
 
 if TYPE_CHECKING:

@@ -1,17 +1,60 @@
 """A verb in this process: whatever goes wrong ends in one line on stderr and an exit code, never in a traceback.
 
 Signals while libraries are imported: some take Ctrl-C for a library that is missing, and go on without either.
+
+Errors go to stderr. What steers a terminal is shown as an escape in every line: names of files and parts are others'
+text.
 """
 
 import argparse
 import signal
+import sys
+import tempfile
+import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 
-from grafu.cli.messages import INTERRUPTED, complain, internal_fault
 from grafu.errors import FunctionalizationError
 from grafu.processes.lifetime import started_by_main_thread
+from grafu.visible import visible
+
+INTERRUPTED = "interrupted; no half-written output is left"
+
+
+def complain(message: str) -> None:
+    """Prints one line on stderr, whatever line breaks the message holds."""
+    print(f"grafu: {visible(one_line(message))}", file=sys.stderr)
+
+
+def say(line: str) -> None:
+    """Prints one line on stdout, at once."""
+    print(visible(line), flush=True)
+
+
+def one_line(message: str) -> str:
+    """Returns the message with every run of white space, line breaks too, as one space."""
+    return " ".join(message.split())
+
+
+def internal_fault(error: BaseException, doing: str, debug: bool) -> str:
+    """Returns the line for an error that is our fault; the traceback goes to stderr (`debug`) or into a kept log."""
+    lines = "".join(traceback.format_exception(error)).splitlines()
+    text = "".join(f"{visible(line)}\n" for line in lines)
+    said = one_line(f"{type(error).__name__}: {error}")[:200]
+    if debug:
+        print(text, file=sys.stderr)
+        return f"internal error in {doing}, which is our fault, not yours ({said})"
+    return f"internal error in {doing}, which is our fault, not yours ({said}); traceback kept in {_keep_log(text)}"
+
+
+def _keep_log(text: str) -> str:
+    try:
+        with tempfile.NamedTemporaryFile("w", prefix="grafu-", suffix=".log", delete=False, encoding="utf-8") as log:
+            log.write(text)
+        return log.name
+    except OSError:
+        return "no file, for no temporary folder can be written: use --debug"
 
 
 @contextmanager

@@ -12,12 +12,13 @@ from grafu.completion.selection import parent_ratios
 from grafu.completion.view import View
 from grafu.completion.votes import ranking_of
 from grafu.geometry.box import Box
+from grafu.geometry.touching import near_pairs
 from grafu.graph.arrays import LABEL_CODES
 from grafu.graph.completion import Decision
 from grafu.graph.edges import Contact
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.parse import ParsingConfig, near_pairs
+from grafu.graph.parse import ParsingConfig
 from grafu.vocabulary import PartLabel
 
 _ADDABLE = [LABEL_CODES[label] for label in ADDABLE]

@@ -11,12 +11,12 @@ from typing import Literal
 
 import numpy as np
 
-from grafu.asset.load import settled
 from grafu.asset.mesh_files import read_mesh_file
 from grafu.asset.names import unique_ids
 from grafu.asset.part import AnnotatedJoint, Annotation, Asset, Part, PartSource
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
+from grafu.asset.settling import settled
 from grafu.data.furfun.folder import FurFunFolder
 from grafu.data.furfun.graph_files import load_graph_json, read_graph_file
 from grafu.data.furfun.layout import FUNCTIONAL, UNFUNCTIONAL, UNFUNCTIONAL_HSSD, LayoutKind, find_layout

@@ -15,7 +15,7 @@ from types import MappingProxyType
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.asset.folders import MARKER
+from grafu.asset.regular_files import MARKER
 from grafu.errors import ExportError
 from grafu.export.marker import Marker, read_marker
 from grafu.export.output_names import same_place

@@ -13,8 +13,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, final
 
-from grafu.asset.folders import MARKER
 from grafu.asset.own_files import read_own_json
+from grafu.asset.regular_files import MARKER
 from grafu.errors import AssetError, ExportError
 
 SCHEMA: Final = "grafu.output/1"

@@ -13,7 +13,7 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Final
 
-from grafu.asset.folders import MARKER
+from grafu.asset.regular_files import MARKER
 from grafu.errors import AssetError
 from grafu.export.whole_file import is_hidden_name
 from grafu.visible import visible
@@ -75,6 +75,11 @@ def output_name(path: Path) -> str:
             f"the results of `{visible(str(path))}` would go to `{visible(name)}`, {why}: rename the input"
         )
     return _mended(name)
+
+
+def with_ending(name: str, ending: str) -> str:
+    """Returns the name of results with `_` and an ending of letters, digits and `_`; itself without one."""
+    return _mended(f"{name}_{ending}") if ending else name
 
 
 def file_safe(name: str) -> str:

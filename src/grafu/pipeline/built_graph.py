@@ -11,12 +11,12 @@ import numpy as np
 
 from grafu.additions.addition import Addition
 from grafu.asset.part import Asset, Part
+from grafu.geometry.touching import near_pairs, touching_pairs
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of
 from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.parse import ParsingConfig, near_pairs
-from grafu.graph.touching import touching_pairs
+from grafu.graph.parse import ParsingConfig
 from grafu.vocabulary import PartLabel
 
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.errors import GraphError
+from grafu.geometry.touching import touching_pairs
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.graph.touching import touching_pairs
 from grafu.synth.families.table import draw_made
 from grafu.synth.noise.modelling_noise import ModellingNoise, apply_noise, as_given
 from grafu.synth.noise.modelling_styles import draw_noise

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, final
 
-from grafu.asset.folders import is_within
+from grafu.asset.regular_files import is_within
 from grafu.errors import UnreadableAsset
 
 LayoutKind = Literal["furfun", "pnm_clean", "hssd_test"]

@@ -11,7 +11,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.asset.folders import is_within
+from grafu.asset.regular_files import is_within
 from grafu.data.furfun.graph_files import load_graph_json
 from grafu.errors import AssetError, GraphError
 from grafu.graph.json_values import Json, read_list

@@ -14,6 +14,7 @@ import numpy as np
 
 from grafu.geometry.arrays import Indices, Mask
 from grafu.geometry.box import Box
+from grafu.geometry.budget import require_room
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
@@ -25,6 +26,32 @@ _FEW = 100
 _MOST_FACES = 1000  # a mesh of more is rarely boards, and looking costs more than the triangles' own distance
 _MOST_PAIRS = 20_000  # of rectangles and corners between two meshes, likewise
 _EXACT = 1e-9  # metres by which a corner may miss its rectangle
+_LOOKED_AT = 200  # bytes of a pair that is looked at: its numbers and the corners of two boxes
+_JOINED = 800  # bytes of a pair that is found, until it is an edge of a graph
+
+
+def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
+    """Returns the index pairs (i < j, in order) of boxes whose gap is at most `margin` metres along every axis.
+
+    Boxes are swept along X, so that time grows with the number of pairs that are near along it, not with all.
+
+    Raises:
+        TooComplex: if so many boxes overlap that their pairs do not fit into the budget.
+    """
+    if len(boxes) < 2:
+        return []
+    low, high = np.array([b.low for b in boxes]), np.array([b.high for b in boxes])
+    order = np.argsort(low[:, 0], kind="stable")
+    ends = np.searchsorted(low[order, 0], high[order, 0] + margin, side="right")
+    counts = np.maximum(ends - np.arange(len(order)) - 1, 0)
+    require_room(int(counts.sum()), _LOOKED_AT, f"looking at the neighbours of {len(boxes):,} parts")
+    first = np.repeat(np.arange(len(order)), counts)
+    second = first + 1 + counters(counts)
+    a, b = order[first], order[second]
+    near = np.all(np.maximum(low[a] - high[b], low[b] - high[a]) <= margin, axis=1)
+    require_room(int(near.sum()), _JOINED, f"the contacts of {len(boxes):,} parts")
+    found = np.sort(np.stack([a[near], b[near]], axis=1), axis=1)
+    return sorted((int(i), int(j)) for i, j in found)
 
 
 def touching_pairs(meshes: Sequence[TriangleMesh], pairs: Pairs, tolerance: float) -> list[tuple[int, int]]:

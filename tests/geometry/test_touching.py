@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.touching import touching_pairs
 from grafu.geometry.transform import from_rotation, rotation_matrix
-from grafu.graph.touching import touching_pairs
 from grafu.synth.samples import KINDS
 
 TOLERANCE = 0.05

@@ -1,0 +1,127 @@
+"""What was read to an asset in the object frame: cleaned, loose pieces joined, cut where fronts appear, placed.
+
+It reads no files.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from grafu.asset.cutting import cut_where_fronts_appear
+from grafu.asset.folder import divide, looked_for_fronts
+from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.furniture_pieces import FurniturePiece, told_apart
+from grafu.asset.loose import loose_parts, with_split_handles
+from grafu.asset.options import LoadOptions, check_parts
+from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
+from grafu.asset.pieces import with_joined_pieces
+from grafu.asset.plausibility import with_plausible_labels
+from grafu.asset.reading import Placing, Reading, cleaned
+from grafu.errors import UnreadableAsset, UnsegmentedAsset
+from grafu.vocabulary import PartLabel
+
+EXPECTED: Final = (
+    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD, FBX or 3MF scene, "
+    "an OBJ with groups, or a folder of meshes"
+)
+"""What can be read, in words."""
+
+
+def settled(
+    reading: Reading, name: str, path: Path, options: LoadOptions = LoadOptions(), file: Frame | None = None
+) -> Asset:
+    """Returns what was read as an asset in the object frame, cleaned, its loose pieces joined, its handles carried.
+
+    Of one piece of a file, `file` is the frame that the file has as a whole.
+
+    Raises:
+        UnreadableAsset: if it holds no part with faces.
+        UnsegmentedAsset: if it is one piece where parts were expected.
+        AssetTooLarge: if it exceeds a limit.
+        AssetError: if an option contradicts it.
+    """
+    reading = cleaned(reading)
+    if options.parts == "loose":
+        reading = _taken_apart(reading, path, options)
+    elif not reading.grouped and reading.parts:
+        reading = _joined(reading)
+    if reading.parts:
+        reading = _plausible(reading)
+    if options.parts == "auto" and reading.parts:
+        reading = _with_split_handles(cut_where_fronts_appear(reading, settle_frame(reading, options, file), name))
+    _check_parts(reading, path, options)
+    reading = _without_labels(reading) if options.labels == "none" else reading
+    frame = settle_frame(reading, options, file)
+    place = Placing(frame)
+    annotation = reading.annotation and place.annotation(reading.annotation)
+    return Asset(
+        name, str(path), reading.kind, place.parts(reading.parts), frame, notes=reading.notes, annotation=annotation
+    )
+
+
+def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:
+    count = len(reading.parts)
+    check_parts(count, path, options.limits)
+    lost = next((f" ({note})" for note in reading.notes if note.endswith("was left out")), "")
+    if count == 0:
+        raise UnreadableAsset(f"{path} holds no part with faces{lost}: expected {EXPECTED}")
+    if count == 1:
+        only = reading.parts[0]
+        tried = f"; {looked_for_fronts(only.surfaces)}" if options.parts == "auto" else ""
+        raise UnsegmentedAsset(
+            f"{path} is one part, `{only.source.name}`{lost}: expected several{tried}; {divide(only.surfaces)}"
+        )
+
+
+def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
+    """Returns the reading with shells as parts; what an annotation lets move, ride or carry stays whole in that."""
+
+    def allow(count: int) -> None:
+        check_parts(count, path, options.limits)
+
+    parts = loose_parts(reading.parts, allow=allow)
+    note = f"each connected shell is a part (--parts loose): {len(reading.parts)} became {len(parts)}"
+    annotation = reading.annotation
+    if annotation is not None:
+        held = {joint.part for joint in annotation.joints}
+        held |= {part for p in annotation.parts if p.rides_on for part in (p.id, p.rides_on)}
+        annotation = replace(annotation, parts=loose_parts(annotation.parts, held, allow))
+    return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, note))
+
+
+def _joined(reading: Reading) -> Reading:
+    parts, notes = with_joined_pieces(reading.parts, whole_box(reading.parts))
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+
+
+def _plausible(reading: Reading) -> Reading:
+    judged, notes = with_plausible_labels(reading.parts)
+    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes)))
+
+
+def _with_split_handles(reading: Reading) -> Reading:
+    parts, notes = with_split_handles(reading.parts)
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+
+
+def _without_labels(reading: Reading) -> Reading:
+    stated = reading.annotation
+    annotation = stated and replace(stated, parts=tuple(_unlabelled(p) for p in stated.parts))
+    parts = tuple(_unlabelled(p) for p in reading.parts)
+    return replace(reading, parts=parts, annotation=annotation, furniture=None)
+
+
+def _unlabelled(part: Part) -> Part:
+    return replace(part, label=PartLabel.UNKNOWN, labelled_by="none")
+
+
+def pieces_in(reading: Reading, options: LoadOptions) -> tuple[tuple[FurniturePiece, ...], Frame]:
+    """Returns the pieces of furniture in a file, and the frame of the file: its scale is that of its largest piece."""
+    if not reading.parts:
+        return (), IDENTITY_FRAME
+    whole = settle_frame(reading, options)
+    pieces = told_apart(reading, whole)
+    if not pieces or options.height is not None or options.scale is not None:
+        return pieces, whole
+    largest = max(pieces, key=lambda piece: whole_box(piece.reading.parts).diagonal)
+    return pieces, settle_frame(largest.reading, replace(options, up=whole.up, front=None))
