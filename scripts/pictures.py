@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pictures_additions
 import pictures_pages
+import pictures_prepare
 from PIL import Image
 
 from grafu.asset.edit import as_static_object
@@ -23,7 +24,7 @@ from grafu.templates.gallery import builtin_gallery
 ROOT = Path(__file__).parent.parent
 COLOURS = 256  # a palette is a third of the bytes, and on plain wood the difference is invisible
 BEFORE_AFTER = "before_after"
-SHEETS = {**pictures_additions.SHEETS, **pictures_pages.SHEETS}
+SHEETS = {**pictures_additions.SHEETS, **pictures_pages.SHEETS, **pictures_prepare.SHEETS}
 
 
 def main() -> int:

@@ -1,4 +1,4 @@
-"""What the README tells a reader to type runs as it stands."""
+"""What the README and docs/prepare.md tell a reader to type runs as it stands."""
 
 import re
 import shlex
@@ -10,7 +10,8 @@ from grafu.cli.main import build_parser, main
 
 ROOT = Path(__file__).parent.parent.parent
 README = (ROOT / "README.md").read_text()
-LINES = re.findall(r"^    (grafu [^#\n]+)", README, re.MULTILINE)
+PREPARE = (ROOT / "docs" / "prepare.md").read_text()
+LINES = re.findall(r"^    (grafu [^#\n]+)", README + PREPARE, re.MULTILINE)
 SHORT = [line for line in LINES if re.match(r"grafu (inspect|functionalize samples/\w+\.glb )", line)]
 
 
@@ -21,7 +22,7 @@ def arguments_of(line: str) -> list[str]:
 
 
 def test_every_line_is_a_command_on_what_the_checkout_holds() -> None:
-    assert len(LINES) >= 9
+    assert len(LINES) >= 14
     for line in LINES:
         words = arguments_of(line)
         build_parser().parse_args(words)
