@@ -8,11 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grafu.asset.load import load_asset
+from collada_documents import write_collada
+from fbx_scenes import write_fbx
+from grafu.asset.load import SCENES, load_asset
 from grafu.asset.part import Asset
 from grafu.data.furfun.points import read_ply
 from grafu.data.furfun.write import write_furfun
 from grafu.errors import AssetError, OptionError, UnreadableAsset
+from grafu.evaluation.dataset import KINDS as DATASET_KINDS
 from grafu.evaluation.dataset import TEST_SEED, ModelRef, category_of, find_models, load_model
 from grafu.evaluation.dataset_release import DOOR_RANGE, DRAWER_RANGE
 from grafu.graph.motion import direction_to_code
@@ -21,8 +24,10 @@ from grafu.synth.samples import KINDS
 from grafu.training.source import RESERVED_SEEDS
 from grafu.vocabulary import JointType, PartLabel
 from hssd_models import hssd_model
+from robot_models import write_mjcf, write_sdf
 from small_assets import AS_IT_IS, Y_UP, obj_text, write_glb, write_obj_folder, write_pnm, write_urdf, yaw
 from spoiled_files import SPOILS
+from threemf_packages import write_threemf
 
 SEED = 31
 COUNT = 3
@@ -103,6 +108,26 @@ def test_a_mixed_folder_gives_every_model_once(tmp_path, furfun):
         "pieces": "mesh",
         **{f"synth_{SEED}_{k:07d}": "furfun" for k in range(COUNT)},
     }
+
+
+def test_models_of_every_format_are_found(tmp_path):
+    write_collada(tmp_path / "dae")
+    write_fbx(tmp_path / "fbx")
+    write_sdf(tmp_path / "sdf")
+    write_mjcf(tmp_path / "mjcf")
+    write_threemf(tmp_path / "flat")
+    write_glb(tmp_path / "flat" / "dresser.glb")
+    write_threemf(tmp_path / "copies").rename(tmp_path / "copies" / "chest.3mf")
+    write_glb(tmp_path / "copies" / "chest.glb")
+    (tmp_path / "flat" / "notes.xml").write_text("<notes/>")
+    found = kinds(find_models(tmp_path))
+    assert sorted(found.values()) == sorted(["collada", "fbx", "sdf", "mjcf", "3mf", "glb", "glb"])
+    assert (found["chest"], found["dresser"]) == ("glb", "glb")
+
+
+@pytest.mark.parametrize("kind", SCENES)
+def test_every_scene_format_is_a_kind_of_model(kind):
+    assert ModelRef("a", {"gltf": "glb"}.get(kind, kind), Path("a")).kind in DATASET_KINDS
 
 
 def test_one_model_is_a_dataset_of_one(tmp_path):

@@ -46,8 +46,7 @@ READERS: Final[dict[str, Reader]] = {
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
-# Files of which a folder holds one, by how their names end; the first kind that is there is read.
-_SCENES: Final = {
+SCENES: Final = {
     "urdf": (".urdf",),
     "sdf": (".sdf",),
     "gltf": (".glb", ".gltf"),
@@ -57,6 +56,7 @@ _SCENES: Final = {
     "3mf": (".3mf",),
     "mjcf": (".xml",),
 }
+"""Files of which a folder holds one, by how their names end; the first kind that is there is read."""
 _HEAD: Final = 4096  # bytes of a file that tell what it is
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
 # What people try, by the way it ends, and what they can do with it.
@@ -174,11 +174,22 @@ def _is_mjcf(head: bytes) -> bool:
     return b"<mujoco" in head and b"<mujocoinclude" not in head and b"<robot" not in head
 
 
+def scene_kind(path: Path) -> str | None:
+    """Returns which reader of `SCENES` a file is for by its name, of XML by its head; None: for none.
+
+    Raises:
+        OSError: if the file is XML and cannot be read.
+    """
+    suffix = path.suffix.lower()
+    kind = next((kind for kind, suffixes in SCENES.items() if suffix in suffixes), None)
+    return None if kind == "mjcf" and not _is_mjcf(read_head(path, _HEAD)) else kind
+
+
 def _detect_folder(folder: Path) -> tuple[str, Path]:
     if is_partnet_mobility(folder):
         return "partnet-mobility", folder
-    for kind, suffixes in _SCENES.items():
-        found = [path for path in files_below(folder, suffixes) if kind != "mjcf" or _is_mjcf(read_head(path, _HEAD))]
+    for kind, suffixes in SCENES.items():
+        found = [path for path in files_below(folder, suffixes) if scene_kind(path) == kind]
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]
         if len(found) > 1:

@@ -1,7 +1,7 @@
 """Which models there are to measure on, and each as an asset whose joints are the truth. It measures nothing.
 
-A dataset is a folder (PartNet-Mobility, HSSD with S2O annotations, URDF, GLB, meshes, the authors' releases, any
-mixture of them), one model, or `synth:SEED:COUNT`: furniture that is made on the spot.
+A dataset is a folder (PartNet-Mobility, HSSD with S2O annotations, files of every format that is read, the authors'
+releases, any mixture of them), one model, or `synth:SEED:COUNT`: furniture that is made on the spot.
 """
 
 from collections import Counter
@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import count
 from pathlib import Path
-from typing import Final, Literal, final, get_args
+from typing import Final, final, get_args
 
 from grafu.asset.hssd import is_hssd
 from grafu.asset.json_files import read_json
-from grafu.asset.load import detect, load_asset
-from grafu.asset.part import Asset, Part
+from grafu.asset.load import READERS, SCENES, detect, load_asset, scene_kind
+from grafu.asset.part import ROBOTS, Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.layout import LayoutKind
@@ -23,27 +23,21 @@ from grafu.evaluation.dataset_release import is_release, read_release_model, rel
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
-ModelKind = Literal["partnet-mobility", "hssd", "urdf", "glb", "mesh", "furfun", "pnm_clean", "hssd_test", "made"]
-KINDS: Final[tuple[ModelKind, ...]] = get_args(ModelKind)
+_RELEASES: Final = get_args(LayoutKind)
+_KIND_OF: Final = {**{name: name for name in READERS}, "gltf": "glb", "mesh folder": "mesh", "mesh file": "mesh"}
+KINDS: Final = (*dict.fromkeys(_KIND_OF.values()), *_RELEASES, "made")
+"""The kinds of models: what reads them, `glb`, `mesh`, a release, or made on the spot."""
 TEST_SEED = 990_002  # of the synthetic furniture that nothing is trained on or chosen by
 _MADE = "synth"
 _TEST_COUNT = 100
 _MOST_MADE = 1_000_000  # more are a slip of the pen: a month of work
-_READERS: Final[dict[str, ModelKind]] = {
-    "partnet-mobility": "partnet-mobility",
-    "hssd": "hssd",
-    "urdf": "urdf",
-    "gltf": "glb",
-    "mesh folder": "mesh",
-    "mesh file": "mesh",
-}
-_RELEASES: Final = get_args(LayoutKind)
 _NAMELESS = frozenset({"model", "mobility", "robot", "scene", "object"})  # files that are named by their folder
 _MESHES_OF = frozenset({"meshes", "mesh", "visual", "collision", "textured_objs", "objs", "textures", "images"})
 _DEEPEST = 3  # folders below the one that is asked for
 EXPECTED = (
     "PartNet-Mobility folders (mobility.urdf, or mobility_v2.json with result.json), HSSD models (<id>.glb with "
-    "<id>.artpre.json), URDF or GLB files, folders of meshes, a release (graphs_unfunctional or graph_unfunc), "
+    "<id>.artpre.json), URDF, SDF, MJCF, GLB and other scene files, folders of meshes, a release "
+    "(graphs_unfunctional or graph_unfunc), "
     f"or {_MADE}:SEED:COUNT"
 )
 
@@ -61,7 +55,7 @@ class ModelRef:
     """
 
     id: str
-    kind: ModelKind
+    kind: str
     path: Path | None = None
     seed: int | None = None
     number: int | None = None
@@ -136,7 +130,7 @@ def _models_in(folder: Path, split: str, depth: int) -> list[ModelRef]:
     entries = sorted(p for p in folder.iterdir() if not p.name.startswith((".", "__")))
     scenes = _scene_files(entries)
     found = [ref for file in scenes for ref in _one(file)]
-    if depth and not any(ref.kind == "urdf" for ref in found):  # what lies below a URDF are its meshes
+    if depth and not any(ref.kind in ROBOTS for ref in found):  # what lies below a robot are its meshes
         inner = [p for p in entries if p.is_dir() and p.name.lower() not in _MESHES_OF]
         below = [ref for p in inner for ref in _models_in(p, split, depth - 1)]
         found += [ref for ref in below if ref.kind != "mesh" or not scenes]
@@ -144,11 +138,19 @@ def _models_in(folder: Path, split: str, depth: int) -> list[ModelRef]:
 
 
 def _scene_files(entries: list[Path]) -> list[Path]:
-    """Returns the annotated GLBs of a folder, or else its URDFs, or else its other scenes: these may be copies."""
-    files = [p for p in entries if p.is_file()]
-    annotated = [p for p in files if is_hssd(p)]
-    robots = [p for p in files if p.suffix.lower() == ".urdf"]
-    return annotated or robots or [p for p in files if p.suffix.lower() in (".glb", ".gltf")]
+    """Returns the annotated GLBs of a folder, or else its robots, or else its other scenes: these may be copies.
+
+    Of several files of one name the first in the table of formats counts.
+    """
+    kinds = {p: scene_kind(p) for p in entries if p.is_file()}
+    annotated = [p for p in kinds if is_hssd(p)]
+    robots = [p for p, kind in kinds.items() if kind in ROBOTS]
+    found = robots or [p for p, kind in kinds.items() if kind is not None]
+    order = list(SCENES)
+    first: dict[str, Path] = {}
+    for path in sorted(found, key=lambda p: order.index(kinds[p] or "")):
+        first.setdefault(path.stem.lower(), path)
+    return annotated or [path for path in found if first[path.stem.lower()] == path]
 
 
 def _one(path: Path) -> list[ModelRef]:
@@ -158,7 +160,7 @@ def _one(path: Path) -> list[ModelRef]:
     except AssetError:
         return []
     named = place if place.is_dir() else place.parent if place.stem.lower() in _NAMELESS else place.with_suffix("")
-    return [ModelRef(named.resolve().name, _READERS[kind], place)]
+    return [ModelRef(named.resolve().name, _KIND_OF[kind], place)]
 
 
 def _with_unique_ids(refs: list[ModelRef]) -> tuple[ModelRef, ...]:
