@@ -19,7 +19,7 @@ from grafu.evaluation import bootstrap, distribution, measures, methods, moving_
 from grafu.metrics.collision import TOLERANT, ConnectivityConfig
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
-from grafu.pipeline import verdict
+from grafu.pipeline.verdict import VerdictConfig
 from grafu.processes import limits
 from grafu.processes.limits import PATIENCE
 from grafu.training.ablation import FOLD_MODELS
@@ -27,7 +27,7 @@ from grafu.training.config import BASE, SMALL
 from grafu.training.source import TEST_SEED, VALIDATION_SEED
 from stated.constants_built import Sentence, additions, joints, per_cent
 
-SEEN = FeatureConfig()
+SEEN, VERDICT = FeatureConfig(), VerdictConfig()
 
 
 def millions(config: GraFuConfig) -> float:
@@ -130,12 +130,12 @@ def others() -> Iterator[Sentence]:
     yield (
         "pages.md",
         "it collides in some of {} poses; it comes loose (a gap above {:g} %",
-        (poses, per_cent(verdict.MOST_GAP)),
+        (poses, per_cent(VERDICT.most_gap)),
     )
-    yield "pages.md", "it opens less than {:g} % of what it should |", (per_cent(verdict.LEAST_MOTION),)
-    yield "pages.md", "it opens less than {:g} % of what it should; how", (per_cent(verdict.LEAST_OPENING),)
-    yield "pages.md", "with a score below {:g} %", (per_cent(verdict.LEAST_CONFIDENCE),)
-    yield "pages.md", "a part lost more than {:g} % to carving", (per_cent(verdict.MOST_CARVED),)
+    yield "pages.md", "it opens less than {:g} % of what it should |", (per_cent(VERDICT.least_motion),)
+    yield "pages.md", "it opens less than {:g} % of what it should; how", (per_cent(VERDICT.least_opening),)
+    yield "pages.md", "with a score below {:g} %", (per_cent(VERDICT.least_confidence),)
+    yield "pages.md", "a part lost more than {:g} % to carving", (per_cent(VERDICT.most_carved),)
     yield "limits.md", "{:g} s for a model (`evaluate`: {:g} s for a task)", (limit_options.SECONDS, evaluate._SECONDS)
     yield "limits.md", "goes more than {:g} GB beyond", (round(limits._SPARE / 1e9),)
     yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)

@@ -4,7 +4,7 @@ Faults are put into reports of furniture that works, in any number and mixture, 
 """
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cache
 
 import pytest
@@ -20,7 +20,7 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.triage import Level, joint_states
-from grafu.pipeline.verdict import LEAST_CONFIDENCE, LEAST_OPENING, MOST_CARVED, verdict_of
+from grafu.pipeline.verdict import VerdictConfig, verdict_of
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -29,6 +29,8 @@ from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType
+
+DEFAULT = VerdictConfig()
 
 GALLERY = builtin_gallery()
 LAYOUTS = (Door(), Stack((Drawer(), Door()), (1.0, 3.0)), Stack((Drawer(), Drawer(), Drawer()), (1.0, 1.0, 1.0)))
@@ -69,7 +71,7 @@ def skipped(report: Report, joint: JointRecord, size: float) -> Report:
 
 
 def guessed(report: Report, joint: JointRecord, size: float) -> Report:
-    score = (1 - size) * LEAST_CONFIDENCE - 1e-6
+    score = (1 - size) * DEFAULT.least_confidence - 1e-6
     guess = GuessRecord(
         part=joint.part, question="slide", choice="front", score=max(score, 0.0), runner_up="", runner_up_score=0
     )
@@ -77,7 +79,7 @@ def guessed(report: Report, joint: JointRecord, size: float) -> Report:
 
 
 def carved(report: Report, joint: JointRecord, size: float) -> Report:
-    ratio = MOST_CARVED + (1 - MOST_CARVED) * size
+    ratio = DEFAULT.most_carved + (1 - DEFAULT.most_carved) * size
     half = 1 - (1 - ratio) ** 0.5  # two cuts that are less each, and too much together
     cut = ClearanceRecord(part="side_panel_left", kind="carved", amount=0.1, share=half, surface_share=half, why="")
     return with_joint(report, joint.part, clearances=(*joint.clearances, cut, cut))
@@ -85,7 +87,7 @@ def carved(report: Report, joint: JointRecord, size: float) -> Report:
 
 def short(report: Report, joint: JointRecord, size: float) -> Report:
     assert joint.wanted is not None
-    opening = (1 - size) * LEAST_OPENING * joint.wanted * 0.999
+    opening = (1 - size) * DEFAULT.least_opening * joint.wanted * 0.999
     return with_joint(report, joint.part, opening=opening, upper=opening)
 
 
@@ -139,7 +141,7 @@ def test_green_means_that_every_front_opens_and_nothing_collides(data):
     works = {
         joint.part
         for joint in report.joints
-        if joint.collision_share == 0 and joint.opening >= LEAST_OPENING * (joint.wanted or 0.0) > 0
+        if joint.collision_share == 0 and joint.opening >= DEFAULT.least_opening * (joint.wanted or 0.0) > 0
     }
 
     assert (verdict.colour is Colour.GREEN) == (report == before)
@@ -216,7 +218,7 @@ def test_the_report_holds_its_verdict_and_its_thresholds():
     report = sound(0)
 
     assert report.verdict == verdict_of(report)
-    assert report.to_json()["verdict"]["least_confidence"] == LEAST_CONFIDENCE
+    assert report.to_json()["verdict"]["least_confidence"] == DEFAULT.least_confidence
     assert Report.model_validate(report.to_json()) == report
 
 
@@ -241,8 +243,28 @@ def test_a_part_that_is_hardly_told_from_a_drawer_is_a_guess_until_somebody_says
 
     assert (line.kind, line.part) == (FaultKind.GUESSED, "top_panel")
     assert "confidence 60 %, below 80 %; drawer: 30 %" in line.why
-    sure = guess.model_copy(update={"score": LEAST_CONFIDENCE})
+    sure = guess.model_copy(update={"score": DEFAULT.least_confidence})
     assert verdict_of(report.model_copy(update={"guesses": (sure,)})).colour is Colour.GREEN
+
+
+@pytest.mark.parametrize("field", fields(VerdictConfig), ids=lambda field: field.name)
+def test_a_threshold_of_faults_is_a_fraction(field):
+    with pytest.raises(ValueError, match=f"`VerdictConfig.{field.name}` must be between 0 and 1"):
+        VerdictConfig(**{field.name: 1.2})
+
+
+def test_with_other_thresholds_the_verdict_is_another():
+    report = sound(0)
+    guess = GuessRecord(
+        part="top_panel", question="label", choice="shelf", score=0.9, runner_up="drawer", runner_up_score=0.1
+    )
+    report = report.model_copy(update={"guesses": (guess,)})
+    strict = verdict_of(report, VerdictConfig(least_confidence=0.95))
+
+    assert verdict_of(report).colour is Colour.GREEN
+    assert [line.kind for line in strict.lines] == [FaultKind.GUESSED]
+    assert "confidence 90 %, below 95 %" in strict.lines[0].why
+    assert strict.least_confidence == 0.95
 
 
 def test_what_the_budget_did_not_hold_is_something_to_look_at():

@@ -15,7 +15,7 @@ from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, choice_in_words
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.settings import Settings
-from grafu.processes.cache import Cache
+from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.templates.available import open_gallery
 from grafu.templates.user import load_handles
 
@@ -85,10 +85,6 @@ def described(value: object) -> str:
     """Returns a value's type and a short form of it, for messages."""
     text = repr(value)
     return f"{type(value).__name__} {text if len(text) <= 60 else text[:57] + '...'}"
-
-
-CACHED_VALUES = 400
-"""Values of the stages that results of one lineage have in common: some ten changes of a model with twenty joints."""
 
 
 @final

@@ -5,8 +5,9 @@ It reads the figures of a report and measures nothing. A part that the user fixe
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import prod
-from typing import Final
+from typing import final
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.report_schema import (
@@ -20,33 +21,48 @@ from grafu.pipeline.report_schema import (
 )
 from grafu.pipeline.words import Colour, FaultKind, counted, listed, percent
 from grafu.refusal import Reason
+from grafu.scene.checks import require_ratios
 from grafu.vocabulary import PartLabel
 
-LEAST_CONFIDENCE: Final = 0.8
-"""A decision with a lower score is a guess that the user should check."""
-LEAST_OPENING: Final = 0.7
-"""A joint that opens less than this fraction of what it should is restricted."""
-LEAST_MOTION: Final = 0.3
-"""... and below this fraction it does not open."""
-MOST_CARVED: Final = 0.05
-"""A part that lost more than this fraction, of what is seen of it or of its volume, is carved too much."""
-MOST_GAP: Final = 0.005
-"""A part comes loose where the gap to what carries it is wider than this fraction of the object's largest side."""
 _NAMED = 4  # parts that a sentence names
 
 
-def verdict_of(report: Report) -> VerdictRecord:
+@final
+@dataclass(frozen=True)
+class VerdictConfig:
+    """From where on something is a fault. All pages and lists use the defaults, so that they agree.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    least_confidence: float = 0.8
+    """A decision with a lower score is a guess that the user should check."""
+    least_opening: float = 0.7
+    """A joint that opens less than this fraction of what it should is restricted ..."""
+    least_motion: float = 0.3
+    """... and below this fraction it does not open."""
+    most_carved: float = 0.05
+    """A part that lost more than this fraction, of what is seen of it or of its volume, is carved too much."""
+    most_gap: float = 0.005
+    """A part comes loose where the gap to what carries it is wider than this fraction of the object's largest side."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+def verdict_of(report: Report, config: VerdictConfig = VerdictConfig()) -> VerdictRecord:
     """Returns the verdict on a report: the colour of its worst fault, and green without any."""
-    faults = tuple(sorted(_faults(report), key=lambda fault: fault.colour is not Colour.RED))
+    faults = tuple(sorted(_faults(report, config), key=lambda fault: fault.colour is not Colour.RED))
     colours = {fault.colour for fault in faults}
     worst = next((colour for colour in (Colour.RED, Colour.YELLOW) if colour in colours), Colour.GREEN)
     return VerdictRecord(
         colour=worst,
         sentence=_sentence(report, faults),
         lines=faults,
-        least_confidence=LEAST_CONFIDENCE,
-        least_opening=LEAST_OPENING,
-        most_carved=MOST_CARVED,
+        least_confidence=config.least_confidence,
+        least_opening=config.least_opening,
+        most_carved=config.most_carved,
     )
 
 
@@ -82,13 +98,13 @@ def parts_without_joint(report: Report) -> dict[str, str]:
     return {part: why for part, why in without.items() if part not in answered}
 
 
-def _faults(report: Report) -> Iterator[FaultRecord]:
+def _faults(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     without = parts_without_joint(report)
     yield from (_fault(report, part, FaultKind.NO_JOINT, why) for part, why in without.items())
     for joint in report.joints:
-        yield from _faults_of(joint, report)
-    yield from (_guessed(guess, report) for guess in _unsure(report) if guess.part not in without)
-    yield from _carved(report)
+        yield from _faults_of(joint, report, config)
+    yield from (_guessed(guess, report, config) for guess in _unsure(report, config) if guess.part not in without)
+    yield from _carved(report, config)
     for skip in not_built(report):
         if not (_is_motion(skip) and skip.request in without):
             yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.sentence or str(skip.reason))
@@ -107,49 +123,49 @@ def _fault(report: Report, part: str, kind: FaultKind, why: str, option: str | N
     return FaultRecord(part=part, kind=kind, colour=kind.colour, why=why, option=said)
 
 
-def _faults_of(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
+def _faults_of(joint: JointRecord, report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     if joint.collision_share > 0:
         yield _fault(report, joint.part, FaultKind.COLLIDES, f"in {percent(joint.collision_share)} of its poses")
-    if joint.largest_gap > MOST_GAP * max(report.size or (1.0,)):
+    if joint.largest_gap > config.most_gap * max(report.size or (1.0,)):
         yield _fault(report, joint.part, FaultKind.LOOSE, f"by {1000 * joint.largest_gap:.1f} mm")
-    yield from _short(joint, report)
+    yield from _short(joint, report, config)
     if joint.grasp == "none":
         yield _fault(report, joint.part, FaultKind.NO_GRASP, "it has no handle, grip or free edge", "")
     yield from (_fault(report, joint.part, FaultKind.NOTED, note, "") for note in joint.notes)
 
 
-def _short(joint: JointRecord, report: Report) -> Iterator[FaultRecord]:
+def _short(joint: JointRecord, report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     ratio = joint.opening / joint.wanted if joint.wanted else 1.0
     said = f"it opens by {motion_kind(joint.type).worded(joint.opening)}"
     if joint.wanted:
         said += f" of {motion_kind(joint.type).worded(joint.wanted)}"
-    if ratio < LEAST_MOTION or joint.opening <= 0:
+    if ratio < config.least_motion or joint.opening <= 0:
         yield _fault(report, joint.part, FaultKind.SHUT, said)
-    elif ratio < LEAST_OPENING or joint.restricted:
+    elif ratio < config.least_opening or joint.restricted:
         yield _fault(report, joint.part, FaultKind.RESTRICTED, said)
 
 
-def _unsure(report: Report) -> Iterator[GuessRecord]:
+def _unsure(report: Report, config: VerdictConfig) -> Iterator[GuessRecord]:
     """Yields for each part the least sure of the decisions that its motion rests on, where it is not sure enough."""
-    unsure = sorted((guess for guess in report.guesses if guess.score < LEAST_CONFIDENCE), key=lambda g: g.score)
+    unsure = sorted((g for g in report.guesses if g.score < config.least_confidence), key=lambda g: g.score)
     yield from {guess.part: guess for guess in reversed(unsure)}.values()
 
 
-def _guessed(guess: GuessRecord, report: Report) -> FaultRecord:
+def _guessed(guess: GuessRecord, report: Report, config: VerdictConfig) -> FaultRecord:
     what = {"label": "category", "border": "hinge border", "sign": "opening direction"}
-    sure = f"confidence {percent(guess.score)}, below {percent(LEAST_CONFIDENCE)}"
+    sure = f"confidence {percent(guess.score)}, below {percent(config.least_confidence)}"
     other = f"; {guess.runner_up}: {percent(guess.runner_up_score)}" if guess.runner_up else ""
     why = f"{what.get(guess.question, 'slide direction')} {guess.choice}: {sure}{other}"
     return _fault(report, guess.part, FaultKind.GUESSED, why)
 
 
-def _carved(report: Report) -> Iterator[FaultRecord]:
+def _carved(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     """Yields the parts of which more went, for all joints together, than should."""
     cuts = [cut for joint in report.joints for cut in joint.clearances if cut.kind == "carved"]
     for part in dict.fromkeys(cut.part for cut in cuts):
         of_part = [cut for cut in cuts if cut.part == part]
         lost = 1.0 - prod(1.0 - cut.share for cut in of_part)
-        if lost > MOST_CARVED:
+        if lost > config.most_carved:
             by = ", ".join(dict.fromkeys(cut.why for cut in of_part))
             yield _fault(report, part, FaultKind.CARVED, f"{percent(lost)} of it was cut away: {by}", "--no-trim")
 

@@ -17,11 +17,8 @@ from threading import Thread
 
 from grafu.errors import FunctionalizationError
 from grafu.pipeline.interactive import run
-from grafu.processes.cache import Cache
+from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.visible import visible
-
-CACHED_VALUES = 400
-"""Values: some ten changes of a model with twenty joints. Most are scenes that share their meshes."""
 
 
 def serve(lines: Iterator[str], cache: Cache) -> None:
