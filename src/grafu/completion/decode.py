@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.completion.answers import move_parts
-from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.config import DecodeConfig
 from grafu.completion.doors import slide_door
 from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene

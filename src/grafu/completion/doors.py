@@ -27,15 +27,6 @@ from grafu.graph.motion import (
 )
 from grafu.refusal import Reason, Refusal
 
-# Parts farther than this fraction of the object from a border carry nothing there.
-_REACH = 0.1
-_NEAR = 0.02
-# From here on a handle's offset (fraction of the half width or height) is meant, and a flap is wide.
-_CLEAR, _SLIGHT = 0.3, 0.12
-_WIDE, _PLAIN, _WIDE_IN_ROW, _VERY_WIDE = 1.3, 1.5, 1.8, 2.2
-# A lone door with its handle in the middle of the top or bottom edge is a flap unless it is clearly upright.
-_EDGE, _UPRIGHT = 0.5, 0.7
-
 
 def hang_door(door: PartNode, scene: RuleScene) -> MotionAnswer:
     """Returns the hinge of a door with the confidence of each choice, or why it gets none."""
@@ -110,11 +101,13 @@ def plain_flap(door: PartNode, scene: RuleScene) -> HingeBorder | None:
     Half as wide again as high, and its handle in the middle of its upper or lower edge: no hinged door is pulled there
     that swings sideways.
     """
-    if door.box.thin_axis == 2 or _aspect(door) < _PLAIN:
+    config = scene.config.doors
+    if door.box.thin_axis == 2 or _aspect(door) < config.plain:
         return None
     offsets = _handle_offsets(door, scene)
     aside, aloft = offsets.get(across_axis(door), 1.0), offsets.get(2, 0.0)
-    return _border(door, 2, aloft < 0) if abs(aside) <= _SLIGHT and abs(aloft) > _CLEAR else None
+    is_flap = abs(aside) <= config.slight and abs(aloft) > config.clear
+    return _border(door, 2, aloft < 0) if is_flap else None
 
 
 def vote_mount(door: PartNode, border: HingeBorder, scene: RuleScene) -> Ranking[str] | None:
@@ -130,7 +123,7 @@ def vote_mount(door: PartNode, border: HingeBorder, scene: RuleScene) -> Ranking
 
 def _vote_lid(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     for axis, offset in _handle_offsets(door, scene).items():
-        if abs(offset) > _CLEAR:
+        if abs(offset) > scene.config.doors.clear:
             votes.add(_border(door, axis, offset < 0), 5.0 * min(abs(offset), 1.0))
     votes.add(_border(door, 1, True), 2.0)  # the back, where the front is -Y
 
@@ -149,16 +142,16 @@ def _vote_upright(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -
 
 def _vote_handle(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> tuple[bool, bool]:
     """Votes for the border opposite the handle; returns whether it spoke for a side and for top or bottom."""
-    across = across_axis(door)
+    across, config = across_axis(door), scene.config.doors
     offsets = _handle_offsets(door, scene)
     if not offsets:
         return False, False
     aside, aloft = offsets[across], offsets[2]
-    if abs(aside) > _SLIGHT:
-        weight = 6.0 * min(abs(aside), 1.0) if abs(aside) > _CLEAR else 1.5
+    if abs(aside) > config.slight:
+        weight = 6.0 * min(abs(aside), 1.0) if abs(aside) > config.clear else 1.5
         votes.add(_border(door, across, aside < 0), weight)
-        return abs(aside) > _CLEAR, False
-    if abs(aloft) > _CLEAR and _aspect(door) >= _least_flap_aspect(door, scene, aloft):
+        return abs(aside) > config.clear, False
+    if abs(aloft) > config.clear and _aspect(door) >= _least_flap_aspect(door, scene, aloft):
         votes.add(_border(door, 2, aloft < 0), 5.0 * min(abs(aloft), 1.0))
         return False, True
     return False, False
@@ -166,14 +159,15 @@ def _vote_handle(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) ->
 
 def _least_flap_aspect(door: PartNode, scene: RuleScene, aloft: float) -> float:
     """Returns from which width to height on a handle in the middle states flap; doors of a row often have it there."""
+    config = scene.config.doors
     if row_size(door, scene) > 1:
-        return _WIDE_IN_ROW
-    return _UPRIGHT if abs(aloft) > _EDGE else _WIDE
+        return config.wide_in_row
+    return config.upright if abs(aloft) > config.edge else config.wide
 
 
 def _vote_flap(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]) -> None:
     """Votes for the top of a high and the bottom of a low flap, where it is too wide to swing sideways."""
-    if _aspect(door) >= _VERY_WIDE:
+    if _aspect(door) >= scene.config.doors.very_wide:
         high = offset_ratio(scene.body, door.box.center, 2) >= 0
         votes.add(_border(door, 2, high), 3.0)
 
@@ -214,9 +208,9 @@ def _carriers(door: PartNode, border: HingeBorder, scene: RuleScene) -> list[tup
     gaps = scene.support_boxes.gaps(edge) / scene.extent
     alongside = scene.support_boxes.overlap_ratios(edge)[:, along]
     found = []
-    for k in np.flatnonzero(gaps <= _REACH):
+    for k in np.flatnonzero(gaps <= scene.config.doors.reach):
         node = scene.supports[k]
-        nearness = float(np.exp(-gaps[k] / _NEAR)) * (1.0 if scene.touch(door, node) else 0.8)
+        nearness = float(np.exp(-gaps[k] / scene.config.doors.near)) * (1.0 if scene.touch(door, node) else 0.8)
         found.append((node, nearness * (0.1 + 0.9 * float(alongside[k])) * CARRIES[node.label]))
     return found
 

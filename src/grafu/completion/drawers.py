@@ -16,9 +16,6 @@ from grafu.graph.motion import code_to_direction, opposite, signed_axis
 from grafu.refusal import Reason, Refusal
 
 _DIRECTIONS: tuple[SignedAxis, ...] = (2, 3, 0, 1)  # -Y first: the frame's front
-_NEAR = 0.03  # fractions of the object
-_REACH = 0.15
-_LEAST_FLANK = 0.05
 
 
 def run_drawer(drawer: PartNode, scene: RuleScene) -> MotionAnswer:
@@ -89,13 +86,13 @@ def _flanks(drawer: PartNode, direction: SignedAxis, scene: RuleScene) -> list[R
 
 def _best_flank(drawer: PartNode, side: SignedAxis, slide: int, scene: RuleScene) -> Ranking[str] | None:
     ratios = scene.support_boxes.overlap_ratios(drawer.box)
-    alongside = ratios[:, 2] * ratios[:, slide]
+    alongside, least = ratios[:, 2] * ratios[:, slide], scene.config.drawers.least_flank
     scored = {
         node.id: alongside[k] * CARRIES[node.label] * _nearness(drawer, node, side, scene)
         for k, node in enumerate(scene.supports)
-        if alongside[k] > _LEAST_FLANK
+        if alongside[k] > least
     }
-    return _elect({node_id: float(score) for node_id, score in scored.items() if score > _LEAST_FLANK})
+    return _elect({node_id: float(score) for node_id, score in scored.items() if score > least})
 
 
 def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: RuleScene) -> float:
@@ -103,21 +100,23 @@ def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: RuleSce
 
     It may lie within the drawer's box, where an overlaid front is wider than the drawer.
     """
-    outward, flank = code_to_direction(side), drawer.box.face_center(side)
+    config, outward, flank = scene.config.drawers, code_to_direction(side), drawer.box.face_center(side)
     inner = float((node.box.face_center(opposite(side)) - flank) @ outward)
     outer = float((node.box.face_center(side) - flank) @ outward)
     width = float(drawer.box.size[side // 2])
-    if outer < -0.25 * width or inner > _REACH * scene.extent:
+    if outer < -0.25 * width or inner > config.reach * scene.extent:
         return 0.0
     surrounds = outer > 0 and inner < -0.5 * width
     away = inner if inner > 0 else -0.3 * inner
-    return 0.5 if surrounds else float(np.exp(-away / (_NEAR * scene.extent)))
+    return 0.5 if surrounds else float(np.exp(-away / (config.near * scene.extent)))
 
 
 def _nearest(drawer: PartNode, scene: RuleScene) -> list[Ranking[str]]:
     """Returns the one part that carries a drawer without flanks: a tray hangs under its top."""
+    config = scene.config.drawers
     gaps = zip(scene.supports, scene.support_boxes.gaps(drawer.box) / scene.extent, strict=True)
-    found = _elect({n.id: float(np.exp(-gap / _NEAR)) * CARRIES[n.label] for n, gap in gaps if gap <= _REACH})
+    near = ((n, gap) for n, gap in gaps if gap <= config.reach)
+    found = _elect({n.id: float(np.exp(-gap / config.near)) * CARRIES[n.label] for n, gap in near})
     return [] if found is None else [found]
 
 

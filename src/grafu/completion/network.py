@@ -12,8 +12,8 @@ Labels that the input states are kept, whatever the network states.
 import numpy as np
 
 from grafu.completion.answers import decision_of
+from grafu.completion.config import DecodeConfig
 from grafu.completion.decode import complete_decoded, decode_graph
-from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork

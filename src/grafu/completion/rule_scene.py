@@ -7,6 +7,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.completion.config import RuleConfig
 from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -66,6 +67,7 @@ class RuleScene:
     """A graph whose handles are attached, prepared for the rules. Lengths are metres, `extent` the largest side."""
 
     graph: FunctionalGraph
+    config: RuleConfig = RuleConfig()
 
     @cached_property
     def extent(self) -> float:

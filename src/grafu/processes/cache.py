@@ -94,6 +94,6 @@ class Cache:
 
 
 CACHED_VALUES = 400
-"""Values that results of one model have in common: some ten changes of a model with twenty joints. Most are scenes that share their meshes."""
+"""Values of some ten changes of a model with twenty joints. Most are scenes that share their meshes."""
 NO_CACHE = Cache(0)
 """Makes everything anew."""
