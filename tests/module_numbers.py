@@ -40,3 +40,13 @@ def named_numbers(folder: Path) -> dict[str, set[str]]:
     """Returns the names of numbers in the modules of a folder, for modules that have some."""
     found = {name: set(numbers_in(source)) for name, source in modules_of(folder).items()}
     return {name: names for name, names in found.items() if names}
+
+
+def explained_fields(module: str, kind: str) -> set[str]:
+    """Returns the fields of a class in a source that have a line under them which explains them."""
+    found = next(node for node in ast.parse(module).body if isinstance(node, ast.ClassDef) and node.name == kind)
+    return {
+        a.target.id
+        for a, b in zip(found.body, found.body[1:], strict=False)
+        if isinstance(a, ast.AnnAssign) and isinstance(a.target, ast.Name) and isinstance(b, ast.Expr)
+    }

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.votes import Votes
 from grafu.geometry.box import Box
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.edit import mirrored, relabelled, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -288,3 +290,27 @@ def test_votes_for_one_choice_have_no_runner_up_and_of_none_is_refused():
     assert Votes(("a",)).ranking().runner_up is None
     with pytest.raises(ValueError, match="at least one choice"):
         Votes(())
+
+
+def test_thresholds_of_the_rules_can_be_chosen():
+    graph = scene(**case(0.5), door=front(0, 0.5, 0, 0.6), handle=knob(0.3, 0.3, y=-0.03), **drawer(handle=False))
+    masked = relabelled(graph, {n.id: PartLabel.UNKNOWN for n in graph.nodes})
+
+    def completed(of: FunctionalGraph = graph, **chosen) -> GraphCompletion:
+        return complete_by_rule(of, RuleConfig(**chosen))
+
+    assert completed().completed.hinges[0].border == 0
+    assert completed(doors=DoorRuleConfig(slight=0.9)).completed.hinges[0].border == 1  # as if it were in the middle
+    assert [r.part for r in completed(handle_reach=1e-3).refused] == ["handle"]  # it is 10 mm from its door
+    assert len(completed().completed.rails) == 2
+    assert len(completed(drawers=DrawerRuleConfig(least_flank=0.99)).completed.rails) < 2
+    assert completed(masked).completed.hinges
+    assert not completed(masked, guess=GuessConfig(plate=1e-3)).completed.hinges
+
+
+@pytest.mark.parametrize(("chosen", "slides"), [({}, 2), ({"lap": (0.02, 0.1)}, 0), ({"lap_height": 1.1}, 0)])
+def test_which_doors_slide_past_each_other_can_be_chosen(chosen, slides):
+    behind = ([0.45, 0.01, 0.02], [0.98, 0.03, 0.98])
+    graph = scene(**case(), door_1=([0.02, -0.02, 0.02], [0.55, 0.0, 0.98]), door_2=behind)
+
+    assert len(complete_by_rule(graph, RuleConfig(rows=RowConfig(**chosen))).completed.slides) == slides

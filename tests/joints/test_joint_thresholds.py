@@ -1,6 +1,5 @@
 """Thresholds of joints are fields of configurations: the numbers that stand in modules are listed with a reason."""
 
-import ast
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -8,7 +7,7 @@ import pytest
 
 from grafu.joints import config
 from grafu.joints.config import DrawerConfig, HingeConfig, PlanConfig, RailConfig, RealizationConfig, TimeConfig
-from module_numbers import named_numbers
+from module_numbers import explained_fields, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
 
@@ -45,16 +44,8 @@ def test_no_threshold_stands_in_a_module() -> None:
 
 @pytest.mark.parametrize("kind", CONFIGS, ids=lambda kind: kind.__name__)
 def test_every_field_has_a_line_that_explains_it(kind: type) -> None:
-    tree = next(
-        node
-        for node in ast.parse(Path(config.__file__).read_text()).body
-        if isinstance(node, ast.ClassDef) and node.name == kind.__name__
-    )
-    explained = {
-        a.target.id
-        for a, b in zip(tree.body, tree.body[1:], strict=False)
-        if isinstance(a, ast.AnnAssign) and isinstance(a.target, ast.Name) and isinstance(b, ast.Expr)
-    }
+    explained = explained_fields(Path(config.__file__).read_text(), kind.__name__)
+
     assert explained == {field.name for field in fields(kind)}
 
 

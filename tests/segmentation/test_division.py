@@ -8,6 +8,7 @@ import pytest
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.segmentation.config import CandidateConfig, DivisionConfig, FrameConfig, MemberConfig, SegmentationConfig
 from grafu.segmentation.division import divided
 from grafu.synth.samples import desk, dresser, kitchen_base
 from small_assets import CABINET, DOOR, DRAWER, mesh_of
@@ -55,6 +56,30 @@ def test_welded_samples_give_each_front_back_whole(sample):
     movers = [part.mesh for part in asset.parts if part.label.is_movable]
 
     assert boxes(cut(whole), "front") == rounded(movers)
+
+
+@pytest.mark.parametrize(
+    ("config", "expected"),
+    [
+        (SegmentationConfig(), {"rest": 1, "front": 2, "handle": 2}),
+        (SegmentationConfig(candidates=CandidateConfig(least=0.9)), {}),
+        (SegmentationConfig(members=MemberConfig(handle_side=1e-9)), {"rest": 1, "front": 2}),
+        (SegmentationConfig(division=DivisionConfig(small=0.9)), {}),
+    ],
+    ids=["as usual", "no plate is large enough", "nothing is a handle", "fronts are trifles"],
+)
+def test_thresholds_can_be_chosen(config, expected):
+    whole = merge_meshes([mesh_of(name) for name in CABINET])
+    pieces = divided([whole], [True], [False], config=config).get(0, [])
+
+    assert Counter(piece.role for piece in pieces) == expected
+
+
+def test_without_bars_no_front_is_framed():
+    whole = merge_meshes([part.mesh for part in kitchen_base().parts])
+    config = SegmentationConfig(frames=FrameConfig(bar=1e3))
+
+    assert divided([whole], [True], [False]) != divided([whole], [True], [False], config=config)
 
 
 def test_every_face_goes_to_one_piece():

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.config_checks import require_positive
 from grafu.vocabulary import PartLabel
 
 # The parts that a completion may invent: a door or a side that is not there is not missing.
@@ -78,13 +79,6 @@ class DecodeConfig:
             raise ValueError(f"`rounds`, `reach`, `grasp` and `outward` must not be negative: got {self}")
 
 
-def _require_positive(config: object, *names: str) -> None:
-    for name in names:
-        value = getattr(config, name)
-        if not all(number > 0 for number in (value if isinstance(value, tuple) else (value,))):
-            raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {value}")
-
-
 @final
 @dataclass(frozen=True, slots=True)
 class GuessConfig:
@@ -143,7 +137,7 @@ class GuessConfig:
     """Fraction of a front's outline: where one part before it covers more, it does not open."""
 
     def __post_init__(self) -> None:
-        _require_positive(self, *self.__dataclass_fields__)
+        require_positive(self, *self.__dataclass_fields__)
 
 
 @final
@@ -177,7 +171,7 @@ class DoorRuleConfig:
     """Width over height from which on a door without a handle is a flap."""
 
     def __post_init__(self) -> None:
-        _require_positive(self, *self.__dataclass_fields__)
+        require_positive(self, *self.__dataclass_fields__)
 
 
 @final
@@ -197,7 +191,39 @@ class DrawerRuleConfig:
     """Fraction of a drawer's flank beside which a carrier stands at least, and its least score."""
 
     def __post_init__(self) -> None:
-        _require_positive(self, *self.__dataclass_fields__)
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class RowConfig:
+    """Which doors stand in one row, and which slide past each other.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    shared_height: float = 0.8
+    """Height that two doors of a row share at least (fraction of each height)."""
+    seam: float = 0.25
+    """Widest seam between them (fraction of the narrower width)."""
+    in_line: float = 0.02
+    """How far apart their planes are, where that is more than the thickness (fraction of a door's largest side)."""
+    panel_height: float = 0.6
+    """Height along which a panel behind their seam stands at least (fraction of the door's height) ..."""
+    panel_width: float = 0.3
+    """... and its width at most (fraction of the door's width)."""
+    lap_height: float = 0.9
+    """Height that doors share at least that slide past each other (fraction of each height)."""
+    lap: tuple[float, float] = (0.02, 0.6)
+    """How far they lap, at least and at most (fraction of the narrower width)."""
+    planes: tuple[float, float] = (0.6, 3.0)
+    """Distance of their planes: at least over the smaller thickness, at most over the larger."""
+    in_two_planes: float = 1.2
+    """Distance over the thickness from which on doors that merely meet slide, and are no pair that swings."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
 
 
 @final
@@ -205,9 +231,16 @@ class DrawerRuleConfig:
 class RuleConfig:
     """The thresholds of the rule-based baseline."""
 
+    handle_reach: float = 0.05
+    """A handle farther from every door and drawer belongs to none (fraction of the object's largest side)."""
     guess: GuessConfig = GuessConfig()
     """Of labels for parts without one."""
     doors: DoorRuleConfig = DoorRuleConfig()
     """Of hinges."""
+    rows: RowConfig = RowConfig()
+    """Of doors side by side."""
     drawers: DrawerRuleConfig = DrawerRuleConfig()
     """Of rails."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "handle_reach")

@@ -5,6 +5,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.completion.config import RuleConfig
 from grafu.completion.rule_scene import NodeBoxes
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
@@ -15,8 +16,6 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
-# A handle farther than this fraction of the object from every door and drawer belongs to none of them.
-_FAR = 0.05
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -30,7 +29,7 @@ class Attachments:
     refused: tuple[Refusal, ...]
 
 
-def attach_handles(graph: FunctionalGraph) -> Attachments:
+def attach_handles(graph: FunctionalGraph, config: RuleConfig = RuleConfig()) -> Attachments:
     """Returns the graph with an attached edge per handle; handles that are attached already stay as they are."""
     movable = NodeBoxes(graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
     held = {edge.child for edge in graph.attachments}
@@ -42,7 +41,7 @@ def attach_handles(graph: FunctionalGraph) -> Attachments:
             continue
         misfits = _misfits(handle, movable, graph) if movable.nodes else []
         ranked = sorted(zip(misfits, (n.id for n in movable.nodes), strict=True), key=lambda item: item[0])
-        if not ranked or ranked[0][0] > _FAR:
+        if not ranked or ranked[0][0] > config.handle_reach:
             refused.append(Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT))
             continue
         edges.append(Attached(ranked[0][1], handle.id))

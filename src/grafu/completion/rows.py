@@ -6,19 +6,11 @@ from typing import Literal
 
 import numpy as np
 
+from grafu.completion.config import RowConfig
 from grafu.completion.rule_scene import RuleScene, overlap_ratio
 from grafu.graph.functional_graph import PartNode
 
 Side = Literal["low", "high", "none"]
-
-# Doors of a row: at least so much of the lower one's height is shared, and the seam is at most this fraction of a
-# width.
-_SHARED_HEIGHT = 0.8
-_SEAM = 0.25
-# Sliding doors lie in planes a good part of a thickness apart and lap by at least this fraction of a width.
-_LAP = 0.02
-_IN_TWO_PLANES = 1.2  # thicknesses apart: doors that merely meet are no pair that swings
-_MOST_LAP = 0.6
 
 
 def across_axis(door: PartNode) -> int:
@@ -49,42 +41,46 @@ def slides_past(door: PartNode, scene: RuleScene) -> PartNode | None:
     """Returns a door that this one slides past: lapping, of one height, in the next plane. None for a hinged door."""
     if door.box.thin_axis == 2:
         return None
-    return next((d for d in scene.door_boxes.level_with(door.box) if d.id != door.id and _laps(door, d)), None)
+    level = (d for d in scene.door_boxes.level_with(door.box) if d.id != door.id)
+    return next((d for d in level if _laps(door, d, scene.config.rows)), None)
 
 
-def _laps(door: PartNode, other: PartNode) -> bool:
+def _laps(door: PartNode, other: PartNode, config: RowConfig) -> bool:
     thin, axis = door.box.thin_axis, across_axis(door)
-    if other.box.thin_axis != thin or _shared_height(door, other) < 0.9:
+    if other.box.thin_axis != thin or _shared_height(door, other) < config.lap_height:
         return False
     apart = abs(float(door.box.center[thin] - other.box.center[thin]))
     thickness = float(min(door.box.size[thin], other.box.size[thin]))
-    nearest = float(max(door.box.size[thin], other.box.size[thin])) * 3
+    farthest = float(max(door.box.size[thin], other.box.size[thin])) * config.planes[1]
     lap = -float(door.box.axis_gaps(other.box)[axis])
     width = float(min(door.box.size[axis], other.box.size[axis]))
-    laps = _LAP * width <= lap <= _MOST_LAP * width
-    meets = abs(lap) <= _LAP * width and apart >= _IN_TWO_PLANES * thickness
-    return 0.6 * thickness <= apart <= nearest and (laps or meets)
+    least, most = config.lap
+    laps = least * width <= lap <= most * width
+    meets = abs(lap) <= least * width and apart >= config.in_two_planes * thickness
+    return config.planes[0] * thickness <= apart <= farthest and (laps or meets)
 
 
 def _row_of(door: PartNode, scene: RuleScene) -> list[PartNode]:
     """Returns the doors of one row, this one among them, in order of position."""
-    axis, thin = across_axis(door), door.box.thin_axis
-    alike = [d for d in scene.door_boxes.level_with(door.box) if d.box.thin_axis == thin and _in_line(door, d)]
+    axis, thin, config = across_axis(door), door.box.thin_axis, scene.config.rows
+    level = scene.door_boxes.level_with(door.box)
+    alike = [d for d in level if d.box.thin_axis == thin and _in_line(door, d, config)]
     alike.sort(key=lambda d: float(d.box.center[axis]))
     start = next(k for k, d in enumerate(alike) if d.id == door.id)
     first, last = start, start
-    while first > 0 and _seam(alike[first - 1], alike[first], axis) <= _SEAM:
+    while first > 0 and _seam(alike[first - 1], alike[first], axis) <= config.seam:
         first -= 1
-    while last + 1 < len(alike) and _seam(alike[last], alike[last + 1], axis) <= _SEAM:
+    while last + 1 < len(alike) and _seam(alike[last], alike[last + 1], axis) <= config.seam:
         last += 1
     return alike[first : last + 1]
 
 
-def _in_line(door: PartNode, other: PartNode) -> bool:
+def _in_line(door: PartNode, other: PartNode, config: RowConfig) -> bool:
     thin = door.box.thin_axis
     apart = abs(float(door.box.center[thin] - other.box.center[thin]))
     thickness = float(max(door.box.size[thin], other.box.size[thin]))
-    return apart <= max(thickness, 0.02 * float(door.box.size.max())) and _shared_height(door, other) >= _SHARED_HEIGHT
+    nearest = max(thickness, config.in_line * float(door.box.size.max()))
+    return apart <= nearest and _shared_height(door, other) >= config.shared_height
 
 
 def _shared_height(a: PartNode, b: PartNode) -> float:
@@ -109,12 +105,12 @@ def _split_at_panels(row: Sequence[PartNode], scene: RuleScene) -> list[list[Par
 
 def panel_behind(left: PartNode, right: PartNode, axis: int, scene: RuleScene) -> bool:
     """Whether an upright panel stands behind the seam of two doors."""
-    seam = (left.box.high[axis] + right.box.low[axis]) / 2
+    config, seam = scene.config.rows, (left.box.high[axis] + right.box.low[axis]) / 2
     reach = float(left.box.size[axis] + right.box.size[axis]) / 20
     return any(
         abs(float(node.box.center[axis]) - seam) <= reach
-        and overlap_ratio(left.box, node.box, 2) > 0.6
-        and float(node.box.size[axis]) < 0.3 * float(left.box.size[axis])
+        and overlap_ratio(left.box, node.box, 2) > config.panel_height
+        and float(node.box.size[axis]) < config.panel_width * float(left.box.size[axis])
         for node in scene.supports
     )
 

@@ -193,7 +193,7 @@ def complete_by_rule(graph: FunctionalGraph, config: RuleConfig = RuleConfig()) 
     fractions of votes in 0..1: they rank decisions and are no probabilities.
     """
     labels, label_decisions = guess_labels(graph, config.guess)
-    attached = attach_handles(relabelled(graph, labels))
+    attached = attach_handles(relabelled(graph, labels), config)
     scene = RuleScene(attached.graph, config)
     motions = move_parts(
         scene,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import radians
 from typing import final
 
-from grafu.scene.checks import require_not_negative, require_positive, require_ratios
+from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 
 
 @final

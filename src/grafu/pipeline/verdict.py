@@ -10,6 +10,7 @@ from math import prod
 from typing import final
 
 from grafu.articulation.motion_kind import motion_kind
+from grafu.geometry.config_checks import require_ratios
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
     FaultRecord,
@@ -21,7 +22,6 @@ from grafu.pipeline.report_schema import (
 )
 from grafu.pipeline.words import Colour, FaultKind, counted, listed, percent
 from grafu.refusal import Reason
-from grafu.scene.checks import require_ratios
 from grafu.vocabulary import PartLabel
 
 _NAMED = 4  # parts that a sentence names

@@ -1,34 +1,31 @@
-"""Which shells could be the front of a door or a drawer, seen from one side. It asks no names and joins nothing.
+"""Which shells, and which frames of several, could be the front of a door or a drawer, seen from one side.
 
 A front is a plate with a rectangular outline that little stands before and that has room behind it, or a drawer drawn
-as one body between two walls.
+as one body between two walls. It asks no names.
+
+Two parallel bars of one length with two bars across between their ends are a frame. With panels in it, that touch it or
+reach into it and are set back, they are one front; inset fronts leave a gap to their face frame.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import final
+from typing import Final, final
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices
+from grafu.segmentation.config import CandidateConfig, FrameConfig
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, View
 
-_PLATE = 0.35  # of its shorter side: how thick a front is at most
-_LEAST = 0.05  # of its object's largest side: the shorter side of a front
-_MOST_NARROW = 12.0  # times as long as wide
-_FULL = 0.5  # of its outline: what a front's faces cover, unless it is a frame
-_RING = 0.08  # of its outline: what a frame's faces cover
-_HIDDEN = 0.3  # of its outline: how much of it others may hide
-_SEEN = 0.5  # of its outline: how much of it, or of what it holds, is seen
-_ROOM = 0.3  # of its shorter side: how deep what it closes is
-_BODY = 0.6  # of its object's outline: the largest drawer drawn as one body
 _NO_AREA = 1e-300
-NEAR = 0.01  # of its object's largest side: how far off something still touches, how far it may stand out
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """The size of the object that holds each shell, and what counts as touching in it."""
+    """The size of the object that holds each shell."""
 
     extent: ScalarsOfShells
     outline: ScalarsOfShells  # the area of the object as it is seen
@@ -43,34 +40,31 @@ class Scale:
         size = (high - low)[view.owner]
         return cls(np.asarray(size.max(axis=1)), size[:, 0] * size[:, 1])
 
-    @property
-    def near(self) -> ScalarsOfShells:
-        """How far off something still touches a shell."""
-        return NEAR * self.extent
 
-
-def candidates(view: View, open_to: MaskOfShells) -> Indices:
+def candidates(view: View, open_to: MaskOfShells, config: CandidateConfig) -> Indices:
     """Returns the shells that could be fronts, the largest first.
 
     Args:
         view: what is seen.
         open_to: for each shell whether its object may be cut.
+        config: the thresholds.
     """
     scale, size = Scale.of(view), view.size
     shorter, longer = size[:, :2].min(axis=1), size[:, :2].max(axis=1)
     area = size[:, 0] * size[:, 1]
     cover = np.minimum(view.faced[:, 2] / np.maximum(area, _NO_AREA), 1.0)
-    large = (shorter >= _LEAST * scale.extent) & (longer <= _MOST_NARROW * shorter)
-    plate = (size[:, 2] <= _PLATE * shorter) & (cover >= _RING)
-    body = (size[:, 2] > _PLATE * shorter) & (cover >= 0.8) & (area <= _BODY * scale.outline)
+    large = (shorter >= config.least * scale.extent) & (longer <= config.most_narrow * shorter)
+    plate = (size[:, 2] <= config.plate * shorter) & (cover >= config.ring)
+    body = (size[:, 2] > config.plate * shorter) & (cover >= config.solid)
+    body &= area <= config.body * scale.outline
     found = np.flatnonzero(open_to & large & (plate | body))
     found = found[np.argsort(-area[found], kind="stable")]
     kept = [
         k
         for k in found.tolist()
-        if _is_seen(view, k, bool(cover[k] < _FULL), float(scale.near[k]))
-        and _has_room(view, k, _ROOM * float(shorter[k]))
-        and (plate[k] or _is_flanked(view, k, scale))
+        if _is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
+        and _has_room(view, k, config.room * float(shorter[k]), config)
+        and (plate[k] or _is_flanked(view, k, scale, config))
     ]
     return np.array(kept, dtype=np.int64)
 
@@ -91,7 +85,7 @@ def overlaps(view: View, shell: int) -> ScalarsOfShells:
     return np.prod(np.maximum(high - low, 0.0), axis=1) / max(float(size[0] * size[1]), _NO_AREA)
 
 
-def _is_seen(view: View, shell: int, is_frame: bool, near: float) -> bool:
+def _is_seen(view: View, shell: int, is_frame: bool, near: float, config: CandidateConfig) -> bool:
     """Whether little hides a shell, and most of its outline shows it or what it holds."""
     rows, columns = view.window(shell)
     first, depth = view.seen[rows, columns], view.depth[rows, columns]
@@ -99,12 +93,12 @@ def _is_seen(view: View, shell: int, is_frame: bool, near: float) -> bool:
     own[shell] = True
     is_own = (first >= 0) & own[first]
     hidden = (first >= 0) & ~is_own & (depth > view.high[shell, 2] + near)
-    return bool(hidden.mean() <= _HIDDEN and (is_frame or is_own.mean() >= _SEEN))
+    return bool(hidden.mean() <= config.hidden and (is_frame or is_own.mean() >= config.seen))
 
 
-def _has_room(view: View, shell: int, least: float) -> bool:
+def _has_room(view: View, shell: int, least: float, config: CandidateConfig) -> bool:
     """Whether what stands behind a shell reaches farther back than the shell is thick."""
-    behind = overlaps(view, shell) > _HIDDEN
+    behind = overlaps(view, shell) > config.hidden
     behind[shell] = False
     if not behind.any():
         return False
@@ -114,16 +108,125 @@ def _has_room(view: View, shell: int, least: float) -> bool:
     return float(view.high[shell, 2]) - back >= 2 * least and thick > least
 
 
-def _is_flanked(view: View, shell: int, scale: Scale) -> bool:
+def _is_flanked(view: View, shell: int, scale: Scale, config: CandidateConfig) -> bool:
     """Whether a body stands in another's outline, or between two others as tall and deep: a drawer in its case."""
     low, high = view.low, view.high
-    near = 5 * float(scale.near[shell])
-    level = np.minimum(high, high[shell]) - np.maximum(low, low[shell]) >= 0.5 * view.size[shell]
+    near = config.flank_reach * (config.near * float(scale.extent[shell]))
+    level = np.minimum(high, high[shell]) - np.maximum(low, low[shell]) >= config.level * view.size[shell]
     around = (low[:, :2] <= low[shell, :2] + near).all(axis=1) & (high[:, :2] >= high[shell, :2] - near).all(axis=1)
-    larger = np.prod(view.size[:, :2], axis=1) > 1.1 * float(np.prod(view.size[shell, :2]))
+    larger = np.prod(view.size[:, :2], axis=1) > config.larger * float(np.prod(view.size[shell, :2]))
     if (around & larger & level[:, 2]).any():
         return True
     beside = level[:, 1] & level[:, 2]
     left = beside & (np.abs(high[:, 0] - low[shell, 0]) <= near)
     right = beside & (np.abs(low[:, 0] - high[shell, 0]) <= near)
     return bool(left.any() and right.any())
+
+
+def framed(view: View, config: FrameConfig) -> list[tuple[int, ...]]:
+    """Returns the shells of each framed front, a shell in one at most; frames that share a bar are none."""
+    size, extent = view.size, Scale.of(view).extent
+    found: list[tuple[int, ...]] = []
+    for along in (1, 0):
+        across = 1 - along
+        slender = (size[:, along] >= config.bar * size[:, across]) & (size[:, 2] <= config.thick * extent)
+        bars = slender & (size[:, 2] <= config.deep * size[:, across]) & (size[:, across] > 0)
+        for pair in _pairs(view, bars, along, extent * config.same):
+            members = _filled(view, pair, along, extent[pair[0]], config)
+            if members:
+                found.append(members)
+    return _without_shared(found)
+
+
+def merged(view: View, groups: list[tuple[int, ...]]) -> tuple[View, list[tuple[int, ...]]]:
+    """Returns the view with the shells of each group as one, and for each new shell those that it is made of."""
+    count = len(view.owner)
+    ends = np.array([(group[0], shell) for group in groups for shell in group], dtype=np.int64).reshape(-1, 2)
+    graph = coo_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), (count, count))
+    total, number = connected_components(graph, directed=False)
+    order = np.argsort(number, kind="stable")
+    starts = np.searchsorted(number[order], np.arange(total))
+    members = [tuple(shells.tolist()) for shells in np.split(order, starts[1:])]
+    seen = np.where(view.seen >= 0, number[view.seen], -1).astype(np.int64)
+    return View(
+        view.owner[order][starts],
+        np.minimum.reduceat(view.low[order], starts, axis=0),
+        np.maximum.reduceat(view.high[order], starts, axis=0),
+        np.add.reduceat(view.faced[order], starts, axis=0),
+        seen,
+        view.depth,
+        view.origin,
+        view.cell,
+    ), members
+
+
+def _pairs(view: View, bars: MaskOfShells, along: int, same: np.ndarray) -> Iterator[tuple[int, int]]:
+    """Yields bars of one object side by side, with the same ends and depths: the nearest first."""
+    low, high, across = view.low, view.high, 1 - along
+    for bar in np.flatnonzero(bars).tolist():
+        beside = bars & (view.owner == view.owner[bar]) & (low[:, across] > high[bar, across])
+        ends = np.maximum(np.abs(low[:, along] - low[bar, along]), np.abs(high[:, along] - high[bar, along]))
+        depths = np.maximum(np.abs(low[:, 2] - low[bar, 2]), np.abs(high[:, 2] - high[bar, 2]))
+        others = np.flatnonzero(beside & (ends <= same[bar]) & (depths <= same[bar]))
+        for other in others[np.argsort(low[others, across], kind="stable")].tolist():
+            yield bar, other
+
+
+def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config: FrameConfig) -> tuple[int, ...]:
+    """Returns the pair with the bars across and the panels between, empty where they are no filled frame."""
+    first, second = pair
+    across: Final = 1 - along
+    low, high, same = view.low, view.high, config.same * extent
+    groove = config.groove * view.size[first, across]
+    left, right = high[first, across], low[second, across]
+    between = (low[:, across] >= left - groove - same) & (high[:, across] <= right + groove + same)
+    inside = (low[:, along] >= low[first, along] - same) & (high[:, along] <= high[first, along] + same)
+    level = (low[:, 2] >= low[first, 2] - same) & (high[:, 2] <= high[first, 2] + same)
+    within = between & inside & level & (view.owner == view.owner[first])
+    spans = within & (low[:, across] <= left + same) & (high[:, across] >= right - same)
+    low_ends = spans & (np.abs(low[:, along] - low[first, along]) <= same)
+    high_ends = spans & (np.abs(high[:, along] - high[first, along]) <= same)
+    rails = low_ends ^ high_ends
+    if not ((low_ends & rails).any() and (high_ends & rails).any()):
+        return ()
+    opening = high[low_ends & rails, along].min(), low[high_ends & rails, along].max()
+    panels = within & ~rails
+    panels[[first, second]] = False
+    if not panels.any() or not _is_set_back(view, panels, first, config):
+        return ()
+    if not _fits(view, panels, pair, along, opening, config.gap * extent, config.filled):
+        return ()
+    return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(panels).tolist())
+
+
+def _is_set_back(view: View, panels: MaskOfShells, bar: int, config: FrameConfig) -> bool:
+    """Whether panels lie behind the face of a frame."""
+    return bool(view.high[panels, 2].max() < view.high[bar, 2] - config.set_back * view.size[bar, 2])
+
+
+def _fits(
+    view: View,
+    panels: MaskOfShells,
+    pair: tuple[int, int],
+    along: int,
+    opening: tuple[float, float],
+    gap: float,
+    filled: float,
+) -> bool:
+    """Whether panels fill a frame's inside, with gaps to it of `gap` at most: `filled` of its area at least."""
+    across = 1 - along
+    left, right = view.high[pair[0], across], view.low[pair[1], across]
+    inner = float((right - left) * (opening[1] - opening[0]))
+    area = float(np.prod(view.size[panels][:, :2], axis=1).sum())
+    touches = view.low[panels, across].min() <= left + gap and view.high[panels, across].max() >= right - gap
+    touches &= view.low[panels, along].min() <= opening[0] + gap and view.high[panels, along].max() >= opening[1] - gap
+    return bool(touches and inner > 0 and area >= filled * inner)
+
+
+def _without_shared(found: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Returns the groups of which no other has a shell, smaller ones first, unless one holds the other."""
+    kept: list[tuple[int, ...]] = []
+    for group in sorted(found, key=len):
+        if not any(set(group) & set(other) for other in kept):
+            kept.append(group)
+    return kept

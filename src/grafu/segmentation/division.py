@@ -13,20 +13,10 @@ from jaxtyping import Bool, Int
 from grafu.geometry.arrays import Indices, Mat3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.candidates import Scale, candidates, overlaps
-from grafu.segmentation.framed import framed, merged
+from grafu.segmentation.candidates import Scale, candidates, framed, merged, overlaps
+from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
 from grafu.segmentation.view import MaskOfShells, OfShells, View, view_of
-
-_PLATE = 0.35  # of its shorter side: as thick as this an object is a plate
-_FILLED = 0.6  # of a plate's outline: what fronts in it cover
-_ALIKE = 0.4  # of the largest front's outline: what the others have, where several fronts are one plate
-_PANEL = 0.1  # of a plate's outline: what a fixed panel beside one front covers at least
-_FLUSH = 0.2  # of an object's depth: how far inside its front a front of it lies
-_LID = 0.4  # of its footprint: how much of a case is closed from above
-_SMALL = 0.02  # of the whole's largest side: a front's shorter side
-_SINGLE = 0.8  # of an object's outline: what its one front covers
-_MOST_HANDLES = 2  # drawn in one front: more are mouldings or slats
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 Faces = Int[np.ndarray, " _"]
@@ -77,6 +67,7 @@ def divided(
     open_to: Sequence[bool],
     whole: Sequence[bool],
     materials: Sequence[Indices] | None = None,
+    config: SegmentationConfig = SegmentationConfig(),
 ) -> dict[int, list[Piece]]:
     """Returns for each mesh that is cut what it is cut into.
 
@@ -85,15 +76,16 @@ def divided(
         open_to: which of them may be cut.
         whole: which of them are said to be one door or drawer: they are cut where they hold several fronts.
         materials: for each mesh the number of each face's material: a handle welded to a front is known by it.
+        config: the thresholds.
     """
     may = np.asarray(open_to, dtype=bool)
     shells = Shells.of(meshes)
-    found = _from_the_best_side(shells, may, whole)
+    found = _from_the_best_side(shells, may, whole, config)
     pieces = found.pieces(shells)
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
         parted = Shells.of(meshes, materials) if left.any() else shells
-        pieces |= replace(_from_the_best_side(parted, left, whole), hidden={}).pieces(parted)
+        pieces |= replace(_from_the_best_side(parted, left, whole, config), hidden={}).pieces(parted)
     return dict(sorted(pieces.items()))
 
 
@@ -119,7 +111,9 @@ class _Found:
         return pieces | apart
 
 
-def _from_the_best_side(shells: Shells, may_be_cut: MaskOfObjects, whole: Sequence[bool]) -> _Found:
+def _from_the_best_side(
+    shells: Shells, may_be_cut: MaskOfObjects, whole: Sequence[bool], config: SegmentationConfig
+) -> _Found:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
     A side or the back is a plate that is alone and has no handle, so such a front is not clear.
@@ -133,7 +127,7 @@ def _from_the_best_side(shells: Shells, may_be_cut: MaskOfObjects, whole: Sequen
     most = 0.0
     for turn in range(4):
         view = view_of(shells.mesh, shells.shell, shells.owner, _axes(turn))
-        found = _by_owner(view, may, whole)
+        found = _by_owner(view, may, whole, config)
         if turn == 0 and found.clear:
             return found
         area = sum(_outline(view, front) for fronts in found.clear.values() for front in fronts)
@@ -157,32 +151,33 @@ def _outline(view: View, front: FrontShells) -> float:
     return float(size[0] * size[1])
 
 
-def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool]) -> _Found:
+def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig) -> _Found:
     """Returns the fronts of each object that hides some, and of each that is one with handles."""
-    view, members = merged(view, framed(view))
+    view, members = merged(view, framed(view, config.frames))
     may = may[[shells[0] for shells in members]]
     found: dict[int, list[FrontShells]] = {}
-    for front in fronts_among(view, candidates(view, may)):
+    for front in fronts_among(view, candidates(view, may, config.candidates), config):
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
-    flush = {owner: tuple(f for f in fronts if _is_flush(view, f)) for owner, fronts in found.items()}
-    hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o])}
-    single = {o: fronts[0] for o, fronts in flush.items() if o not in hidden and _is_one_with_handles(view, o, fronts)}
+    flush = {owner: tuple(f for f in fronts if _is_flush(view, f, config.division)) for owner, fronts in found.items()}
+    hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o], config)}
+    others = {o: fronts for o, fronts in flush.items() if o not in hidden}
+    single = {o: f[0] for o, f in others.items() if _is_one_with_handles(view, o, f, config.division)}
     return _Found(
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
         {o: front.made_of(members) for o, front in single.items()},
     )
 
 
-def _is_one_with_handles(view: View, owner: int, fronts: tuple[FrontShells, ...]) -> bool:
+def _is_one_with_handles(view: View, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether an object is one front, or a drawer behind one, with a handle or two."""
-    if len(fronts) != 1 or not 0 < len(fronts[0].handles) <= _MOST_HANDLES:
+    if len(fronts) != 1 or not 0 < len(fronts[0].handles) <= config.most_handles:
         return False
     own = view.owner == owner
     size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
-    return _outline(view, fronts[0]) >= _SINGLE * float(size[0] * size[1])
+    return _outline(view, fronts[0]) >= config.single * float(size[0] * size[1])
 
 
-def _is_flush(view: View, front: FrontShells) -> bool:
+def _is_flush(view: View, front: FrontShells, config: DivisionConfig) -> bool:
     """Whether a front lies near the front of its object, its handles left out, and is no trifle."""
     plate = front.shells[0]
     handles = [shell for handle in front.handles for shell in handle]
@@ -191,51 +186,52 @@ def _is_flush(view: View, front: FrontShells) -> bool:
     extent = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
     inside = float(view.high[own, 2].max() - view.high[plate, 2])
     shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
-    return inside <= _FLUSH * depth + thick and shorter >= _SMALL * extent
+    return inside <= config.flush * depth + thick and shorter >= config.small * extent
 
 
-def _hides(view: View, owner: int, fronts: tuple[FrontShells, ...], is_whole: bool) -> bool:
+def _hides(view: View, owner: int, fronts: tuple[FrontShells, ...], is_whole: bool, config: SegmentationConfig) -> bool:
     """Whether an object is more than the fronts in it are: a case, or several fronts in one."""
     own = view.owner == owner
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
     size = high - low
-    major = _major(view, fronts)
+    major = _major(view, fronts, config.division.alike)
     filled = sum(_outline(view, front) for front in major) / float(size[0] * size[1])
-    if is_whole or size[2] <= _PLATE * size[:2].min():
-        several = len(major) > 1 and filled >= _FILLED
-        return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major))
+    if is_whole or size[2] <= config.division.plate * size[:2].min():
+        several = len(major) > 1 and filled >= config.division.filled
+        return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
     rest = own.copy()
     rest[[shell for front in fronts for shell in front.all_shells]] = False
-    return len(major) > 1 or (bool(rest.any()) and _is_case(view, np.flatnonzero(rest), fronts))
+    return len(major) > 1 or (bool(rest.any()) and _is_case(view, np.flatnonzero(rest), fronts, config))
 
 
-def _major(view: View, fronts: tuple[FrontShells, ...]) -> tuple[FrontShells, ...]:
-    """Returns the fronts of some size: rails and stiles of one door are far smaller than its panel."""
+def _major(view: View, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
+    """Returns the fronts of some size, `alike` of the largest: rails and stiles are far smaller than their panel."""
     areas = [_outline(view, front) for front in fronts]
-    return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= _ALIKE * max(areas))
+    return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= alike * max(areas))
 
 
-def _is_beside_panel(view: View, own: Indices, major: tuple[FrontShells, ...]) -> bool:
+def _is_beside_panel(view: View, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether a plate is one front beside a plate that is none: a control panel."""
     area = np.prod(view.size[:, :2], axis=1)
     size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
     outline, plate = float(size[0] * size[1]), major[0].shells[0]
-    beside = [k for k in own.tolist() if k != plate and overlaps(view, k)[plate] < 0.1]
-    has_panel = len(major) == 1 and any(area[k] >= _PANEL * outline for k in beside)
-    return has_panel and bool(area[[plate, *beside]].sum() >= _FILLED * outline)
+    beside = [k for k in own.tolist() if k != plate and overlaps(view, k)[plate] < config.beside]
+    has_panel = len(major) == 1 and any(area[k] >= config.panel * outline for k in beside)
+    return has_panel and bool(area[[plate, *beside]].sum() >= config.filled * outline)
 
 
-def _is_case(view: View, rest: Indices, fronts: tuple[FrontShells, ...]) -> bool:
+def _is_case(view: View, rest: Indices, fronts: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
     """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above."""
     plates = [front.shells[0] for front in fronts]
-    near = 3 * float(Scale.of(view).near[plates[0]])
+    reach = config.division.case_reach
+    near = reach * (config.candidates.near * float(Scale.of(view).extent[plates[0]]))
     low, high = view.low[rest].min(axis=0), view.high[rest].max(axis=0)
     left, right = view.low[plates].min(axis=0) - near, view.high[plates].max(axis=0) + near
     if (low[:2] < left[:2]).any() or (high[:2] > right[:2]).any():
-        return bool(view.low[plates, 2].max() - low[2] > near / 3)
+        return bool(view.low[plates, 2].max() - low[2] > near / reach)
     above = view.high[rest, 1] >= high[1] - near
     lid = float(view.faced[rest[above], 1].sum())
-    return lid >= _LID * float((high - low)[0] * (high - low)[2])
+    return lid >= config.division.lid * float((high - low)[0] * (high - low)[2])
 
 
 def _pieces(shells: Shells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[Piece]:

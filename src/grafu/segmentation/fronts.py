@@ -10,20 +10,10 @@ from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.candidates import Scale, overlaps, within
+from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.view import MaskOfShells, View
 
-_NESTED = 0.5  # of a smaller plate's outline: the fraction that a larger one covers where they are one front
-_PANE = 0.6  # of a frame's thickness: what a pane in it has at most
-_RING = 0.5  # of its outline: what covers less is a frame
-_WHOLE = 0.8  # of an object's outline: a plate that covers so much may be its fixed front
-_HALF = 0.5  # of a fixed front: what the fronts on it cover
-_HANDLE_SIDE = 0.1  # of its object's largest side: the shorter side of a handle
-_HANDLE_AREA = 0.25  # of its front's outline: that of a handle
-_HANDLE_OUT = 0.25  # of its object's largest side: how far a handle stands out
-_THICK_HANDLE = 0.4  # of the gap at which its pieces still touch: how thick a handle is
 _RING_CELLS = 3  # rays around a handle that show where its front lies
-_LINER = 1.5  # of a front's thickness: how far behind it its liners lie, and how thick they are
-_ON_FRONT = 0.6  # of a handle's outline: what lies on its front
 
 
 @final
@@ -47,17 +37,18 @@ class FrontShells:
         )
 
 
-def fronts_among(view: View, plates: Indices) -> tuple[FrontShells, ...]:
+def fronts_among(view: View, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
     """Returns the fronts that candidates form, each shell in one at most.
 
     Args:
         view: what is seen.
         plates: the candidates, the largest first.
+        config: the thresholds.
     """
-    finder: Final = _FrontFinder(view, Scale.of(view))
+    finder: Final = _FrontFinder(view, config)
     chosen: list[int] = []
     for plate in _ranked(view, plates):
-        over = [k for k in chosen if overlaps(view, plate)[k] >= _NESTED]
+        over = [k for k in chosen if overlaps(view, plate)[k] >= config.members.nested]
         if not over and not finder.is_fixed(plate, plates):
             chosen.append(plate)
     taken: set[int] = set(chosen)
@@ -79,27 +70,28 @@ def _ranked(view: View, plates: Indices) -> list[int]:
 class _FrontFinder:
     """Finds the shells of fronts in a view; what it computes once for all fronts is kept."""
 
-    def __init__(self, view: View, scale: Scale) -> None:
-        self._view, self._scale = view, scale
+    def __init__(self, view: View, config: SegmentationConfig) -> None:
+        self._view, self._scale, self._config = view, Scale.of(view), config.members
+        self._near = config.candidates.near * self._scale.extent
         self._area = np.prod(view.size[:, :2], axis=1)
         self._cover = view.faced[:, 2] / np.maximum(self._area, 1e-300)
 
     def is_fixed(self, plate: int, plates: Indices) -> bool:
         """Whether a plate is the fixed front that others close or lie on, or a frame that nothing fills."""
-        view, near = self._view, float(self._scale.near[plate])
-        inner = within(view, plate, near) & (self._area < 0.9 * self._area[plate])
-        is_frame = self._cover[plate] < _RING
+        view, near, config = self._view, float(self._near[plate]), self._config
+        inner = within(view, plate, near) & (self._area < config.smaller * self._area[plate])
+        is_frame = self._cover[plate] < config.ring
         if is_frame:
-            panes = inner & (self._cover >= _RING) & (self._area >= 0.2 * self._area[plate])
+            panes = inner & (self._cover >= config.ring) & (self._area >= config.pane_area * self._area[plate])
             flush = panes & (view.high[:, 2] <= view.high[plate, 2] + near)
-            thin = view.size[:, 2] <= max(_PANE * view.size[plate, 2], 0.1 * near)
+            thin = view.size[:, 2] <= max(config.pane * view.size[plate, 2], config.thin * near)
             return not (flush & thin & (view.low[:, 2] >= view.low[plate, 2] - near)).any()
         on = np.zeros(len(self._area), dtype=bool)
         on[plates] = True
         on &= inner & (view.low[:, 2] >= view.high[plate, 2] - near) & (view.owner == view.owner[plate])
-        covers = float(self._area[_outermost(view, np.flatnonzero(on))].sum())
-        many = int(on.sum()) > 1 and covers >= _HALF * self._area[plate]
-        return many and bool(self._area[plate] >= _WHOLE * self._scale.outline[plate])
+        covers = float(self._area[_outermost(view, np.flatnonzero(on), config.nested)].sum())
+        many = int(on.sum()) > 1 and covers >= config.half * self._area[plate]
+        return many and bool(self._area[plate] >= config.whole * self._scale.outline[plate])
 
     def with_members(self, plate: int, taken: Iterable[int]) -> FrontShells:
         """Returns the front of a plate: shells of its object that no front has yet, as they belong to it."""
@@ -109,25 +101,27 @@ class _FrontFinder:
         handles = self._grouped(np.flatnonzero(free & self._stands_on(plate)))
         on = [shell for handle in handles for shell in handle]
         free[on] = False
-        inside = free & within(view, plate, float(self._scale.near[plate]))
+        inside = free & within(view, plate, float(self._near[plate]))
         members = inside & self._lies_in(plate)
         members |= self._drawer_boards(plate, inside & ~members)
         return FrontShells((plate, *np.flatnonzero(members).tolist()), handles)
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""
-        view, extent, near = self._view, float(self._scale.extent[plate]), float(self._scale.near[plate])
-        small = (view.size[:, :2].min(axis=1) <= _HANDLE_SIDE * extent) & (
-            self._area <= _HANDLE_AREA * self._area[plate]
+        view, config = self._view, self._config
+        extent, near = float(self._scale.extent[plate]), float(self._near[plate])
+        small = (view.size[:, :2].min(axis=1) <= config.handle_side * extent) & (
+            self._area <= config.handle_area * self._area[plate]
         )
         shared = np.maximum(
             np.minimum(view.high[:, :2], view.high[plate, :2]) - np.maximum(view.low[:, :2], view.low[plate, :2]),
             0.0,
         ).prod(axis=1)
-        on = shared >= _ON_FRONT * self._area
+        on = shared >= config.on_front * self._area
         front = np.array([self._level_near(k, plate) if s else 0.0 for k, s in enumerate(small & on)])
-        out = (view.high[:, 2] > front + 0.2 * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
-        starts = (view.low[:, 2] <= front + 8 * near) & (view.high[:, 2] <= front + _HANDLE_OUT * extent)
+        out = (view.high[:, 2] > front + config.handle_least_out * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
+        starts = view.low[:, 2] <= front + config.handle_gap * near
+        starts &= view.high[:, 2] <= front + config.handle_out * extent
         return np.asarray(small & on & out & starts)
 
     def _level_near(self, shell: int, plate: int) -> float:
@@ -143,31 +137,32 @@ class _FrontFinder:
 
     def _lies_in(self, plate: int) -> MaskOfShells:
         """Whether each shell within the outline is a pane, a moulding, a lock or a liner of the plate."""
-        view, near = self._view, float(self._scale.near[plate])
+        view, near, config = self._view, float(self._near[plate]), self._config
         thick = float(view.size[plate, 2])
         mounted = view.low[:, 2] >= view.low[plate, 2] - near
-        liner = (view.size[:, 2] <= _LINER * thick + near) & (view.low[:, 2] >= view.low[plate, 2] - _LINER * thick)
-        is_frame = (self._cover < _RING) & (self._area >= _WHOLE * self._area[plate])
-        plate_like = view.size[:, 2] <= 0.5 * view.size[:, :2].min(axis=1)
+        liner = view.size[:, 2] <= config.liner * thick + near
+        liner &= view.low[:, 2] >= view.low[plate, 2] - config.liner * thick
+        is_frame = (self._cover < config.ring) & (self._area >= config.whole * self._area[plate])
+        plate_like = view.size[:, 2] <= config.liner_plate * view.size[:, :2].min(axis=1)
         return np.asarray(mounted | (liner & plate_like & ~is_frame))
 
     def _drawer_boards(self, plate: int, inside: MaskOfShells) -> MaskOfShells:
         """Whether each shell is a board of a box behind the plate: two sides, what lies between them, and no lid."""
-        view, near = self._view, float(self._scale.near[plate])
+        view, near, config = self._view, float(self._near[plate]), self._config
         nothing = np.zeros(len(inside), dtype=bool)
         size, whole = view.size, view.size[plate]
         behind = inside & (view.high[:, 2] <= view.high[plate, 2] + near) & (size[:, 2] > near)
-        upright = behind & (size[:, 0] <= 0.2 * whole[0]) & (size[:, 1] >= 0.3 * whole[1])
-        upright &= (size[:, 2] >= 2 * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
+        upright = behind & (size[:, 0] <= config.side_width * whole[0]) & (size[:, 1] >= config.side_height * whole[1])
+        upright &= (size[:, 2] >= config.side_depth * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
         middle = (view.low[plate, 0] + view.high[plate, 0]) / 2
         left, right = upright & (view.high[:, 0] < middle), upright & (view.low[:, 0] > middle)
         if not (left.any() and right.any()):
             return nothing
         ends = view.low[left, 0].min() - near, view.high[right, 0].max() + near
         box = behind & (view.low[:, 0] >= ends[0]) & (view.high[:, 0] <= ends[1])
-        lies = box & (size[:, 1] <= 0.5 * size[:, [0, 2]].min(axis=1))
+        lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
         top = float(view.high[left | right, 1].max())
-        lid = lies & (view.high[:, 1] >= top - near) & (size[:, 0] >= 0.5 * whole[0])
+        lid = lies & (view.high[:, 1] >= top - near) & (size[:, 0] >= config.lid * whole[0])
         return nothing if lid.any() else box
 
     def _grouped(self, shells: Indices) -> tuple[tuple[int, ...], ...]:
@@ -175,19 +170,19 @@ class _FrontFinder:
         if not len(shells):
             return ()
         low, high = self._view.low[shells], self._view.high[shells]
-        near = 0.5 * self._scale.near[shells].max()
+        near = self._config.handle_touch * self._near[shells].max()
         gaps = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
         touching = coo_matrix(gaps <= near)
         count, label = connected_components(touching, directed=False)
         groups = [label == k for k in range(count)]
-        thick = [high[group, 2].max() - low[group, 2].min() >= _THICK_HANDLE * near for group in groups]
+        thick = [high[group, 2].max() - low[group, 2].min() >= self._config.thick_handle * near for group in groups]
         return tuple(tuple(shells[group].tolist()) for group, is_thick in zip(groups, thick, strict=True) if is_thick)
 
 
-def _outermost(view: View, shells: Sequence[int] | Indices) -> list[int]:
-    """Returns the shells whose outlines lie in no other's."""
+def _outermost(view: View, shells: Sequence[int] | Indices, nested: float) -> list[int]:
+    """Returns the shells whose outlines lie in no other's, as `MemberConfig.nested` has it."""
     kept: list[int] = []
     for shell in _ranked(view, np.asarray(shells, dtype=np.int64)):
-        if not any(overlaps(view, shell)[other] >= _NESTED for other in kept):
+        if not any(overlaps(view, shell)[other] >= nested for other in kept):
             kept.append(shell)
     return kept

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from math import cos, radians
 from typing import final
 
-from grafu.scene.checks import require_positive
+from grafu.geometry.config_checks import require_positive
 
 
 @final

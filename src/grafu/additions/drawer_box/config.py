@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import final
 
-from grafu.scene.checks import require_positive
+from grafu.geometry.config_checks import require_positive
 
 
 @final

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, final
 
-from grafu.scene.checks import require_positive, require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 
 
 class GripKind(StrEnum):

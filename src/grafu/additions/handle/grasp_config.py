@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
-from grafu.scene.checks import require_at_most_one, require_positive, require_ratios
+from grafu.geometry.config_checks import require_at_most_one, require_positive, require_ratios
 
 
 @final

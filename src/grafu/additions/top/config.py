@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import radians
 from typing import Literal, final
 
-from grafu.scene.checks import require_not_negative, require_positive, require_ratios
+from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 
 TopShape = Literal["rectangle", "rounded", "chamfered"]
 

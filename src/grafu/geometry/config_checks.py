@@ -1,13 +1,14 @@
-"""Checks of the numbers in a config. Every config of joints and additions uses them when it is made."""
+"""Checks of the numbers in a config. Configs use them when they are made."""
 
 from math import inf
 
 
 def require_positive(config: object, *names: str) -> None:
-    """Raises ValueError unless these fields of a config are above 0 and finite."""
+    """Raises ValueError unless these fields of a config are above 0 and finite; of a tuple, all its numbers."""
     for name in names:
-        if not 0 < getattr(config, name) < inf:
-            raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {getattr(config, name)}")
+        value = getattr(config, name)
+        if not all(0 < number < inf for number in (value if isinstance(value, tuple) else (value,))):
+            raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {value}")
 
 
 def require_not_negative(config: object, *names: str) -> None:

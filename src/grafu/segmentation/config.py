@@ -1,0 +1,193 @@
+"""From where on shells are fronts, what belongs to a front, and which objects hide some. It decides nothing.
+
+Inputs come in any unit: lengths are fractions of an object's largest side, or multiples of `near`, the length at which
+something still touches. Other numbers are fractions of what their line states.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.geometry.config_checks import require_positive
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class CandidateConfig:
+    """Which shells could be the front of a door or a drawer.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    near: float = 0.01
+    """How far off something still touches, how far it may stand out (of its object's largest side)."""
+    plate: float = 0.35
+    """How thick a front is at most (of its shorter side)."""
+    least: float = 0.05
+    """The shorter side of a front at least (of its object's largest side)."""
+    most_narrow: float = 12.0
+    """How many times as long as wide a front is at most."""
+    full: float = 0.5
+    """What a front's faces cover, unless it is a frame (of its outline)."""
+    ring: float = 0.08
+    """What a frame's faces cover (of its outline)."""
+    solid: float = 0.8
+    """What the faces of a drawer drawn as one body cover (of its outline) ..."""
+    body: float = 0.6
+    """... and how large it is at most (of its object's outline)."""
+    hidden: float = 0.3
+    """How much of a front others may hide (of its outline)."""
+    seen: float = 0.5
+    """How much of it, or of what it holds, is seen (of its outline)."""
+    room: float = 0.3
+    """How deep what it closes is (of its shorter side)."""
+    flank_reach: float = 5.0
+    """How far beside such a body its case may stand (multiple of `near`) ..."""
+    level: float = 0.5
+    """... along how much of it (of its height and depth) ..."""
+    larger: float = 1.1
+    """... and how much larger one that it stands in is (of its outline)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class FrameConfig:
+    """Which stiles, rails and panels are one framed front.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    bar: float = 1.5
+    """How many times as long as wide a stile or rail is at least."""
+    deep: float = 2.0
+    """How thick it is at most (of its width) ..."""
+    thick: float = 0.1
+    """... and (of its object's largest side)."""
+    same: float = 0.004
+    """How far the ends of one frame differ (of its object's largest side)."""
+    gap: float = 0.0007
+    """How far a panel may lie from its frame: inset fronts lie farther off (of its object's largest side)."""
+    groove: float = 0.6
+    """How far others reach into a bar (of its width)."""
+    filled: float = 0.5
+    """What the panels of a frame cover (of its inside)."""
+    set_back: float = 0.02
+    """How far behind the face of a frame its panels lie at least (of its thickness)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class MemberConfig:
+    """Which of the candidates are fronts, and which shells belong to one: panes, liners, boards, handles.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    nested: float = 0.5
+    """What a larger plate covers of a smaller one where they are one front (of the smaller outline)."""
+    whole: float = 0.8
+    """A plate that covers so much may be fixed (of its object's outline) ..."""
+    half: float = 0.5
+    """... if the fronts on it cover so much of it ..."""
+    smaller: float = 0.9
+    """... and each is smaller than this (of its outline)."""
+    ring: float = 0.5
+    """What covers less is a frame (of its outline)."""
+    pane_area: float = 0.2
+    """How large a pane in a frame is at least (of the frame's outline)."""
+    pane: float = 0.6
+    """How thick it is at most (of the frame's thickness) ..."""
+    thin: float = 0.1
+    """... or how thin it is in any frame (multiple of `near`)."""
+    handle_side: float = 0.1
+    """The shorter side of a handle (of its object's largest side)."""
+    handle_area: float = 0.25
+    """The outline of a handle (of its front's)."""
+    handle_out: float = 0.25
+    """How far a handle stands out at most (of its object's largest side) ..."""
+    handle_least_out: float = 0.2
+    """... and at least (multiple of `near`)."""
+    handle_gap: float = 8.0
+    """How far before its front a handle may begin (multiple of `near`)."""
+    handle_touch: float = 0.5
+    """How far apart the pieces of one handle still touch (multiple of `near`)."""
+    thick_handle: float = 0.4
+    """How thick a handle is (multiple of that gap): thinner ones are printed marks."""
+    on_front: float = 0.6
+    """How much of a handle lies on its front (of its outline)."""
+    liner: float = 1.5
+    """How far behind a front its liners lie, and how thick they are (of its thickness)."""
+    liner_plate: float = 0.5
+    """How thick a liner is at most (of its shorter side)."""
+    side_width: float = 0.2
+    """How thick the side of a drawer's box is at most (of the front's width) ..."""
+    side_height: float = 0.3
+    """... how high at least (of the front's height) ..."""
+    side_depth: float = 2.0
+    """... and how deep at least (of its thickness)."""
+    flat: float = 0.5
+    """How thick what may be the lid of such a box is at most (of its shorter side) ..."""
+    lid: float = 0.5
+    """... and how wide at least (of the front's width): a case has one, a drawer has none."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class DivisionConfig:
+    """Which objects are cut.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    plate: float = 0.35
+    """As thick as this an object is a plate (of its shorter side)."""
+    filled: float = 0.6
+    """What fronts in a plate cover (of its outline)."""
+    alike: float = 0.4
+    """What the others have where several fronts are one plate (of the largest front's outline)."""
+    panel: float = 0.1
+    """What a fixed panel beside one front covers at least (of the plate's outline) ..."""
+    beside: float = 0.1
+    """... and how much of it the front may overlap (of its outline)."""
+    flush: float = 0.2
+    """How far inside an object's front a front of it lies (of the object's depth)."""
+    lid: float = 0.4
+    """How much of a case is closed from above (of its footprint)."""
+    case_reach: float = 3.0
+    """How far a case stands out of the fronts of a box at least (multiple of `near`)."""
+    small: float = 0.02
+    """A front's shorter side at least (of the whole's largest side)."""
+    single: float = 0.8
+    """What an object's one front covers (of the object's outline)."""
+    most_handles: int = 2
+    """Handles drawn in one front: more are mouldings or slats."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SegmentationConfig:
+    """The thresholds of all steps."""
+
+    candidates: CandidateConfig = CandidateConfig()
+    """Of single shells."""
+    frames: FrameConfig = FrameConfig()
+    """Of framed fronts."""
+    members: MemberConfig = MemberConfig()
+    """Of whole fronts."""
+    division: DivisionConfig = DivisionConfig()
+    """Of objects that hide fronts."""
