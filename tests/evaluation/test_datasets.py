@@ -27,6 +27,7 @@ from hssd_models import hssd_model
 from robot_models import write_mjcf, write_sdf
 from small_assets import AS_IT_IS, Y_UP, obj_text, write_glb, write_obj_folder, write_pnm, write_urdf, yaw
 from spoiled_files import SPOILS
+from threeds_files import write_threeds
 from threemf_packages import write_threemf
 
 SEED = 31
@@ -116,12 +117,13 @@ def test_models_of_every_format_are_found(tmp_path):
     write_sdf(tmp_path / "sdf")
     write_mjcf(tmp_path / "mjcf")
     write_threemf(tmp_path / "flat")
+    write_threeds(tmp_path / "3ds")
     write_glb(tmp_path / "flat" / "dresser.glb")
     write_threemf(tmp_path / "copies").rename(tmp_path / "copies" / "chest.3mf")
     write_glb(tmp_path / "copies" / "chest.glb")
     (tmp_path / "flat" / "notes.xml").write_text("<notes/>")
     found = kinds(find_models(tmp_path))
-    assert sorted(found.values()) == sorted(["collada", "fbx", "sdf", "mjcf", "3mf", "glb", "glb"])
+    assert sorted(found.values()) == sorted(["collada", "fbx", "sdf", "mjcf", "3mf", "3ds", "glb", "glb"])
     assert (found["chest"], found["dresser"]) == ("glb", "glb")
 
 

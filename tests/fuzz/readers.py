@@ -21,7 +21,8 @@ def read_model(entry: Path, rng: Random) -> Any:
     from grafu.asset.options import LoadOptions
 
     labels, parts = rng.choice(("input", "input", "none")), rng.choice(("input", "input", "input", "loose"))
-    return load_asset(entry, LoadOptions(labels=labels, parts=parts))  # type: ignore[arg-type]
+    pieces = rng.choice(("together", "together", "together", "split"))
+    return load_asset(entry, LoadOptions(labels=labels, parts=parts, pieces=pieces))  # type: ignore[arg-type]
 
 
 def functionalize_model(entry: Path, out: Path, rng: Random) -> list[str]:

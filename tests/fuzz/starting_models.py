@@ -31,6 +31,7 @@ from small_assets import (
     write_pnm,
     write_urdf,
 )
+from threeds_files import threeds_bytes, write_threeds
 from threemf_packages import threemf_bytes, threemf_text, write_threemf
 from usd_scenes import scene_of, write_usd
 
@@ -174,6 +175,12 @@ def threemf(folder: Path) -> str:
     return write_threemf(folder, threemf_bytes(threemf_text(below={"drawer_front-9": "drawer_1"}))).name
 
 
+def threeds(folder: Path) -> str:
+    (folder / "wood.png").write_bytes(PNG)
+    looks = {"shelf-6": "pictured", "handle-8": "glass"}
+    return write_threeds(folder, threeds_bytes(looks=looks, image="wood.png")).name
+
+
 def usda(folder: Path) -> str:
     glass = "rel material:binding = </Looks/glass>"
     write_usd(folder, scene_of(back_panel_5="rel material:binding = </Looks/wood>", handle_8=glass), PNG)
@@ -297,6 +304,7 @@ MODELS: dict[str, Maker] = {
     "collada": collada,
     "fbx": fbx,
     "3mf": threemf,
+    "3ds": threeds,
     "usda": usda,
     "usdz": usdz,
     "urdf": urdf,

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from grafu.asset.edit import yawed
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.heading import heading_of
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, heading_of
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.samples import KINDS
 

@@ -25,6 +25,7 @@ from grafu.asset.regular_files import files_below, read_head
 from grafu.asset.resources import ModelFiles
 from grafu.asset.sdf import read_sdf
 from grafu.asset.settling import EXPECTED, pieces_in, settled
+from grafu.asset.threeds import read_threeds
 from grafu.asset.threemf import read_threemf
 from grafu.asset.urdf import read_urdf
 from grafu.asset.usd import USD_SUFFIXES, read_usd
@@ -43,6 +44,7 @@ READERS: Final[dict[str, Reader]] = {
     "usd": read_usd,
     "fbx": read_fbx,
     "3mf": read_threemf,
+    "3ds": read_threeds,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
@@ -54,6 +56,7 @@ SCENES: Final = {
     "usd": USD_SUFFIXES,
     "fbx": (".fbx",),
     "3mf": (".3mf",),
+    "3ds": (".3ds",),
     "mjcf": (".xml",),
 }
 """Files of which a folder holds one, by how their names end; the first kind that is there is read."""
@@ -66,7 +69,7 @@ _WAYS_IN: Final[dict[str, str]] = {
     **dict.fromkeys(
         (".step", ".stp", ".iges", ".igs"), "in a CAD program (FreeCAD), export it as glTF, a body for each part"
     ),
-    **dict.fromkeys((".blend", ".3ds", ".max", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
+    **dict.fromkeys((".blend", ".max", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
     **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
     **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
 }
@@ -162,8 +165,8 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "usd", path
     if suffix == ".fbx" or head.startswith(MAGIC):
         return "fbx", path
-    if suffix == ".3mf":
-        return "3mf", path
+    if suffix in (".3mf", ".3ds"):
+        return suffix[1:], path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
     way_in = f"; {_WAYS_IN[suffix]}" if suffix in _WAYS_IN else ""

@@ -36,7 +36,7 @@ _MESHES_OF = frozenset({"meshes", "mesh", "visual", "collision", "textured_objs"
 _DEEPEST = 3  # folders below the one that is asked for
 EXPECTED = (
     "PartNet-Mobility folders (mobility.urdf, or mobility_v2.json with result.json), HSSD models (<id>.glb with "
-    "<id>.artpre.json), URDF, SDF, MJCF, GLB and other scene files, folders of meshes, a release "
+    "<id>.artpre.json), URDF or other robot files, GLB or other scenes, folders of meshes, a release "
     "(graphs_unfunctional or graph_unfunc), "
     f"or {_MADE}:SEED:COUNT"
 )

@@ -20,8 +20,7 @@ import trimesh
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
 from grafu.geometry.arrays import Mat4, Points, vec3
 from grafu.geometry.box import Box
-from grafu.geometry.heading import heading_of
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh, heading_of, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.metrics.bodies import largest_side

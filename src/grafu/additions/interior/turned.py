@@ -17,7 +17,7 @@ from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box
-from grafu.geometry.heading import heading_of
+from grafu.geometry.mesh import heading_of
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points
 from grafu.scene.scene import Scene
 
