@@ -157,13 +157,13 @@ class _Scene:
         base = (1.0, 1.0, 1.0, opacity) if texture is not None else (red, green, blue, opacity)
         return name, Material(name=name, base_color=base, alpha_mode=mode, base_color_texture=texture)  # type: ignore[arg-type]
 
-    def _colour(self, data: memoryview) -> tuple[float, ...] | None:
+    def _colour(self, data: memoryview) -> tuple[float, float, float] | None:
         for kind, held in self._chunks(data):
             if kind in _BYTE_COLOURS and len(held) >= 3:
-                return tuple(value / 255 for value in held[:3])
+                return held[0] / 255, held[1] / 255, held[2] / 255
             if kind in _FLOAT_COLOURS and len(held) >= 12:
-                values = struct.unpack_from("<3f", held)
-                return tuple(min(max(value, 0.0), 1.0) if value == value else 0.0 for value in values)
+                red, green, blue = np.nan_to_num(np.clip(np.frombuffer(held[:12], "<f4"), 0.0, 1.0)).tolist()
+                return red, green, blue
         return None
 
     def _percent(self, data: memoryview) -> float:
