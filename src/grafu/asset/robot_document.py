@@ -4,7 +4,6 @@ Readers state each link and each visual by its pose in the world with every join
 shapes are then read as those of a URDF.
 """
 
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +11,6 @@ from typing import Any, final
 
 import numpy as np
 from lxml import etree
-from scipy.spatial.transform import Rotation
 
 from grafu.asset.bodies import annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
@@ -22,7 +20,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf import bodies_of_robot
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.transform import invert
+from grafu.geometry.transform import invert, roll_pitch_yaw
 
 _LARGEST = 1e12  # metres: products with the sizes of meshes stay finite
 
@@ -132,10 +130,7 @@ class RobotDocument:
         return Reading(kind, parts, convention, annotation, notes=tuple(dict.fromkeys((*self.notes, *found.notes))))
 
     def _add_origin(self, element: Any, T: Mat4) -> None:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # where roll and yaw turn about one axis, either may be had
-            rpy = Rotation.from_matrix(T[:3, :3]).as_euler("xyz")
-        etree.SubElement(element, "origin", xyz=spaced(T[:3, 3]), rpy=spaced(rpy))
+        etree.SubElement(element, "origin", xyz=spaced(T[:3, 3]), rpy=spaced(roll_pitch_yaw(T[:3, :3])))
 
     def _finite(self, T: Mat4) -> Mat4:
         if not np.abs(T).max() < _LARGEST:

@@ -6,10 +6,7 @@ root link's frame is the object frame (metres, Z up, front -Y). What must open f
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from math import atan2, sqrt
 from typing import final
-
-import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
 from grafu.articulation.collision_shapes import CollisionShape
@@ -19,8 +16,9 @@ from grafu.export.files import ExportFiles
 from grafu.export.names import number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.geometry.arrays import Mat3, Vec3
+from grafu.geometry.arrays import Vec3
 from grafu.geometry.box import OrientedBox
+from grafu.geometry.transform import roll_pitch_yaw
 
 
 @final
@@ -77,7 +75,7 @@ class _UrdfWriter:
         element = ET.SubElement(parent, "collision", name=collision_name(link, place))
         if isinstance(shape, OrientedBox):
             center = shape.center - self._physics.origins[link]
-            ET.SubElement(element, "origin", xyz=numbers(center), rpy=numbers(_roll_pitch_yaw(shape.rotation)))
+            ET.SubElement(element, "origin", xyz=numbers(center), rpy=numbers(roll_pitch_yaw(shape.rotation)))
             ET.SubElement(ET.SubElement(element, "geometry"), "box", size=numbers(2 * shape.half))
         else:
             _add_mesh(element, self._objs.pieces[link, place])
@@ -119,9 +117,3 @@ def _add_inertial(link: ET.Element, mass: MassProperties, origin: Vec3) -> None:
 def _add_mesh(element: ET.Element, file: str) -> None:
     ET.SubElement(element, "origin", xyz="0 0 0", rpy="0 0 0")
     ET.SubElement(ET.SubElement(element, "geometry"), "mesh", filename=f"{MESHES}/{file}")
-
-
-def _roll_pitch_yaw(R: Mat3) -> Vec3:
-    """Returns URDF's angles: rotations about the fixed X, then Y, then Z axis, radians."""
-    pitch = atan2(-R[2, 0], sqrt(R[0, 0] ** 2 + R[1, 0] ** 2))
-    return np.array([atan2(R[2, 1], R[2, 2]), pitch, atan2(R[1, 0], R[0, 0])])

@@ -3,6 +3,8 @@
 Angles are radians, positive by the right-hand rule; quaternions are wxyz.
 """
 
+import warnings
+
 import numpy as np
 
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
@@ -48,6 +50,15 @@ def quaternion_matrix(w: float, x: float, y: float, z: float) -> Mat3:
 
     quaternion = np.array([x, y, z, w])
     return Rotation.from_quat(quaternion / np.abs(quaternion).max()).as_matrix()  # no length over- or underflows
+
+
+def roll_pitch_yaw(R: Mat3) -> Vec3:
+    """Returns URDF's angles: about the fixed X, then Y, then Z axis. Where pitch is 90 degrees, yaw is 0."""
+    from scipy.spatial.transform import Rotation  # local, as above
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # there roll and yaw turn about one axis, so one of them is free
+        return Rotation.from_matrix(R).as_euler("xyz")
 
 
 def rotation_about(point: Vec3, direction: Vec3, angle: float) -> Mat4:

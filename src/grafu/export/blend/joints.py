@@ -172,7 +172,10 @@ def _read(driver: Any, empty: Empty, name: str) -> None:
 
 
 def _from_up(direction: np.ndarray) -> tuple[float, float, float, float]:
-    """Returns the quaternion (wxyz) of the shortest turn from +Z to a unit vector; about X where they are opposite."""
+    """Returns the quaternion (wxyz) of the shortest turn from +Z to a unit vector; about X where they are opposite.
+
+    It is written out: the Python of Blender, where this runs, has numpy but no scipy.
+    """
     w, x, y = 1.0 + direction[2], -direction[1], direction[0]
     length = float(np.sqrt(w * w + x * x + y * y))
     if length < 1e-6:
