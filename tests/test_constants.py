@@ -16,6 +16,7 @@ from grafu.segmentation.config import (
     CandidateConfig,
     DivisionConfig,
     FrameConfig,
+    FurnitureConfig,
     MemberConfig,
     SegmentationConfig,
 )
@@ -25,7 +26,7 @@ SOURCES = Path(__file__).parents[1] / "src" / "grafu"
 
 SAMPLES = "how many rays an algorithm takes, or where they lie"
 TOLERANCE = "a tolerance of computing with rounded numbers"
-NUMBERING = "numbers of directions, or a direction"
+NUMBERING = "numbers of directions or of groups, or a direction"
 VOTES = "the weight of a vote: weights were set together, against each other, and one alone means nothing"
 FRAME = "it settles the frame of a front or of a border, which joints and additions share: each must see the same"
 SHARED = "one answer for all: joints, additions and pages must not differ in it"
@@ -41,6 +42,7 @@ OF_MODULES = {
         "candidates.py": {"_NO_AREA": TOLERANCE},
         "division.py": {"_Z": NUMBERING},
         "fronts.py": {"_RING_CELLS": SAMPLES},
+        "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
         "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES},
     },
     "completion": {
@@ -60,6 +62,7 @@ IN_FUNCTIONS = {
         "candidates.py": {},
         "division.py": {},
         "fronts.py": {},
+        "furniture_pieces.py": {},
         "view.py": {0.4871: SAMPLES, 0.5113: SAMPLES},
     },
     "completion": {
@@ -74,8 +77,8 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {}, "triage.py": {}},
 }
 CONFIGS = (
-    CandidateConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig, GuessConfig, MemberConfig,
-    RowConfig, RuleConfig, SegmentationConfig, VerdictConfig,
+    CandidateConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig, FurnitureConfig, GuessConfig,
+    MemberConfig, RowConfig, RuleConfig, SegmentationConfig, VerdictConfig,
 )  # fmt: skip
 NUMBERS = [(kind, f.name) for kind in CONFIGS for f in fields(kind) if not is_dataclass(f.default)]
 

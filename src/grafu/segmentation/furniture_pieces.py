@@ -18,23 +18,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.touching import near_pairs, touching_pairs
-
-_TOUCH = 0.005  # metres: as near as this, two shells touch
-_FLOOR_SIDE = 1.5  # metres: a floor or a carpet is at least as long and as wide as this
-_WALL_HEIGHT = 1.8  # metres; a wall is as wide as a floor
-_THICKNESS = 0.3  # metres of a floor or a wall
-_PLATE = 0.15  # of its shorter side: as thick as this it is a plate
-_LOW = 0.1  # of the scene: how far from its end a floor or a wall lies
-_SPANS = 0.9  # of the scene's extent: what a wall has
-_FILLED = 0.7  # of a plate: what one piece covers, if it is a panel of that piece
-_SIDE = 0.15  # metres: the shortest side of a piece of furniture
-_LENGTH = 0.25  # metres: its longest
-_WITHIN = 0.9  # of its extent along each axis: what lies in the box of the piece that it is the content of
-_NEAR = 0.1  # metres: as near as this, a front or a prop belongs to a piece
-_CROSSED = 0.002  # metres by which an object may cross the plane between two pieces
-_REACH = 0.05  # metres: how far from that plane a side stands
-_BESIDE = 0.4  # metres: what lies so near to the plane tells how high and how deep a side must be
-_CLOSED = 0.5  # of that outline: what a side covers
+from grafu.segmentation.config import FurnitureConfig
 
 FLOOR_OR_WALL: Final = -1
 ALONE: Final = -2
@@ -79,18 +63,18 @@ class Shells:
         return Box(self.low[group].min(axis=0), self.high[group].max(axis=0))
 
 
-def furniture_pieces(shells: Shells) -> Indices:
+def furniture_pieces(shells: Shells, config: FurnitureConfig = FurnitureConfig()) -> Indices:
     """Returns for each shell the number of its piece of furniture; `FLOOR_OR_WALL` or `ALONE` where it is of none.
 
     Pieces are numbered from 0, from left to right as they are seen from -Y, those behind and above later.
     """
     number = np.full(len(shells.meshes), FLOOR_OR_WALL, dtype=np.int64)
-    groups = _without_room(shells)
+    groups = _without_room(shells, config)
     if not groups:
         return number
-    bodies, alone = _with_what_belongs(shells, groups)
+    bodies, alone = _with_what_belongs(shells, groups, config)
     number[np.concatenate([np.zeros(0, np.int64), *alone])] = ALONE
-    pieces = [piece for body in bodies for piece in _side_by_side(shells, body)]
+    pieces = [piece for body in bodies for piece in _side_by_side(shells, body, config)]
     for k, piece in enumerate(sorted(pieces, key=lambda piece: _place(shells.box(piece)))):
         number[piece] = k
     return number
@@ -100,15 +84,17 @@ def _place(box: Box) -> tuple[float, ...]:
     return tuple(np.round([box.center[0], box.low[1], box.low[2]], 3).tolist())
 
 
-def _without_room(shells: Shells) -> Groups:
+def _without_room(shells: Shells, config: FurnitureConfig) -> Groups:
     """Returns the shells that touch, in groups, floors and walls left out."""
-    pairs = near_pairs([mesh.box for mesh in shells.meshes], _TOUCH)
-    touching = np.array(touching_pairs(shells.meshes, pairs, _TOUCH), dtype=np.int64).reshape(-1, 2)
-    room = _plates_of_room(shells)
+    pairs = near_pairs([mesh.box for mesh in shells.meshes], config.touch)
+    touching = np.array(touching_pairs(shells.meshes, pairs, config.touch), dtype=np.int64).reshape(-1, 2)
+    room = _plates_of_room(shells, config)
     while True:
         groups = _groups(touching, ~room)
         boxes = [shells.box(group) for group in groups]
-        panels = [k for k in np.flatnonzero(room) if any(_fills(box, shells.meshes[k].box) for box in boxes)]
+        panels = [
+            k for k in np.flatnonzero(room) if any(_fills(box, shells.meshes[k].box, config.filled) for box in boxes)
+        ]
         if not panels:
             return groups
         room[panels] = False
@@ -121,31 +107,31 @@ def _groups(touching: np.ndarray, among: Mask) -> Groups:
     return [np.flatnonzero(among & (label == k)) for k in np.unique(label[among])]
 
 
-def _plates_of_room(shells: Shells) -> Mask:
+def _plates_of_room(shells: Shells, config: FurnitureConfig) -> Mask:
     """Returns which shells may be floors, carpets or walls by their size and place."""
     low, high = shells.low.min(axis=0), shells.high.max(axis=0)
     size, whole = shells.high - shells.low, high - low
     sides = np.sort(size, axis=1)
     thin = np.argmin(size, axis=1)
-    is_plate = (sides[:, 0] <= _THICKNESS) & (sides[:, 0] <= _PLATE * sides[:, 1])
+    is_plate = (sides[:, 0] <= config.thickness) & (sides[:, 0] <= config.plate * sides[:, 1])
     middle = (shells.low + shells.high)[np.arange(len(thin)), thin] / 2
-    below = middle - low[thin] <= _LOW * whole[thin]
-    above = high[thin] - middle <= _LOW * whole[thin]
-    is_floor = (thin == 2) & below & (sides[:, 1] >= _FLOOR_SIDE)
-    spans = size >= _SPANS * whole
+    below = middle - low[thin] <= config.low * whole[thin]
+    above = high[thin] - middle <= config.low * whole[thin]
+    is_floor = (thin == 2) & below & (sides[:, 1] >= config.floor_side)
+    spans = size >= config.spans * whole
     spans[np.arange(len(thin)), thin] = True
-    is_tall = (size[:, 2] >= _WALL_HEIGHT) & (np.maximum(size[:, 0], size[:, 1]) >= _FLOOR_SIDE)
+    is_tall = (size[:, 2] >= config.wall_height) & (np.maximum(size[:, 0], size[:, 1]) >= config.floor_side)
     return is_plate & (is_floor | ((thin != 2) & (below | above) & spans.all(axis=1) & is_tall))
 
 
-def _fills(box: Box, plate: Box) -> bool:
-    """Whether a piece covers so much of a plate, seen along its thin side, that the plate is a panel of it."""
+def _fills(box: Box, plate: Box, filled: float) -> bool:
+    """Whether a piece covers the fraction `filled` of a plate, seen along its thin side: it is a panel of the piece."""
     along = np.delete(np.arange(3), plate.thin_axis)
     shared = np.minimum(box.high, plate.high)[along] - np.maximum(box.low, plate.low)[along]
-    return float(np.prod(np.maximum(shared, 0.0))) >= _FILLED * float(np.prod(plate.size[along]))
+    return float(np.prod(np.maximum(shared, 0.0))) >= filled * float(np.prod(plate.size[along]))
 
 
-def _with_what_belongs(shells: Shells, groups: Groups) -> tuple[Groups, Groups]:
+def _with_what_belongs(shells: Shells, groups: Groups, config: FurnitureConfig) -> tuple[Groups, Groups]:
     """Returns the groups that are furniture, with contents, fronts and props of each; and those that lie alone.
 
     Where no group is large enough to be furniture, all are one piece.
@@ -156,10 +142,10 @@ def _with_what_belongs(shells: Shells, groups: Groups) -> tuple[Groups, Groups]:
     held: dict[int, list[np.ndarray]] = {}
     for k in order:
         host = min(bodies, key=lambda b: (boxes[b].gap(boxes[k]), boxes[b].volume), default=None)
-        within = next((b for b in bodies if _lies_in(boxes[k], boxes[b])), None)
-        if within is None and _is_furniture(boxes[k]):
+        within = next((b for b in bodies if _lies_in(boxes[k], boxes[b], config.within)), None)
+        if within is None and _is_furniture(boxes[k], config):
             bodies.append(k)
-        elif within is not None or (host is not None and boxes[host].gap(boxes[k]) <= _NEAR):
+        elif within is not None or (host is not None and boxes[host].gap(boxes[k]) <= config.near):
             held.setdefault(host if within is None else within, []).append(groups[k])  # type: ignore[arg-type]
     if not bodies:
         return [np.sort(np.concatenate(groups))], []
@@ -168,36 +154,36 @@ def _with_what_belongs(shells: Shells, groups: Groups) -> tuple[Groups, Groups]:
     return kept, [group for group in groups if not np.isin(group, taken).any()]
 
 
-def _is_furniture(box: Box) -> bool:
-    return float(box.size.min()) >= _SIDE and float(box.size.max()) >= _LENGTH
+def _is_furniture(box: Box, config: FurnitureConfig) -> bool:
+    return float(box.size.min()) >= config.side and float(box.size.max()) >= config.length
 
 
-def _lies_in(inner: Box, outer: Box) -> bool:
+def _lies_in(inner: Box, outer: Box, within: float) -> bool:
     shared = np.minimum(inner.high, outer.high) - np.maximum(inner.low, outer.low)
-    return bool(np.all(shared >= _WITHIN * inner.size))
+    return bool(np.all(shared >= within * inner.size))
 
 
-def _side_by_side(shells: Shells, group: Indices) -> Groups:
+def _side_by_side(shells: Shells, group: Indices, config: FurnitureConfig) -> Groups:
     """Returns the pieces that stand side by side in a group of shells, along X and then along Y."""
-    return [last for first in _parted(shells, group, 0) for last in _parted(shells, first, 1)]
+    return [last for first in _parted(shells, group, 0, config) for last in _parted(shells, first, 1, config)]
 
 
-def _parted(shells: Shells, group: Indices, axis: int) -> Groups:
+def _parted(shells: Shells, group: Indices, axis: int, config: FurnitureConfig) -> Groups:
     """Returns a group cut at the planes across an axis that part two pieces, each with sides at both its ends."""
-    rows = _slabs(shells, group, axis)
+    rows = _slabs(shells, group, axis, config.crossed)
     pieces = [rows[0]]
     for k, row in enumerate(rows[1:], 1):
         before, after = pieces[-1], np.concatenate(rows[k:])
         at = float(shells.low[after, axis].min() + shells.high[before, axis].max()) / 2
-        is_one = _is_furniture(shells.box(before)) and _has_side(shells, before, axis, at, -1)
-        if is_one and _has_side(shells, after, axis, at, 1):
+        is_one = _is_furniture(shells.box(before), config) and _has_side(shells, before, axis, at, -1, config)
+        if is_one and _has_side(shells, after, axis, at, 1, config):
             pieces.append(row)
         else:
             pieces[-1] = np.sort(np.concatenate([before, row]))
-    return pieces if len(pieces) == 1 else _with_outer_sides(shells, pieces, axis)
+    return pieces if len(pieces) == 1 else _with_outer_sides(shells, pieces, axis, config)
 
 
-def _slabs(shells: Shells, group: Indices, axis: int) -> Groups:
+def _slabs(shells: Shells, group: Indices, axis: int, crossed: float) -> Groups:
     """Returns a group cut at every plane across an axis that cuts no object, in order along it."""
     objects, of = np.unique(shells.owner[group], return_inverse=True)
     low, high = np.full(len(objects), np.inf), np.full(len(objects), -np.inf)
@@ -205,26 +191,26 @@ def _slabs(shells: Shells, group: Indices, axis: int) -> Groups:
     np.maximum.at(high, of, shells.high[group, axis])
     order = np.argsort(low, kind="stable")
     reached = np.maximum.accumulate(high[order])
-    slab = np.concatenate([[0], np.cumsum(low[order][1:] >= reached[:-1] - _CROSSED)])
+    slab = np.concatenate([[0], np.cumsum(low[order][1:] >= reached[:-1] - crossed)])
     number = np.empty(len(objects), np.int64)
     number[order] = slab
     return [group[number[of] == k] for k in range(int(slab[-1]) + 1)]
 
 
-def _with_outer_sides(shells: Shells, pieces: Groups, axis: int) -> Groups:
+def _with_outer_sides(shells: Shells, pieces: Groups, axis: int, config: FurnitureConfig) -> Groups:
     """Returns the pieces of a row, those at its ends that have no outer side, or are a panel, joined to the next."""
     first, last = shells.box(pieces[0]), shells.box(pieces[-1])
-    if not _has_side(shells, pieces[0], axis, float(first.low[axis]), 1):
+    if not _has_side(shells, pieces[0], axis, float(first.low[axis]), 1, config):
         pieces = [np.sort(np.concatenate(pieces[:2])), *pieces[2:]]
-    is_one = _is_furniture(last) and _has_side(shells, pieces[-1], axis, float(last.high[axis]), -1)
+    is_one = _is_furniture(last, config) and _has_side(shells, pieces[-1], axis, float(last.high[axis]), -1, config)
     if len(pieces) > 1 and not is_one:
         pieces = [*pieces[:-2], np.sort(np.concatenate(pieces[-2:]))]
     return pieces
 
 
-def _has_side(shells: Shells, group: Indices, axis: int, at: float, sense: int) -> bool:
+def _has_side(shells: Shells, group: Indices, axis: int, at: float, sense: int, config: FurnitureConfig) -> bool:
     """Whether shells that lie on one side of a plane across an axis have a closed side near it."""
-    ends = (at - _CROSSED, at + _BESIDE) if sense > 0 else (at - _BESIDE, at + _CROSSED)
+    ends = (at - config.crossed, at + config.beside) if sense > 0 else (at - config.beside, at + config.crossed)
     near = group[(shells.high[group, axis] >= ends[0]) & (shells.low[group, axis] <= ends[1])]
     if not len(near):
         return False
@@ -234,9 +220,9 @@ def _has_side(shells: Shells, group: Indices, axis: int, at: float, sense: int) 
     for k in near.tolist():
         mesh = shells.meshes[k]
         low, high = triangle_bounds(mesh.triangles)
-        reach = (at - _CROSSED, at + _REACH) if sense > 0 else (at - _REACH, at + _CROSSED)
+        reach = (at - config.crossed, at + config.reach) if sense > 0 else (at - config.reach, at + config.crossed)
         faced = mesh.face_normals[:, axis]
-        lies = (low[:, axis] >= reach[0]) & (high[:, axis] <= reach[1]) & (np.abs(faced) > 1 - _CROSSED)
+        lies = (low[:, axis] >= reach[0]) & (high[:, axis] <= reach[1]) & (np.abs(faced) > 1 - config.crossed)
         areas = mesh.face_areas
         covered += [areas[lies & (faced < 0)].sum(), areas[lies & (faced > 0)].sum()]
-    return outline > 0 and float(covered.max()) >= _CLOSED * outline
+    return outline > 0 and float(covered.max()) >= config.closed * outline
