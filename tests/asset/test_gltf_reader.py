@@ -143,7 +143,7 @@ GOOD = glb_bytes(*small())
         (broken(lambda d: d["nodes"][0].update(children=[1, 0])), "cycle"),
         (broken(lambda d: d["nodes"][0].update(scale="big")), "must be 3 finite numbers"),
         (broken(lambda d: d["meshes"][0].update(primitives=[7])), "must be an object"),
-        (broken(lambda d: d.update(extensionsRequired=["EXT_meshopt_compression"])), "meshopt"),
+        (broken(lambda d: d.update(extensionsRequired=["KHR_meshopt_compression"])), "meshopt"),
     ],
 )
 def test_damaged_scenes_are_refused_in_one_line(tmp_path, data, said):

@@ -17,6 +17,7 @@ from draco_scenes import write_draco
 from fbx_scenes import fbx_bytes, fbx_records, write_fbx
 from fuzz.bombs import png_of
 from grafu.geometry.mesh import TriangleMesh
+from meshopt_scenes import write_meshopt
 from robot_models import mjcf_text, sdf_text, write_mjcf, write_sdf
 from small_assets import (
     CABINET,
@@ -107,6 +108,10 @@ def gltf(folder: Path) -> str:
 
 def glb_draco(folder: Path) -> str:
     return write_draco(folder).name
+
+
+def glb_meshopt(folder: Path) -> str:
+    return write_meshopt(folder).name
 
 
 def _with_materials(path: Path) -> None:
@@ -295,6 +300,7 @@ MODELS: dict[str, Maker] = {
     "glb": glb,
     "glb with textures": glb_textured,
     **({"glb with draco": glb_draco} if find_spec("DracoPy") else {}),
+    "glb meshopt": glb_meshopt,
     "gltf": gltf,
     "obj": obj,
     "folder of obj": obj_folder,

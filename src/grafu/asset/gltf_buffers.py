@@ -10,13 +10,14 @@ import binascii
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, final
 from urllib.parse import unquote_to_bytes
 
 import numpy as np
 
+from grafu.asset.gltf_meshopt import MeshoptError, unpack
 from grafu.asset.json_files import JsonObject, object_of, parse_json
 from grafu.asset.resources import ModelFiles
 from grafu.errors import UnreadableAsset
@@ -51,10 +52,8 @@ def chunks_of(data: bytes, path: Path) -> tuple[memoryview, memoryview | None]:
 
 _DTYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-_REFUSED = {
-    "EXT_meshopt_compression": "meshopt",
-    "KHR_meshopt_compression": "meshopt",
-}
+_MESHOPT = "EXT_meshopt_compression"
+_REFUSED = {"KHR_meshopt_compression": "meshopt in the form of KHR_meshopt_compression"}
 
 
 @final
@@ -66,6 +65,7 @@ class GltfFile:
     document: JsonObject
     buffers: tuple[memoryview, ...]
     files: ModelFiles
+    _unpacked: dict[int, bytes] = field(default_factory=dict, compare=False, repr=False)  # compressed views, once each
 
     def item(self, key: str, index: Any) -> JsonObject:
         """Returns one element of a top-level array.
@@ -97,13 +97,36 @@ class GltfFile:
     def view(self, index: Any) -> tuple[memoryview, int]:
         """Returns the bytes of a buffer view and its stride (0: tight)."""
         view = self.item("bufferViews", index)
+        packed = view.member("extensions")
+        if _MESHOPT in packed:
+            if index not in self._unpacked:
+                self._unpacked[index] = self._unpack(index, view.whole("byteLength", 0), packed.member(_MESHOPT))
+            return memoryview(self._unpacked[index]), view.whole("byteStride", 0)
+        return self._bytes(index, view), view.whole("byteStride", 0)
+
+    def _bytes(self, index: Any, view: JsonObject) -> memoryview:
+        """Returns the bytes of a buffer that a view, or what compresses it, names."""
         buffer = view.whole("buffer")
         if buffer is None or buffer >= len(self.buffers):
             raise self.damaged(f"buffer {buffer} is not there")
         start, length = view.whole("byteOffset", 0), view.whole("byteLength", 0)
         if start + length > len(self.buffers[buffer]):
             raise self.damaged(f"bufferViews[{index}] reaches beyond its buffer")
-        return self.buffers[buffer][start : start + length], view.whole("byteStride", 0)
+        return self.buffers[buffer][start : start + length]
+
+    def _unpack(self, index: Any, length: int, packed: JsonObject) -> bytes:
+        """Returns the bytes of a view that is compressed by meshopt; they count among those that are read."""
+        count, stride = packed.whole("count", 0), packed.whole("byteStride", 0)
+        if count * stride != length:
+            raise self.damaged(f"bufferViews[{index}] has {length} bytes for {count} elements of {stride}")
+        mode = packed.text("mode")
+        self.files.tally.add(self.path, bytes=length)
+        self.files.limits.require(*(("vertices", count) if mode == "ATTRIBUTES" else ("faces", count // 3)), self.path)
+        try:
+            data = bytes(self._bytes(index, packed))
+            return unpack(data, mode, count, stride, packed.text("filter") or "NONE")
+        except MeshoptError as error:
+            raise self.damaged(f"bufferViews[{index}]: {error}") from None
 
     def count(self, index: Any) -> int:
         """Returns how many elements an accessor declares."""
@@ -202,18 +225,21 @@ def _damaged(path: Path, why: str) -> UnreadableAsset:
 
 def _buffers(path: Path, document: JsonObject, binary: memoryview | None, files: ModelFiles) -> tuple[memoryview, ...]:
     buffers = []
+    is_compressed = _MESHOPT in document.array("extensionsUsed")
     for index, buffer in enumerate(document.objects("buffers")):
         data = _buffer(path, index, buffer.text("uri"), binary, files)
         length = buffer.whole("byteLength", 0)
+        if data is None:  # it stands for what compressed views hold, and has no bytes of its own
+            data, length = memoryview(b""), 0 if is_compressed else length
         if len(data) < length:
             raise UnreadableAsset(f"{path} is truncated: buffer {index} holds {len(data)} of {length} bytes")
         buffers.append(data)
     return tuple(buffers)
 
 
-def _buffer(path: Path, index: int, uri: str, binary: memoryview | None, files: ModelFiles) -> memoryview:
+def _buffer(path: Path, index: int, uri: str, binary: memoryview | None, files: ModelFiles) -> memoryview | None:
     if not uri:
-        return binary if index == 0 and binary is not None else memoryview(b"")
+        return binary if index == 0 and binary is not None else None
     inline = _data_uri(uri)
     if inline is not None:
         return memoryview(inline)

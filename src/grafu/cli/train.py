@@ -124,7 +124,7 @@ def run(options: argparse.Namespace) -> int:
 def exported(best: "BestWeights") -> bytes:
     """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
     from grafu.network.export import onnx_bytes
-    from grafu.processes.privacy import keep_private
+    from grafu.processes.lifetime import keep_private
 
     keep_private()  # the exporter may look whether ONNX Runtime is there
     before = logging.root.manager.disable

@@ -17,7 +17,7 @@ import numpy as np
 from grafu.completion.features import SCORE_NAMES, FeatureConfig, GraphFeatures, Scores
 from grafu.errors import WeightsError
 from grafu.graph.arrays import LABELS
-from grafu.processes.privacy import keep_private
+from grafu.processes.lifetime import keep_private
 
 
 def onnx_runtime() -> ModuleType:

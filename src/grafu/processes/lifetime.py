@@ -1,6 +1,8 @@
 """Processes end together: a worker with its parent, however that ends, and what it started with the worker.
 
 Folders for what is passed between programs are gone when they are closed, and when their process is killed.
+
+Nothing leaves the machine: the telemetry of libraries is switched off.
 """
 
 import multiprocessing
@@ -83,3 +85,15 @@ def _watch() -> None:
     if parent is not None:
         parent.join()
         os._exit(1)
+
+
+_SWITCH = "ORT_DISABLE_TELEMETRY"  # ONNX Runtime reads it as it is loaded; later it is too late
+
+
+def keep_private() -> None:
+    """Switches off the telemetry of ONNX Runtime, for this process and those that it starts.
+
+    To be called before the library is imported: as it loads, it would make a device id and a queue of events under the
+    user's cache folder, and ask for its makers' host.
+    """
+    os.environ[_SWITCH] = "1"
