@@ -34,7 +34,7 @@ WORDS = "how many names a sentence has"
 
 OF_MODULES = {
     "scene": {
-        "border.py": {"_SNAP": FRAME, "_THIN_BOARD": FRAME},
+        "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
         "scale.py": {"_COMMON": SHARED},
     },

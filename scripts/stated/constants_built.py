@@ -125,6 +125,8 @@ def joints() -> Iterator[Sentence]:
     yield page, "a face behind the border within {} of the largest side", (BUILT.contact,)
     yield page, "both fronts flush within {} of it", (BUILT.flush,)
     yield page, "at most the template's and {} degrees", (round(degrees(BUILT.door_opening)),)
+    hinge = BUILT.hinge
+    yield page, "2 hinges up to {} m and one more per {} m", (hinge.two_up_to, hinge.one_more_per)
     yield page, "length {} of the body", (BUILT.rail_ratio,)
     yield page, "Travel: {} of the rail", (TRAVEL,)
     yield page, "| {} % of the side |", (per_cent(BUILT.max_trim),)

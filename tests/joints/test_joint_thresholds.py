@@ -7,6 +7,7 @@ import pytest
 
 from grafu.joints import config
 from grafu.joints.config import DrawerConfig, HingeConfig, PlanConfig, RailConfig, RealizationConfig, TimeConfig
+from grafu.joints.hinge.candidates import hinge_count
 from module_numbers import explained_fields, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -57,3 +58,9 @@ def test_every_field_has_a_line_that_explains_it(kind: type) -> None:
 def test_a_number_below_0_is_refused(kind: type, name: str) -> None:
     with pytest.raises(ValueError, match=name if not name.endswith("poses") else "poses"):
         replace(kind(), **{name: type(getattr(kind(), name))(-1)})
+
+
+@pytest.mark.parametrize(("length", "count"), [(0.3, 2), (0.9, 2), (0.91, 3), (1.5, 3), (2.1, 4)])
+def test_the_number_of_hinges_follows_the_length(length: float, count: int) -> None:
+    assert hinge_count(length, HingeConfig()) == count
+    assert hinge_count(2 * length, HingeConfig(two_up_to=1.8, one_more_per=1.2)) == count

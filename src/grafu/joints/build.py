@@ -148,7 +148,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in held_by):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
-    if free < 0.3:
+    if free < config.least_opening:
         detail = "it cannot move freely about any candidate axis, not even with the clearance allowed"
         return Refusal(request.moving, Reason.BLOCKED, detail)
     detail = f"no {what} finds a hold on both sides without cutting into parts"

@@ -143,6 +143,10 @@ class HingeConfig:
     """Distance between the door's end and the plate (metres)."""
     plate_reach: float = 0.025
     """How far the plate reaches behind the door's back, and how far inwards the case may stand there (metres)."""
+    two_up_to: float = 0.9
+    """Longest door that hangs on two hinges (metres): cabinet makers put 2 up to 0.9 m, 3 up to 1.5, 4 up to 2.1."""
+    one_more_per: float = 0.6
+    """Length beyond that for each further hinge (metres)."""
     length_ratio: float = 0.12
     """Longest hinge, a fraction of its door's length along the axis (official 7.3)."""
     radius_ratio: float = 0.22

@@ -17,8 +17,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
 
 _THIN_BOARD = 0.008
-# An initial axis within this angle of a box axis is snapped onto it; a larger one is a deliberate slant.
-_SNAP = np.cos(np.radians(8.0))
+SNAP = np.cos(np.radians(8.0))
+"""Cosine: an initial axis within 8 degrees of a box axis is snapped onto it; a larger angle is a deliberate slant."""
 
 
 @final
@@ -74,7 +74,7 @@ def border_frame(mesh: TriangleMesh, axis: Axis) -> BorderFrame:
     """
     axes = part_axes(mesh)
     along = int(np.argmax(np.abs(axes.T @ axis.direction)))
-    if abs(float(axes[:, along] @ axis.direction)) < _SNAP:
+    if abs(float(axes[:, along] @ axis.direction)) < SNAP:
         return _slanted(mesh, axis)
     z = axes[:, along] * np.sign(float(axes[:, along] @ axis.direction))
     local = Box.around(mesh.vertices @ axes)

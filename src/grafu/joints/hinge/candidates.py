@@ -190,12 +190,9 @@ def barrel_radius(frame: BorderFrame, config: HingeConfig) -> float:
     return max(config.smallest, min(config.radius, config.radius_ratio * frame.board))
 
 
-def hinge_count(length: float) -> int:
-    """Returns how many hinges a border of this length takes: two, and one more per 0.6 m beyond the first 0.9.
-
-    Cabinet makers put 2 up to 0.9 m, 3 up to 1.5, 4 up to 2.1.
-    """
-    return 2 + max(0, ceil((length - 0.9) / 0.6 - 1e-9))
+def hinge_count(length: float, config: HingeConfig) -> int:
+    """Returns how many hinges a border of this length takes, metres: two up to a length, and one more per another."""
+    return 2 + max(0, ceil((length - config.two_up_to) / config.one_more_per - 1e-9))
 
 
 def hinge_heights(length: float, count: int) -> np.ndarray:

@@ -140,7 +140,7 @@ class DoorSearch:
     @property
     def count(self) -> int:
         """How many hinges the door is to have."""
-        return self.request.choice.count or hinge_count(self.frame.length)
+        return self.request.choice.count or hinge_count(self.frame.length, self.config.hinge)
 
     @property
     def has_pins(self) -> bool:

@@ -17,7 +17,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, transform_points
 from grafu.joints.config import DrawerConfig
-from grafu.scene.border import part_axes
+from grafu.scene.border import SNAP, part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
 _FINER = 24  # rows between two of those, where a body begins and ends: to a thousandth of the depth
@@ -63,7 +63,7 @@ def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> Dr
     axes = part_axes(mesh)
     nearest = int(np.argmax(np.abs(axes.T @ direction)))
     snapped = axes[:, nearest] * np.sign(float(axes[:, nearest] @ direction))
-    slide = snapped if float(snapped @ direction) > np.cos(np.radians(8.0)) else direction
+    slide = snapped if float(snapped @ direction) > SNAP else direction
     up = vec3(0.0, 0.0, 1.0)
     y = -slide / np.linalg.norm(slide)
     x = up if lying else np.cross(y, up)
