@@ -76,7 +76,7 @@ RATIOS = [
     (RailConfig, "most_inset"),
     (RealizationConfig, "least_opening"),
     (RealizationConfig, "max_carve"),
-    (RealizationConfig, "max_carve_fitting"),
+    (RealizationConfig, "max_carve_hidden"),
     (ReliefConfig, "plane"),
     (RoomConfig, "walled"),
     (SupportConfig, "full"),

@@ -4,8 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 
 from grafu.articulation.articulated_object import VisualRole
+from grafu.geometry.appearance import Surface
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.config import RealizationConfig
 from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -145,7 +148,7 @@ def test_the_sides_of_a_drawer_are_lowered_where_its_front_hides_them(sides_from
     tray = replace(asset.part("drawer"), surfaces=tuple(b.surfaces[0] for b in (front, floor, *sides)))
     rail = box("rail", (-0.21, -0.186, 0.162), (0.21, -0.16, 0.2))
     parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
-    result = realized(replace(asset, parts=(*parts, rail)), RealizationConfig(max_carve=1e-6, max_carve_fitting=1e-6))
+    result = realized(replace(asset, parts=(*parts, rail)), RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6))
 
     done = installed(result)["drawer"].clearances if "drawer" in installed(result) else ()
     assert [c.part for c in done if c.kind == "trimmed"] == (["drawer"] if is_trimmed else [])
@@ -153,6 +156,42 @@ def test_the_sides_of_a_drawer_are_lowered_where_its_front_hides_them(sides_from
         assert installed(result)["drawer"].collision_share == 0.0
         before, after = tray.mesh.box, visuals(result)["drawer"].mesh.box
         np.testing.assert_allclose(after.size, before.size, atol=1e-9)
+
+
+def test_the_body_of_a_drawer_is_lowered_behind_a_front_of_the_same_piece():
+    """A bar of the case stands 5 mm deep in the way of the body; the front, which hides it, stays as it was."""
+    front = trimesh.creation.box(bounds=[(-0.2, -0.2, 0.01), (0.2, -0.188, 0.18)])
+    body = trimesh.creation.box(bounds=[(-0.195, -0.19, 0.02), (0.195, 0.2, 0.165)])
+    whole = trimesh.boolean.union([front, body])
+    asset = drawer()
+    tray = replace(asset.part("drawer"), surfaces=(Surface(TriangleMesh.from_trimesh(whole)),))
+    bar = box("bar", (-0.21, -0.186, 0.16), (0.21, -0.16, 0.2))
+    parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
+    result = realized(replace(asset, parts=(*parts, bar)), RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6))
+
+    outcome = installed(result)["drawer"]
+    assert outcome.collision_share == 0.0
+    assert [(c.part, c.kind) for c in outcome.clearances] == [("drawer", "trimmed")]
+    after = visuals(result)["drawer"].mesh
+    np.testing.assert_allclose(after.box.size, tray.mesh.box.size, atol=1e-9)
+    hidden = after.vertices[after.vertices[:, 1] > -0.15]
+    assert 0.148 < hidden[:, 2].max() < 0.16
+
+
+def test_a_thin_bottom_of_a_drawer_is_raised_rather_than_pressed_flat():
+    asset, t = drawer(), 0.012
+    sides = [box("side", (x, -0.188, 0.03), (x + t, 0.2, 0.17)) for x in (-0.2, 0.2 - t)]
+    front = box("front", (-0.2, -0.2, 0.02), (0.2, -0.188, 0.17))
+    floor = box("floor", (-0.188, -0.188, 0.03), (0.188, 0.2, 0.036))
+    tray = replace(asset.part("drawer"), surfaces=tuple(b.surfaces[0] for b in (front, floor, *sides)))
+    shelf = box("shelf", (-0.21, -0.186, 0.0), (0.21, 0.2, 0.034))
+    parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
+    result = realized(replace(asset, parts=(*parts, shelf)), RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6))
+
+    assert installed(result)["drawer"].collision_share == 0.0
+    raised = visuals(result)["drawer"].surfaces[1].mesh.box
+    np.testing.assert_allclose(raised.size, floor.mesh.box.size, atol=1e-9)
+    assert raised.low[2] > 0.034
 
 
 def test_a_part_of_very_many_faces_is_not_carved():
@@ -168,10 +207,15 @@ def test_a_part_of_very_many_faces_is_not_carved():
     assert carved(few) == []
 
 
-@pytest.mark.parametrize(("name", "is_carved"), [("bearing_0", True), ("stud_0", False)])
-def test_a_drawn_bearing_makes_way_where_other_parts_would_lose_too_much(name, is_carved):
+@pytest.mark.parametrize(
+    ("name", "y", "is_carved"),
+    [("bearing_0", -0.1, True), ("stud_0", -0.1, True), ("bearing_0", -0.25, True), ("stud_0", -0.25, False)],
+    ids=["bearing", "hidden", "bearing in front", "seen"],
+)
+def test_what_is_not_seen_or_a_drawn_bearing_makes_way_where_other_parts_would_lose_too_much(name, y, is_carved):
+    """A third of a stud that stands in a drawer's wall and in its way: beside the drawer, or before its front."""
     asset = drawer()
-    stuck = box(name, (0.186, -0.1, 0.09), (0.2265, -0.09, 0.1))
+    stuck = box(name, (0.186, y, 0.09), (0.2265, y + 0.01, 0.1))
     result = realized(replace(asset, parts=(*asset.parts, stuck)))
     done = installed(result)["drawer"].clearances if "drawer" in installed(result) else ()
     assert ((name, "carved") in {(c.part, c.kind) for c in done}) is is_carved

@@ -123,6 +123,8 @@ def robust_median(distances: Scalars, reach: float, ratio: float = 0.3) -> float
 
 _OFF = 1e-4  # of the largest side: how far before a face a ray begins
 _DIRECTIONS = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
+_DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1)[:, None]
+_OBLIQUE = _DIRECTIONS @ np.linalg.qr([[9.0, 1.0, -2.0], [-1.0, 8.0, 2.0], [3.0, -1.0, 9.0]])[0]  # any turn
 _PLACES = np.array([[1, 1, 1], [8, 1, 1], [1, 8, 1], [1, 1, 8]])  # weights of the corners: the middle, near each corner
 
 
@@ -136,11 +138,24 @@ def outer_faces(mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
     if not len(seen):
         return seen
     caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())
-    for direction, weights in product(_DIRECTIONS / np.linalg.norm(_DIRECTIONS, axis=1)[:, None], _PLACES):
+    for direction, weights in product(_DIRECTIONS, _PLACES):
         left = np.flatnonzero(~seen)
         points = np.einsum("k,nkd->nd", weights / weights.sum(), mesh.triangles[left])
         normals = mesh.face_normals[left]
         side = np.sign(normals @ direction)
         origins = points + off * side[:, None] * normals
         seen[left] = (side != 0) & np.isinf(caster.along(origins, direction))
+    return seen
+
+
+def outer_points(points: Points, mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
+    """Returns for each of some points on a mesh whether it can be seen from far away, along one of 26 directions.
+
+    They are those of `outer_faces`, turned: furniture has no faces along them.
+    """
+    seen = np.zeros(len(points), dtype=np.bool_)
+    caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())
+    for direction in _OBLIQUE:
+        left = np.flatnonzero(~seen)
+        seen[left] = np.isinf(caster.along(points[left] + off * direction, direction))
     return seen

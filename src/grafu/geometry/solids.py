@@ -12,7 +12,7 @@ from typing import final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.spatial import ConvexHull, QhullError
 
 from grafu.geometry.appearance import Surface
@@ -53,6 +53,10 @@ class ConvexSolid(ArrayValue):
     def box(self) -> Box:
         """The axis-aligned box around the solid."""
         return Box.around(self.vertices)
+
+    def contains(self, points: Points) -> Bool[np.ndarray, " n"]:
+        """Returns whether points lie in the solid or on its surface."""
+        return (points @ self.planes[:, :3].T <= self.planes[:, 3]).all(axis=1)
 
     @property
     def mesh(self) -> TriangleMesh:

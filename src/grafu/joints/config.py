@@ -209,8 +209,11 @@ class RealizationConfig:
     """What ends so far behind a drawer's front is hidden by it (metres on furniture of usual size)."""
     max_carve: float = 0.05
     """Largest fraction of a static part's volume or surface that is carved (design, section 5)."""
-    max_carve_fitting: float = 0.6
-    """The same of a drawn rail, bearing or hinge, told by its name: it lies hidden, and makes way for what works."""
+    max_carve_hidden: float = 0.6
+    """The same of a part of which at most `max_carve_seen` of its surface goes that is seen from outside, while all is
+    closed; and of a drawn rail, bearing or hinge, told by its name."""
+    max_carve_seen: float = 0.005
+    """Largest fraction of a part's surface that counts as hardly seen."""
     coarse_poses: int = 19
     """Poses in which candidates are compared."""
     fine_poses: int = 61
@@ -245,7 +248,15 @@ class RealizationConfig:
         require_positive(self, "no_hardware_gap", "carved_faces")
         require_not_negative(self, "max_hidden_trim", "thinnest_front")
         require_ratios(
-            self, "restricted", "max_trim", "max_carve", "max_carve_fitting", "rail_ratio", "least_opening", "kept"
+            self,
+            "restricted",
+            "max_trim",
+            "max_carve",
+            "max_carve_hidden",
+            "max_carve_seen",
+            "rail_ratio",
+            "least_opening",
+            "kept",
         )
         require_ratios(self, "no_hardware_width")
         if min(self.coarse_poses, self.fine_poses) < 2:

@@ -22,8 +22,9 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import connected_parts, part_numbers
 from grafu.geometry.intersection import MeshCollider, SweptBody
-from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.raycast import outer_faces
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import outer_faces, outer_points
+from grafu.geometry.sampling import sample_surface
 from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.geometry.transform import transform_points
 from grafu.joints.config import RealizationConfig
@@ -118,6 +119,7 @@ def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
 
 _TURN_STEP = np.radians(5.0)
 _MOST_PLANES = 26  # of a box with its edges and corners bevelled
+_SAMPLES = 2000  # points on a part where it is looked at
 _MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is covered by its convex hull
 
 
@@ -133,8 +135,9 @@ def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
         clipped = [clip(surface, near) for surface in part.surfaces]
         area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-        most = config.max_carve_fitting if sense_of(part.source.name).is_fitting else config.max_carve
-        if not 0 < _lost_ratio(part, near, area, most) < most:
+        lost = _lost_ratio(part, near, area, config.max_carve)
+        may_lose = 0 < lost < config.max_carve
+        if not may_lose and not (0 < lost < config.max_carve_hidden and _is_hidden(scene, part, near, config)):
             continue
         surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
@@ -153,6 +156,16 @@ def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, limit: f
         return 0.0
     by_area = area / part.mesh.area
     return by_area if by_area < limit else min(by_area, lost_volume(part, solids))
+
+
+def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> bool:
+    """Whether hardly any of what the solids cut off is seen from outside, all closed; rails and hinges are not seen."""
+    if sense_of(part.source.name).is_fitting:
+        return True
+    points = sample_surface(part.mesh, _SAMPLES).points
+    inside = points[np.any([solid.contains(points) for solid in solids], axis=0)]
+    whole = merge_meshes(tuple(other.mesh for other in scene.parts.values()))
+    return bool(np.count_nonzero(outer_points(inside, whole)) <= config.max_carve_seen * _SAMPLES)
 
 
 def _swept_solids(

@@ -1,6 +1,7 @@
 """Takes a trace off the moving part: pieces pressed back to their neighbours' faces, by at most 2 % of its side.
 
-Pieces that the front of a drawer hides may lose more: lower or narrower sides are not seen.
+What the front of a drawer hides may lose more: lower or narrower sides are not seen. Where front and sides are one
+piece, the two are pressed back apart from each other.
 """
 
 from collections.abc import Sequence
@@ -8,10 +9,11 @@ from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
+from jaxtyping import Bool, Int
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Scalars
+from grafu.geometry.arrays import Indices, Points, Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import BoxEnds, faces_of_parts, part_boxes, part_numbers
@@ -22,26 +24,54 @@ from grafu.joints.report import Clearance
 from grafu.scene.scale import metre_on
 from grafu.scene.scene import Scene
 
+_ON_BACK = 1e-4  # metres: how near the back of a front a vertex lies on it
+
 
 @final
 @dataclass(frozen=True, slots=True)
 class _Press:
-    """Presses a piece's vertices back to a plane: along `axis`, everything beyond `limit` on `side` (0 low, 1 high)."""
+    """Presses a piece's vertices back to a plane: along `axis`, everything beyond `limit` on `side` (0 low, 1 high).
+
+    A board that would be pressed flat `moves` instead, by `depth`.
+    """
 
     axis: int
     side: int
     limit: float
     depth: float
+    moves: bool
+
+    def applied(self, column: Scalars) -> Scalars:
+        """Returns the vertices' coordinates along the axis, pressed."""
+        if self.moves:
+            return column + (self.depth if self.side == 0 else -self.depth)
+        return np.maximum(column, self.limit) if self.side == 0 else np.minimum(column, self.limit)
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class _Front:
-    """Where a drawer's front ends: at `plane` along its own axis `axis`, which it opens along (`sign`)."""
+    """Where a drawer's front ends: at `plane` along its own axis `axis`, which it opens along (`sign`).
+
+    Behind `back`, a coordinate like `plane`, the drawer is narrower or lower than its front: there, all of it lies in
+    the box `body`. None if front and drawer are of one cross-section.
+    """
 
     axis: int
     sign: float
     plane: float
+    back: float | None
+    body: Box
+
+    def sections(self, points: Points) -> list[Bool[np.ndarray, " n"]]:
+        """Returns which points are of the front, and which of what it hides; those where both meet are of both."""
+        if self.back is None:
+            return [np.ones(len(points), dtype=bool)]
+        gap = self.back - self.sign * points[:, self.axis]
+        across = [k for k in range(3) if k != self.axis]
+        low, high = self.body.low[across] - _ON_BACK, self.body.high[across] + _ON_BACK
+        inside = ((points[:, across] >= low) & (points[:, across] <= high)).all(axis=1)
+        return [gap <= _ON_BACK, (gap > _ON_BACK) | ((gap > -_ON_BACK) & inside)]
 
 
 @final
@@ -58,23 +88,36 @@ class _Limits:
     behind: float
     kept: float
 
-    def of(self, box: Box) -> Scalars:
-        """Returns the limits of a piece: those of hidden ones where it lies behind the front's outer face."""
+    def hides(self, box: Box) -> bool:
+        """Whether a piece lies behind the front's outer face."""
         if self.front is None:
-            return self.most
+            return False
         ends = box.high if self.front.sign > 0 else -box.low
-        gap = self.front.plane - float(ends[self.front.axis])
-        return self.hidden if gap >= self.behind else self.most
+        return self.front.plane - float(ends[self.front.axis]) >= self.behind
 
 
-def _front_of(whole: Box, path: Path) -> _Front | None:
-    """Returns the front of what slides; None for what turns: all of it is seen."""
+def _front_of(points: Points, path: Path, step: float) -> _Front | None:
+    """Returns the front of what slides; None for what turns: all of it is seen.
+
+    `points` are the part's vertices in its own axes; from `step` metres on, what is narrower is narrower.
+    """
     if path.is_turn:
         return None
     shift = path.motion(path.reach)[:3, 3] @ path.axes
     axis = int(np.argmax(np.abs(shift)))
     sign = float(np.sign(shift[axis]))
-    return _Front(axis, sign, float((whole.high if sign > 0 else -whole.low)[axis]))
+    along = sign * points[:, axis]
+    order = np.argsort(along)
+    low, high = np.minimum.accumulate(points[order]), np.maximum.accumulate(points[order])
+    across = [k for k in range(3) if k != axis]
+    margins = np.concatenate([low - low[-1], high[-1] - high], axis=1)[:, [*across, *(3 + k for k in across)]]
+    count = int(np.count_nonzero(margins.max(axis=1) >= step))  # the margins only shrink from the back to the front
+    plane = float(along.max())
+    back = float(along[order[min(count, len(order) - 1)]])
+    is_body = along < back - _ON_BACK
+    if not is_body.any():
+        return _Front(axis, sign, plane, None, Box.around(points))
+    return _Front(axis, sign, plane, back, Box.around(points[is_body]))
 
 
 def trim(
@@ -85,11 +128,11 @@ def trim(
     With `touching`, also where they merely touch: a drawer without any play leaves no room for rails.
     """
     part = scene.parts[path.moving]
-    whole = box_in(path.axes, part.mesh)
-    most = config.max_trim * whole.size
+    most = config.max_trim * box_in(path.axes, part.mesh).size
     metre = metre_on(scene.extent)
     hidden = np.maximum(most, config.max_hidden_trim * metre)
-    limits = _Limits(most, hidden, _front_of(whole, path), config.thinnest_front * metre, config.kept)
+    thinnest = config.thinnest_front * metre
+    limits = _Limits(most, hidden, _front_of(part.mesh.vertices @ path.axes, path, thinnest), thinnest, config.kept)
     play = 2.5 * config.depth * scene.extent
     boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
     theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])
@@ -116,17 +159,21 @@ def _pressed(
     deepest = 0.0
     for faces in faces_of_parts(numbers):
         require_time()
-        used = np.unique(surface.mesh.faces[faces])
-        box = Box.around(local[used])
-        for press in _presses(box, theirs, path, limits, play):
-            column = local[used, press.axis]
-            limit = np.maximum(column, press.limit) if press.side == 0 else np.minimum(column, press.limit)
-            local[used, press.axis] = limit
-            deepest = max(deepest, press.depth)
+        for used in _sections(local, np.unique(surface.mesh.faces[faces]), limits):
+            for press in _presses(Box.around(local[used]), theirs, path, limits, play):
+                local[used, press.axis] = press.applied(local[used, press.axis])
+                deepest = max(deepest, press.depth)
     if deepest == 0.0:
         return surface, 0.0
     mesh = TriangleMesh(local @ path.axes.T, surface.mesh.faces)
     return replace(surface, mesh=mesh), deepest
+
+
+def _sections(local: Points, used: Indices, limits: _Limits) -> list[Int[np.ndarray, " _"]]:
+    """Returns the vertices of a piece: together, or of a drawer's front and of what it hides, where it is of both."""
+    if limits.front is None or limits.hides(Box.around(local[used])):
+        return [used]
+    return [used[is_of] for is_of in limits.front.sections(local[used]) if is_of.any()]
 
 
 def _presses(box: Box, theirs: BoxEnds, path: Path, limits: _Limits, play: tuple[float, float]) -> list[_Press]:
@@ -134,16 +181,18 @@ def _presses(box: Box, theirs: BoxEnds, path: Path, limits: _Limits, play: tuple
 
     `play` is what it gets, and up to which gap it counts as cutting in.
     """
-    most = limits.of(box)
+    is_hidden = limits.hides(box)
+    most = limits.hidden if is_hidden else limits.most
     swept = _swept(box, path)
     depths = np.stack([theirs[:, 1] - swept.low, swept.high - theirs[:, 0]], axis=1)
     found: list[_Press] = []
     for both in depths[(depths > -play[1]).all(axis=(1, 2))]:
         side, axis = (int(i) for i in np.unravel_index(int(np.argmin(both)), both.shape))
         depth = float(both[side, axis]) + play[0]
-        if depth <= most[axis] and depth <= (1 - limits.kept) * box.size[axis]:
+        moves = bool(depth > (1 - limits.kept) * box.size[axis])
+        if depth <= most[axis] and (is_hidden or not moves):
             limit = float(swept.low[axis] + depth) if side == 0 else float(swept.high[axis] - depth)
-            found.append(_Press(axis, side, limit, depth))
+            found.append(_Press(axis, side, limit, depth, moves))
     return found
 
 
