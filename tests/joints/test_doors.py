@@ -60,6 +60,15 @@ def test_tall_doors_take_more_hinges(height, count):
     assert len({v.name.split("_")[2] for v in hardware(result, "door")[0]}) == count
 
 
+def test_a_tall_door_that_only_its_ends_hold_takes_two_hinges():
+    """A face frame of two rails, without a stile in the middle: a third hinge would hang in the air."""
+    door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 1.3))
+    rails = [box(f"rail_{z}", (-0.4, 0.0, z), (0.4, 0.02, z + 0.06)) for z in (0.0, 1.24)]
+    result = realized(scene(door, *rails, joints=(hinged(),)))
+    assert installed(result)["door"].count == 2
+    assert max(largest_gaps(result.object).values()) <= 1e-3
+
+
 @pytest.mark.parametrize("kind", ["overlay pair", "inset flap under an overhang", "corner door at 45 degrees"])
 def test_hinges_stay_within_their_door_and_far_smaller(kind):
     asset, result = made_kind(kind), realized_kind(kind)

@@ -27,7 +27,7 @@ REASONS = {
     "hinge/candidates.py": {"MAKESHIFT": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/pivot.py": {"_SEGMENTS": SAMPLES},
-    "hinge/place.py": {"_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
+    "hinge/place.py": {"_FEWEST": EFFORT, "_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
     "hinge/survey.py": {"_LEVELS": SAMPLES, "_ENDS": SAMPLES, "_START": SAMPLES},
     "limits.py": {"_REST_DENSITY": SAMPLES},
     "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},

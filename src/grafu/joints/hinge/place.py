@@ -24,6 +24,7 @@ from grafu.templates.template import Gallery, HingeModel
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
+_FEWEST = 2  # hinges of a door that has no room for all
 _STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
 
@@ -40,13 +41,20 @@ class _Try:
 
 
 def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
-    """Returns the best placement that works; None where no pin can be given hardware.
+    """Returns the best placement that works, with fewer hinges where all find no room; None where no pin holds any."""
+    least = search.count if search.request.choice.count else min(search.count, _FEWEST)
+    placements = (_placed(search, gallery, count) for count in range(search.count, least - 1, -1))
+    return next((placement for placement in placements if placement is not None), None)
+
+
+def _placed(search: DoorSearch, gallery: Gallery, count: int) -> Placement | None:
+    """Returns the best placement with so many hinges.
 
     Where others would run into every placement, it is the first of those that spare the joints that stand already. A
     door that follows a leader takes the first that opens wide: where it stops, the leader must stop as well.
     """
     left_out: list[_Try] = []
-    for one in _tries(search, gallery):
+    for one in _tries(search, gallery, count):
         found = one.placement
         is_wide = found.upper >= search.config.restricted * search.wanted
         may_be_narrow = search.request.coupling is None and all(other.whole() is None for other in left_out)
@@ -94,20 +102,20 @@ def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> 
     return replace(placement, notes=tuple(notes))
 
 
-def _tries(search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
+def _tries(search: DoorSearch, gallery: Gallery, count: int) -> Iterator[_Try]:
     """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
     tried = 0
     for judged in search.in_order():
         if judged.free < search.config.least_opening * search.wanted or tried > _ENOUGH:
             return
         tried += judged.pin.preference > 3
-        install_at = _with_pivots if judged.pin.is_pivot else _with_hardware
-        yield from install_at(judged, search, gallery)
+        pivots = judged.pin.is_pivot
+        yield from _with_pivots(judged, search) if pivots else _with_hardware(judged, search, gallery, count)
 
 
-def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> Iterator[_Try]:
+def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, count: int) -> Iterator[_Try]:
     """Yields the placements of the templates of the pin's class whose hinges all fit."""
-    count, choice = search.count, search.request.choice
+    choice = search.request.choice
     for model in gallery.hinges_of(judged.pin.mechanism):
         size = hinge_size(model, search.frame, judged.pin, count, search.config.hinge, choice.scale)
         if size is None or not choice.takes(model.id):
@@ -121,7 +129,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery) -> I
             yield _Try(placement, partial(attempt, is_whole=True))
 
 
-def _with_pivots(judged: JudgedPin, search: DoorSearch, _: Gallery) -> Iterator[_Try]:
+def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
     upper = search.widest(judged.axis, search.config.door_opening)
     if upper < search.config.least_opening * search.wanted:
