@@ -8,6 +8,8 @@ import trimesh
 
 from grafu.articulation.articulated_object import VisualRole
 from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.config import RealizationConfig
 from grafu.refusal import Reason
@@ -192,6 +194,25 @@ def test_a_thin_bottom_of_a_drawer_is_raised_rather_than_pressed_flat():
     raised = visuals(result)["drawer"].surfaces[1].mesh.box
     np.testing.assert_allclose(raised.size, floor.mesh.box.size, atol=1e-9)
     assert raised.low[2] > 0.034
+
+
+def test_a_door_that_fills_a_frame_of_one_piece_gets_a_gap_around_it():
+    """The frame's box is as large as the opening and more, so no single side of it says where the door touches."""
+    outside = trimesh.creation.box(bounds=[(-0.05, -0.03, 0.0), (0.75, 0.03, 1.85)])
+    inside = trimesh.creation.box(bounds=[(0.0, -1.0, -1.0), (0.7, 1.0, 1.8)])
+    whole = Surface(TriangleMesh.from_trimesh(trimesh.boolean.difference([outside, inside])))
+    frame = replace(box("frame", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(whole,))
+    leaf = box("door", (-0.002, -0.03, 0.0), (0.702, 0.01, 1.802))
+    result = realized(scene(leaf, frame, joints=(hinged(axis=Axis(vec3(0.0, -0.03, 0.0), vec3(0.0, 0.0, -1.0))),)))
+
+    outcome = installed(result)["door"]
+    assert not outcome.restricted
+    assert outcome.collision_share == 0.0
+    assert {(c.part, c.kind) for c in outcome.clearances} == {("door", "trimmed")}
+    lost = leaf.mesh.box.size - visuals(result)["door"].mesh.box.size
+    assert 0.0 < lost.max() < 0.015
+    assert lost[1] == pytest.approx(0.0, abs=1e-9)
+    assert visuals(result)["frame"].surfaces == frame.surfaces
 
 
 def test_a_part_of_very_many_faces_is_not_carved():

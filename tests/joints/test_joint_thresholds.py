@@ -21,7 +21,7 @@ LOOK = "the colour of hardware"
 REASONS = {
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
-    "clearance/make.py": {"_STEPS": EFFORT},
+    "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_ON_BACK": TOLERANCE},
     "coupled.py": {"_ALIKE": TOLERANCE},
     "hinge/candidates.py": {"MAKESHIFT": NUMBERING},

@@ -50,7 +50,8 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if is_board or not search.scene.parts[search.request.moving].label.is_movable:
         return None
     upper = search.travel(search.reach)
-    if upper < search.config.restricted * (search.request.reference or search.wanted):
+    wanted = min(search.request.reference or search.wanted, search.reach)
+    if upper < search.config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
 

@@ -12,9 +12,9 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Part
-from grafu.geometry.box import Box
+from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
-from grafu.joints.clearance.carve import Path, carve, obstruction
+from grafu.joints.clearance.carve import Path, box_in, carve, obstruction
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import SweepVerdict
@@ -89,14 +89,43 @@ def shrink(
 
 def _shrunk(part: Part, play: float) -> Part:
     """Returns the part with every side of its box moved in by `play`."""
-    source, target = part.box, part.box.grown(-play)
-    factor = np.where(source.size > 1e-12, target.size / np.maximum(source.size, 1e-12), 1.0)
-    T = from_rotation(np.diag(factor), _center(target) - factor * _center(source))
+    return _inset(part, np.eye(3), np.full(3, play))
+
+
+def narrow(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
+    """Makes a moving part that fills its opening smaller on the sides along which it meets a frame around it.
+
+    It gets the least of a few gaps that leaves the fewest static parts in its way.
+    """
+    part = scene.parts[path.moving]
+    size = box_in(path.axes, part.mesh).size
+    across = size > size.min() if path.is_turn else np.abs(path.motion(path.reach)[:3, 3] @ path.axes) < 1e-9
+    found: list[tuple[tuple[int, float], Scene, float]] = []
+    for gap in (plays * config.depth * scene.extent for plays in _GAPS):
+        if not (gap <= config.max_trim * size[across]).all():
+            break
+        tried = scene.replaced([_inset(part, path.axes, np.where(across, gap, 0.0))])
+        left = obstruction(tried, path, config)
+        found.append(((len(left.blockers), left.ratio), tried, gap))
+        if not left.blockers:
+            break
+    if not found:
+        return scene, []
+    _, narrowed, gap = min(found, key=lambda one: one[0])
+    ratio = gap / float(size[across].max())
+    why = f"filled its opening in {', '.join(ids)}"
+    return narrowed, [Clearance(path.moving, "trimmed", gap, ratio, why)]
+
+
+def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
+    """Returns the part with the sides of its box along each of the axes moved in by `by`."""
+    box = box_in(axes, part.mesh)
+    factors = np.where(box.size > 1e-12, (box.size - 2 * by) / np.maximum(box.size, 1e-12), 1.0)
+    A = axes @ np.diag(factors) @ axes.T
+    center = axes @ box.center
+    T = from_rotation(A, center - A @ center)
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
-def _center(box: Box) -> np.ndarray:
-    return np.asarray(box.center)
-
-
-_STEPS: tuple[_Step, ...] = (adopt, trim, partial(shrink, 1.0), carve, partial(shrink, 1.6), trim, carve)
+_GAPS = (2.5, 4.0, 6.0)  # on each side, in tolerated penetrations
+_STEPS: tuple[_Step, ...] = (adopt, trim, narrow, partial(shrink, 1.0), carve, partial(shrink, 1.6), trim, carve)
