@@ -149,11 +149,11 @@ def test_missing_and_empty_places_are_told_apart(tmp_path):
 @pytest.mark.parametrize(
     ("name", "way"),
     [
-        ("a.blend", "export it as GLB"),
+        ("a.c4d", "export it as GLB"),
         ("a.xacro", "xacro FILE.xacro > FILE.urdf"),
         ("a.skp", "GLB or COLLADA"),
         ("a.step", "glTF"),
-        ("a.3DS", "export it as GLB"),
+        ("a.MAX", "export it as GLB"),
         ("a.zip", "unpack it"),
         ("a.jpg", "no model"),
     ],

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
+from grafu.asset.blend import read_blend
 from grafu.asset.collada import read_collada
 from grafu.asset.fbx import read_fbx
 from grafu.asset.fbx_document import MAGIC
@@ -45,6 +46,7 @@ READERS: Final[dict[str, Reader]] = {
     "fbx": read_fbx,
     "3mf": read_threemf,
     "3ds": read_threeds,
+    "blend": read_blend,
     "mesh folder": read_mesh_folder,
     "mesh file": read_mesh,
 }
@@ -56,10 +58,13 @@ SCENES: Final = {
     "usd": USD_SUFFIXES,
     "fbx": (".fbx",),
     "3mf": (".3mf",),
-    "3ds": (".3ds",),
     "mjcf": (".xml",),
+    "3ds": (".3ds",),
+    "blend": (".blend",),
 }
 """Files of which a folder holds one, by how their names end; the first kind that is there is read."""
+AFTER_MESHES: Final = ("3ds", "blend")
+"""Kinds of scenes that do not count where there are meshes beside them: these are copies, with more in them."""
 _HEAD: Final = 4096  # bytes of a file that tell what it is
 _AS_GLB = "open it in the program that made it, or in Blender, and export it as GLB, objects apart"
 # What people try, by the way it ends, and what they can do with it.
@@ -69,7 +74,7 @@ _WAYS_IN: Final[dict[str, str]] = {
     **dict.fromkeys(
         (".step", ".stp", ".iges", ".igs"), "in a CAD program (FreeCAD), export it as glTF, a body for each part"
     ),
-    **dict.fromkeys((".blend", ".max", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
+    **dict.fromkeys((".max", ".c4d", ".ma", ".mb", ".x3d"), _AS_GLB),
     **dict.fromkeys((".zip", ".7z", ".rar", ".gz", ".tar"), "unpack it and give what it holds"),
     **dict.fromkeys((".jpg", ".jpeg", ".png", ".webp"), "a picture is no model; give one that is divided into parts"),
 }
@@ -165,7 +170,7 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "usd", path
     if suffix == ".fbx" or head.startswith(MAGIC):
         return "fbx", path
-    if suffix in (".3mf", ".3ds"):
+    if suffix in (".3mf", ".3ds", ".blend"):
         return suffix[1:], path
     if suffix in MESH_SUFFIXES:
         return "mesh file", path
@@ -191,13 +196,16 @@ def scene_kind(path: Path) -> str | None:
 def _detect_folder(folder: Path) -> tuple[str, Path]:
     if is_partnet_mobility(folder):
         return "partnet-mobility", folder
+    has_meshes = bool(mesh_files_in(folder))
     for kind, suffixes in SCENES.items():
+        if has_meshes and kind in AFTER_MESHES:
+            break
         found = [path for path in files_below(folder, suffixes) if scene_kind(path) == kind]
         if len(found) == 1:
             return ("hssd" if is_hssd(found[0]) else kind), found[0]
         if len(found) > 1:
             raise UnreadableAsset(_several(folder, found))
-    if mesh_files_in(folder):
+    if has_meshes:
         return "mesh folder", folder
     state = "is empty" if not any(folder.iterdir()) else "holds nothing that is read"
     raise UnreadableAsset(f"{folder} {state}: expected {EXPECTED}")

@@ -21,8 +21,8 @@ from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
 
 EXPECTED: Final = (
-    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD, FBX, 3MF or 3DS "
-    "scene, an OBJ with groups, or a folder of meshes"
+    "a PartNet-Mobility folder, an HSSD model, a URDF, SDF or MJCF, a GLB, glTF, COLLADA, OpenUSD, FBX, 3MF, 3DS "
+    "or Blender scene, an OBJ with groups, or a folder of meshes"
 )
 """What can be read, in words."""
 

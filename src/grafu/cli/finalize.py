@@ -14,7 +14,7 @@ from typing import final
 
 from pydantic import TypeAdapter
 
-from grafu.asset.own_files import read_own
+from grafu.asset.json_files import read_own
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
 from grafu.cli.verb import one_line
 from grafu.errors import FunctionalizationError, OptionError

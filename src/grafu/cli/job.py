@@ -197,7 +197,7 @@ def _resumed(job: Job) -> Job | Succeeded:
 
 def small_picture_in(folder: Path) -> bytes:
     """Returns a small picture from the page of a model that an earlier run made; empty where there is none."""
-    from grafu.asset.own_files import read_own
+    from grafu.asset.json_files import read_own
     from grafu.viewer.pictures import thumbnail_of_page
 
     try:

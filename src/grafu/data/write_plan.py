@@ -14,7 +14,7 @@ from typing import Any, Literal, final
 
 import numpy as np
 
-from grafu.asset.own_files import read_own_json
+from grafu.asset.json_files import read_own_json
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
 from grafu.data.furfun.split import SPLIT_NAMES
 from grafu.data.pair import record_of

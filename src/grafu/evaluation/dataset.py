@@ -13,7 +13,8 @@ from typing import Final, final, get_args
 
 from grafu.asset.hssd import is_hssd
 from grafu.asset.json_files import read_json
-from grafu.asset.load import READERS, SCENES, detect, load_asset, scene_kind
+from grafu.asset.load import AFTER_MESHES, READERS, SCENES, detect, load_asset, scene_kind
+from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.part import ROBOTS, Asset, Part
 from grafu.asset.partnet_mobility import is_partnet_mobility
 from grafu.asset.resources import ModelFiles
@@ -143,6 +144,8 @@ def _scene_files(entries: list[Path]) -> list[Path]:
     Of several files of one name the first in the table of formats counts.
     """
     kinds = {p: scene_kind(p) for p in entries if p.is_file()}
+    if any(p.suffix.lower() in MESH_SUFFIXES for p in kinds):
+        kinds = {p: None if kind in AFTER_MESHES else kind for p, kind in kinds.items()}
     annotated = [p for p in kinds if is_hssd(p)]
     robots = [p for p, kind in kinds.items() if kind in ROBOTS]
     found = robots or [p for p, kind in kinds.items() if kind is not None]

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
-from grafu.asset.own_files import read_own
+from grafu.asset.json_files import read_own
 from grafu.errors import AssetError, ExportError
 from grafu.evaluation.completeness import Completeness
 from grafu.evaluation.measures import PartMeasure

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, final
 
-from grafu.asset.own_files import read_own_json
+from grafu.asset.json_files import read_own_json
 from grafu.asset.regular_files import MARKER
 from grafu.errors import AssetError, ExportError
 

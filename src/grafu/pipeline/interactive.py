@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from grafu.additions.interior.turned import compartments_of
+from grafu.asset.json_files import read_own
 from grafu.asset.load import load_asset
-from grafu.asset.own_files import read_own
 from grafu.asset.part import Asset
 from grafu.errors import FunctionalizationError
 from grafu.export.blend.process import packed

@@ -11,8 +11,8 @@ from typing import final
 from pydantic import ValidationError
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.asset.json_files import read_own
 from grafu.asset.options import LoadOptions
-from grafu.asset.own_files import read_own
 from grafu.errors import UnreadableAsset
 from grafu.export.glb_object import read_glb_object
 from grafu.pipeline.report_schema import Report

@@ -19,8 +19,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import final
 
-from grafu.asset.json_files import finite
-from grafu.asset.own_files import read_own_json
+from grafu.asset.json_files import finite, read_own_json
 from grafu.errors import AssetError, ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.whole_file import write_whole
 from grafu.processes.lifetime import end_with_parent, started_by_main_thread

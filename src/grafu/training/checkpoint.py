@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, NonNegativeInt, TypeAdapter, Validat
 from torch import Tensor
 from torch.optim.swa_utils import AveragedModel
 
-from grafu.asset.own_files import read_own_json
+from grafu.asset.json_files import read_own_json
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.network.grafu import GraFu

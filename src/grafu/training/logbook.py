@@ -16,7 +16,7 @@ from typing import Any, final
 
 from torch import Tensor
 
-from grafu.asset.own_files import read_own
+from grafu.asset.json_files import read_own
 from grafu.errors import UnreadableAsset
 
 

@@ -7,13 +7,12 @@ from pathlib import Path
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.sweep import opening_stages
+from grafu.asset.blend import INTERPRETER_VARIABLE
 from grafu.errors import ExportError
 from grafu.export.blend.process import blender_process, packed
 from grafu.export.files import ExportFiles
 from grafu.processes.lifetime import scratch_folder
 
-INTERPRETER_VARIABLE = "GRAFU_BLENDER_PYTHON"
-"""Names a Python with `grafu[blender]`, for those whose own Python is one that `bpy` is not made for."""
 SECONDS = 300.0  # a model of 1 000 000 faces takes some 20: a model that takes longer hangs
 
 
