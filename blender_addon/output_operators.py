@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from . import objects, work
 from .boxes import remove_boxes
 from .run_operators import Applies, active_run
-from .state import session_of, settings_of, shown_slot, slots_in
+from .state import report_of, session_of, settings_of, shown_slot, slots_in
 
 BLEND = "blend"
 USUAL = {"glb", "urdf", BLEND}
@@ -82,7 +82,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         return self._launched(context)
 
     def _start(self, context, session) -> None:
-        from grafu.export.output_names import output_name
+        from grafu.export.output_names import name_of_model
 
         sources, folder = objects.sources_of(session), self._run.folder
         self._formats = set(self.formats) or USUAL
@@ -90,7 +90,8 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
             raise work.Failed(session.fixed)
         written = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"
         self._source = objects.hand_over(context, sources, session.source_file, written)
-        self._target = Path(bpy.path.abspath(self.directory)).absolute() / output_name(self._source)
+        piece = report_of(session).input.name if settings_of(session).reading.pieces == "split" else ""
+        self._target = Path(bpy.path.abspath(self.directory)).absolute() / name_of_model(self._source, piece)
         settings, order = folder / "settings.json", folder / "order.json"
         settings.write_text(json.dumps(settings_of(session).to_json(), indent=1) + "\n")
         wanted = {
@@ -99,6 +100,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
             "out": str(self._target.parent),
             "formats": sorted(self._formats - {BLEND}),
             "overwrite": self.overwrite,
+            "piece": piece,
             "object": str(folder / "object.packed"),
         }
         order.write_text(json.dumps(wanted))

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from furniture_rooms import cabinet, numbered, write_scene
+from grafu.asset.options import LoadOptions
 from grafu.cli.finalize import finalize
 from grafu.cli.main import main
 from grafu.export.blend.process import unpacked
@@ -50,6 +52,22 @@ def test_it_writes_what_the_command_writes_and_hands_the_object_over(tmp_path):
     assert (ours / "model.glb").read_bytes() == (commands / "model.glb").read_bytes()
     made = unpacked((tmp_path / "object.packed").read_bytes())
     assert [joint.child for joint in made.moving_joints] == ["lid"]
+
+
+def test_a_piece_of_a_file_keeps_its_name(tmp_path):
+    row = write_scene(tmp_path / "my.row.glb", {**cabinet("a", (-0.6, 0, 0)), **numbered(cabinet("", (0.6, 0, 0)))})
+    (tmp_path / "settings.json").write_text(
+        json.dumps(Settings(reading=LoadOptions(pieces="split", piece=2)).to_json())
+    )
+    ordered = order_in(tmp_path) | {"source": str(row), "piece": "my.row_piece_2", "formats": ["urdf"]}
+    (tmp_path / "order.json").write_text(json.dumps(ordered))
+    assert finalize(tmp_path / "order.json") == ""
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["my.row_piece_2"]
+    (tmp_path / "order.json").write_text(
+        json.dumps(ordered | {"piece": "my.row_../up", "out": str(tmp_path / "other")})
+    )
+    assert finalize(tmp_path / "order.json") == ""
+    assert [path.name for path in (tmp_path / "other").iterdir()] == ["my.row"]
 
 
 @pytest.mark.parametrize("name", ["order.json", "settings.json"])

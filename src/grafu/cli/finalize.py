@@ -20,7 +20,7 @@ from grafu.cli.verb import one_line
 from grafu.errors import FunctionalizationError, OptionError
 from grafu.export.blend.process import packed
 from grafu.export.formats import exporter_for
-from grafu.export.output_names import output_name, why_not_apart
+from grafu.export.output_names import name_of_model, why_not_apart
 from grafu.pipeline.settings import settings_from_bytes
 from grafu.visible import visible
 
@@ -36,6 +36,8 @@ class Order:
     formats: tuple[str, ...]
     object: Path
     overwrite: bool = False
+    piece: str = ""
+    """The name of the model where it is one of several pieces of furniture in the source."""
 
 
 def finalize(order_file: Path) -> str:
@@ -45,7 +47,7 @@ def finalize(order_file: Path) -> str:
         settings = settings_from_bytes(read_own(order.settings, "settings of grafu"), order.settings)
         for name in order.formats:
             exporter_for(name)
-        name = output_name(order.source)
+        name = name_of_model(order.source, order.piece)
     except FunctionalizationError as error:
         return one_line(str(error))
     options = JobOptions(

@@ -58,6 +58,7 @@ MOST_BYTES: Final = 120
 _RESERVED: Final = re.compile(
     r"(con|prn|aux|nul|com[0-9¹²³]|lpt[0-9¹²³]|conin\$|conout\$|clock\$) *(\..*)?", re.I | re.S
 )
+_ENDING: Final = re.compile("[A-Za-z0-9_]+")
 _FORBIDDEN: Final = '<>:"/\\|?*'
 _SURROGATES: Final = re.compile("[\ud800-\udfff]")
 
@@ -80,6 +81,16 @@ def output_name(path: Path) -> str:
 def with_ending(name: str, ending: str) -> str:
     """Returns the name of results with `_` and an ending of letters, digits and `_`; itself without one."""
     return _mended(f"{name}_{ending}") if ending else name
+
+
+def name_of_model(path: Path, model: str) -> str:
+    """Returns the name of the results of a model that was read from a path: of a piece, with its ending.
+
+    Raises:
+        AssetError: as by `output_name`.
+    """
+    _, found, ending = model.partition(f"{path.stem}_")
+    return with_ending(output_name(path), ending if found and _ENDING.fullmatch(ending) else "")
 
 
 def file_safe(name: str) -> str:
