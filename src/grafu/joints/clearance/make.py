@@ -95,26 +95,19 @@ def _shrunk(part: Part, play: float) -> Part:
 def narrow(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Makes a moving part that fills its opening smaller on the sides along which it meets a frame around it.
 
-    It gets the least of a few gaps that leaves the fewest static parts in its way.
+    It gets the least of a few gaps that takes a static part out of its way, or none.
     """
     part = scene.parts[path.moving]
     size = box_in(path.axes, part.mesh).size
     across = size > size.min() if path.is_turn else np.abs(path.motion(path.reach)[:3, 3] @ path.axes) < 1e-9
-    found: list[tuple[tuple[int, float], Scene, float]] = []
     for gap in (plays * config.depth * scene.extent for plays in _GAPS):
         if not (gap <= config.max_trim * size[across]).all():
             break
-        tried = scene.replaced([_inset(part, path.axes, np.where(across, gap, 0.0))])
-        left = obstruction(tried, path, config)
-        found.append(((len(left.blockers), left.ratio), tried, gap))
-        if not left.blockers:
-            break
-    if not found:
-        return scene, []
-    _, narrowed, gap = min(found, key=lambda one: one[0])
-    ratio = gap / float(size[across].max())
-    why = f"filled its opening in {', '.join(ids)}"
-    return narrowed, [Clearance(path.moving, "trimmed", gap, ratio, why)]
+        narrowed = scene.replaced([_inset(part, path.axes, np.where(across, gap, 0.0))])
+        if len(obstruction(narrowed, path, config).blockers) < len(ids):
+            why = f"filled its opening in {', '.join(ids)}"
+            return narrowed, [Clearance(path.moving, "trimmed", gap, gap / float(size[across].max()), why)]
+    return scene, []
 
 
 def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
