@@ -19,7 +19,7 @@ NUMBERING = "the rank of a row in a table, or a direction"
 LOOK = "the colour of hardware"
 
 REASONS = {
-    "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
+    "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES, "_ROUND": TOLERANCE},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_ON_BACK": TOLERANCE},

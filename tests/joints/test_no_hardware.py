@@ -2,11 +2,16 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
+import trimesh
 
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
-from grafu.joints.no_hardware import NO_HARDWARE
+from grafu.joints.no_hardware import DRAWN, NO_HARDWARE
 from grafu.joints.plan import JointChoice
 from grafu.joints.realize import realize
 from grafu.refusal import Reason
@@ -105,3 +110,49 @@ def test_hardware_that_was_chosen_is_not_left_out(choice):
 def test_hardware_cannot_be_chosen_away():
     with pytest.raises(ValueError, match="must be a class of hinges or rails"):
         JointChoice(mechanism=MechanismClass.NONE)
+
+
+def knuckle(name: str, low: float, high: float, x: float = -0.006, radius: float = 0.006) -> Part:
+    """A barrel of a hinge along the door's left border, before its front."""
+    tube = trimesh.creation.cylinder(radius=radius, height=high - low, sections=24)
+    tube.apply_translation((x, -0.026, (low + high) / 2))
+    return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(TriangleMesh.from_trimesh(tube)),))
+
+
+SIDE_BEHIND = box("side", (-0.02, 0.001, 0.0), (0.02, 0.4, 0.6))
+
+
+def test_a_door_turns_on_the_hinges_that_are_drawn():
+    """The pin is that of the barrels, and no hinge is added beside them."""
+    barrels = [knuckle("knuckle_1", 0.08, 0.14), knuckle("knuckle_2", 0.46, 0.52)]
+    result = realized(scene(DOOR, SIDE_BEHIND, *barrels, joints=(hinged(),)))
+
+    joint = installed(result)["door"]
+    assert (joint.template, joint.mechanism, joint.count) == (DRAWN, MechanismClass.NONE, 0)
+    assert hardware(result, "door") == ([], [])
+    np.testing.assert_allclose(joint.axis.point[:2], (-0.006, -0.026), atol=1e-4)
+    assert joint.collision_share == 0.0
+    assert joint.opening > 1.5
+
+
+@pytest.mark.parametrize(
+    "barrels",
+    [
+        [knuckle("knuckle_1", 0.08, 0.14)],
+        [knuckle("knuckle_1", 0.08, 0.14), knuckle("knuckle_2", 0.16, 0.22)],
+        [knuckle("knuckle_1", 0.08, 0.14), knuckle("knuckle_2", 0.46, 0.52, x=-0.012)],
+        [knuckle("post_1", 0.08, 0.14, x=-0.05, radius=0.04), knuckle("post_2", 0.46, 0.52, x=-0.05, radius=0.04)],
+    ],
+    ids=["one", "side by side", "two lines", "thick"],
+)
+def test_round_things_that_are_no_pair_of_hinges_carry_no_door(barrels):
+    result = realized(scene(DOOR, SIDE_BEHIND, *barrels, joints=(hinged(),)))
+    assert installed(result)["door"].template != DRAWN
+
+
+def test_hinges_that_were_chosen_are_built_beside_drawn_ones():
+    barrels = [knuckle("knuckle_1", 0.08, 0.14), knuckle("knuckle_2", 0.46, 0.52)]
+    asset = scene(DOOR, SIDE_BEHIND, *barrels, joints=(hinged(),))
+    plan = plan_from_annotation(asset)
+    chosen = tuple(replace(joint, choice=JointChoice(count=2)) for joint in plan.joints)
+    assert installed(realize(replace(plan, joints=chosen), asset, GALLERY))["door"].template != DRAWN

@@ -15,7 +15,7 @@ from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.place import place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
-from grafu.joints.no_hardware import door_without_hardware, drawer_without_hardware
+from grafu.joints.no_hardware import door_on_drawn_hinges, door_without_hardware, drawer_without_hardware, drawn_pin
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
@@ -56,6 +56,9 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     search = door_search(request, scene, config)
     if not search.has_pins:
         return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")
+    drawn = _on_drawn_hinges(search)
+    if drawn is not None:
+        return _built(request, drawn, search.wanted)
     found = _cleared(search) if search.best().free < search.wanted else (search, ())
     placement = _hinged(found[0], gallery)
     if found[0] is search and not _is_wide(placement, search) and search.free_ratio() < 1.0:
@@ -67,6 +70,21 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     if placement is None:
         return _skipped(request, search.best().free / search.wanted, search.scene, config)
     return _built(request, (placement, search.scene, clearances), search.wanted)
+
+
+def _on_drawn_hinges(search: DoorSearch) -> _Found | None:
+    """Returns the joint on the hinges that are drawn, if any, with clearance made for the door where it needs some."""
+    axis = drawn_pin(search)
+    if axis is None:
+        return None
+    placement = door_on_drawn_hinges(axis, search)
+    if placement is not None:
+        return placement, search.scene, ()
+    path = _path(search.request, search.scene, axis, search.wanted)
+    cleared = make_clearance(search.scene, path, search.config)
+    again = door_search(search.request, cleared.scene, search.config)
+    placement = door_on_drawn_hinges(axis, again)
+    return (placement, cleared.scene, cleared.clearances) if placement else None
 
 
 def _is_wide(placement: Placement | None, search: DoorSearch) -> bool:

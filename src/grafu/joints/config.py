@@ -163,6 +163,16 @@ class HingeConfig:
     """An axis nearer to a side than this fraction of the part runs along its border."""
     chunky: float = 0.45
     """A part thicker than this fraction of its width is no door panel."""
+    drawn_reach: float = 0.06
+    """How far from the door's border the barrel of a drawn hinge lies at most (metres on furniture of usual size)."""
+    drawn_line: float = 0.0015
+    """Barrels nearer to one line than this turn about one pin (metres on furniture of usual size)."""
+    drawn_spread: float = 0.3
+    """Fraction of the border's length over which the barrels that carry a door are spread at least."""
+    thinnest_drawn: float = 0.0015
+    """Smallest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
+    thickest_drawn: float = 0.02
+    """Largest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
     nearly: float = 0.05
     """A pin that leaves this fraction of the wanted opening blocked is still as good as free."""
 
