@@ -215,6 +215,20 @@ def test_a_door_that_fills_a_frame_of_one_piece_gets_a_gap_around_it():
     assert visuals(result)["frame"].surfaces == frame.surfaces
 
 
+def test_the_back_of_a_door_that_is_sunk_into_its_frame_is_pressed_back():
+    """The door lies on two stiles, 3 mm deep in them; its front stays where it was."""
+    stiles = [box(f"stile_{x}", (x, -0.003, 0.0), (x + 0.05, 0.03, 0.6)) for x in (-0.02, 0.37)]
+    result = realized(scene(DOOR, *stiles, joints=(hinged(),)))
+
+    outcome = installed(result)["door"]
+    assert outcome.collision_share == 0.0
+    assert not outcome.restricted
+    assert "carved" not in {c.kind for c in outcome.clearances}
+    after = visuals(result)["door"].mesh.box
+    np.testing.assert_allclose(after.low, DOOR.mesh.box.low, atol=1e-9)
+    assert -0.008 < after.high[1] < -0.003
+
+
 def test_a_part_of_very_many_faces_is_not_carved():
     door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
     lip = box("lip", (0.1, -0.04, 0.55), (0.5, -0.021, 0.6))

@@ -22,7 +22,7 @@ REASONS = {
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES, "_ROUND": TOLERANCE},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
-    "clearance/trim.py": {"_ON_BACK": TOLERANCE},
+    "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "coupled.py": {"_ALIKE": TOLERANCE},
     "hinge/candidates.py": {"MAKESHIFT": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},

@@ -213,6 +213,9 @@ class RealizationConfig:
     max_hidden_trim: float = 0.013
     """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres on furniture of
     usual size): its sides are not seen, and runners take as much."""
+    max_back_trim: float = 0.005
+    """By how much a door's back, which lies on what it closes, is pressed at most, where that is more (metres on
+    furniture of usual size)."""
     no_hardware_width: float = 0.25
     """What slides without rails is at least this wide over its depth: a drawer, and no side of one."""
     thinnest_front: float = 0.003
@@ -256,7 +259,7 @@ class RealizationConfig:
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
         require_positive(self, "no_hardware_gap", "carved_faces")
-        require_not_negative(self, "max_hidden_trim", "thinnest_front")
+        require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
             self,
             "restricted",

@@ -121,4 +121,15 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
 
 
 _GAPS = (2.5, 4.0, 6.0)  # on each side, in tolerated penetrations
-_STEPS: tuple[_Step, ...] = (adopt, trim, narrow, partial(shrink, 1.0), carve, partial(shrink, 1.6), trim, carve)
+_STEPS: tuple[_Step, ...] = (
+    adopt,
+    trim,
+    narrow,
+    partial(shrink, 1.0),
+    carve,
+    partial(shrink, 1.6),
+    trim,
+    carve,
+    partial(trim, at_back=True),
+    carve,
+)

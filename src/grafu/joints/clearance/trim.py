@@ -18,12 +18,14 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import BoxEnds, faces_of_parts, part_boxes, part_numbers
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import transform_points
 from grafu.joints.clearance.carve import Path, box_in
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
 from grafu.scene.scale import metre_on
 from grafu.scene.scene import Scene
 
+_FIRST_STEP = 0.02  # of an opening: where a door has left what it closes
 _ON_BACK = 1e-4  # metres: how near the back of a front a vertex lies on it
 
 
@@ -79,14 +81,22 @@ class _Front:
 class _Limits:
     """By how much pieces may be pressed along each axis, in metres, and the fraction of thickness that they keep.
 
-    Pieces are `hidden` that end at least `behind` metres behind the outer face of the front.
+    Pieces are `hidden` that end at least `behind` metres behind the outer face of the front. The `back` of a door, an
+    axis and a side as in `_Press`, lies on what it closes, and may be pressed by `most_at_back` metres.
     """
 
     most: Scalars
     hidden: Scalars
     front: _Front | None
+    back: tuple[int, int] | None
+    most_at_back: float
     behind: float
     kept: float
+
+    def at(self, axis: int, side: int, is_hidden: bool) -> float:
+        """Returns by how much a piece may be pressed along an axis, from one side."""
+        most = float((self.hidden if is_hidden else self.most)[axis])
+        return max(most, self.most_at_back) if (axis, side) == self.back else most
 
     def hides(self, box: Box) -> bool:
         """Whether a piece lies behind the front's outer face."""
@@ -120,19 +130,38 @@ def _front_of(points: Points, path: Path, step: float) -> _Front | None:
     return _Front(axis, sign, plane, back, Box.around(points[is_body]))
 
 
+def _back_of(part: Part, path: Path) -> tuple[int, int] | None:
+    """Returns the axis and the side of a door's back: that from which it moves away; None for what slides."""
+    if not path.is_turn:
+        return None
+    box = box_in(path.axes, part.mesh)
+    axis = int(np.argmin(box.size))
+    center = path.axes @ box.center
+    moved = transform_points(path.motion(_FIRST_STEP * path.reach), center[None])[0] - center
+    return axis, int((moved @ path.axes)[axis] < 0)
+
+
 def trim(
-    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig, touching: bool = False
+    scene: Scene,
+    path: Path,
+    ids: Sequence[str],
+    config: RealizationConfig,
+    touching: bool = False,
+    at_back: bool = False,
 ) -> tuple[Scene, list[Clearance]]:
     """Returns the scene with the moving part's pieces pressed back where they cut into static pieces.
 
-    With `touching`, also where they merely touch: a drawer without any play leaves no room for rails.
+    With `touching`, also where they merely touch: a drawer without any play leaves no room for rails. With `at_back`,
+    the back of a door by more than its other sides.
     """
     part = scene.parts[path.moving]
     most = config.max_trim * box_in(path.axes, part.mesh).size
     metre = metre_on(scene.extent)
     hidden = np.maximum(most, config.max_hidden_trim * metre)
     thinnest = config.thinnest_front * metre
-    limits = _Limits(most, hidden, _front_of(part.mesh.vertices @ path.axes, path, thinnest), thinnest, config.kept)
+    front = _front_of(part.mesh.vertices @ path.axes, path, thinnest)
+    back = _back_of(part, path) if at_back else None
+    limits = _Limits(most, hidden, front, back, config.max_back_trim * metre, thinnest, config.kept)
     play = 2.5 * config.depth * scene.extent
     boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
     theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])
@@ -182,7 +211,6 @@ def _presses(box: Box, theirs: BoxEnds, path: Path, limits: _Limits, play: tuple
     `play` is what it gets, and up to which gap it counts as cutting in.
     """
     is_hidden = limits.hides(box)
-    most = limits.hidden if is_hidden else limits.most
     swept = _swept(box, path)
     depths = np.stack([theirs[:, 1] - swept.low, swept.high - theirs[:, 0]], axis=1)
     found: list[_Press] = []
@@ -190,10 +218,11 @@ def _presses(box: Box, theirs: BoxEnds, path: Path, limits: _Limits, play: tuple
         side, axis = (int(i) for i in np.unravel_index(int(np.argmin(both)), both.shape))
         depth = float(both[side, axis]) + play[0]
         moves = bool(depth > (1 - limits.kept) * box.size[axis])
-        if depth <= most[axis] and (is_hidden or not moves):
+        if depth <= limits.at(axis, side, is_hidden) and (is_hidden or not moves):
             limit = float(swept.low[axis] + depth) if side == 0 else float(swept.high[axis] - depth)
             found.append(_Press(axis, side, limit, depth, moves))
-    return found
+    deepest = {(press.axis, press.side): press for press in sorted(found, key=lambda press: press.depth)}
+    return list(deepest.values())
 
 
 def _swept(box: Box, path: Path) -> Box:
