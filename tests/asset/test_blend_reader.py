@@ -1,6 +1,8 @@
 """Blender files: read by Blender in a process of its own; without it, one line names the extra."""
 
+import gzip
 import json
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -90,14 +92,53 @@ def test_no_script_in_it_is_run(interpreter: str, tmp_path: Path) -> None:
     assert not trace.exists()
 
 
-def test_a_file_that_links_to_others_is_refused(interpreter: str, tmp_path: Path) -> None:
+NAMES_OTHERS = {
+    "other .blend files": "with bpy.data.libraries.load({other!r}, link=True) as (there, here):\n"
+    "    here.objects = ['shelf-6']\n"
+    "bpy.context.scene.collection.objects.link(here.objects[0])\n",
+    "caches": "bpy.ops.cachefile.open(filepath={other!r})\nbpy.data.cache_files[0].use_fake_user = True\n",
+    "sounds": "bpy.data.sounds.load({other!r}).use_fake_user = True\n",
+    "volumes": "bpy.data.volumes.new('smoke').filepath = {other!r}\nbpy.data.volumes[0].use_fake_user = True\n",
+    "films": "bpy.data.movieclips.load({other!r}).use_fake_user = True\n",
+}
+
+
+@pytest.mark.parametrize("packed", [False, True], ids=["plain", "packed"])
+@pytest.mark.parametrize("what", NAMES_OTHERS)
+def test_a_file_that_names_others_is_refused_before_blender_sees_it(
+    interpreter: str, tmp_path: Path, what: str, packed: bool
+) -> None:
     other = made(interpreter, tmp_path / "other.blend")
-    extra = (
-        f"with bpy.data.libraries.load({str(other)!r}, link=True) as (there, here):\n    here.objects = ['shelf-6']\n"
-        "bpy.context.scene.collection.objects.link(here.objects[0])\n"
-    )
-    with pytest.raises(UnreadableAsset, match=r"links to other \.blend files"):
-        load_asset(made(interpreter, tmp_path / "a.blend", extra))
+    extra = NAMES_OTHERS[what].format(other=str(other))
+    path = made(interpreter, tmp_path / ("packed.blend" if packed else "a.blend"), extra)
+    with pytest.raises(UnreadableAsset, match=f"names {what}, which are not opened"):
+        load_asset(path)
+
+
+def header(version: str, pointer: int) -> bytes:
+    return b"BLENDER17-01v0500" if version == "5" else b"BLENDER" + (b"-" if pointer == 8 else b"_") + b"v405"
+
+
+def block(code: bytes, length: int, version: str, pointer: int) -> bytes:
+    if version == "5":
+        return struct.pack("<4si8xqq", code, 0, length, 1) + bytes(length)
+    return struct.pack(f"<4si{pointer}xii", code, length, 0, 1) + bytes(length)
+
+
+@pytest.mark.parametrize(("version", "pointer"), [("4", 8), ("4", 4), ("5", 8)])
+def test_the_blocks_of_every_form_of_the_format_are_listed(version: str, pointer: int) -> None:
+    codes = [(b"REND", 72), (b"OB", 100), (b"LI", 0), (b"DATA", 7), (b"ENDB", 0)]
+    data = header(version, pointer) + b"".join(block(code, length, version, pointer) for code, length in codes)
+    assert blend._block_codes(data) == {b"REND", b"OB", b"LI", b"DATA"}
+    assert blend._block_codes(blend._unpacked(gzip.compress(data))) == {b"REND", b"OB", b"LI", b"DATA"}
+    with pytest.raises(ValueError, match="cut off"):
+        blend._block_codes(data[:-30])
+
+
+@pytest.mark.parametrize("data", [b"BLENDER-V405", b"BLENDER18-02v0600", b"BLENDER*v405", b"BLENDER"])
+def test_a_form_of_the_format_that_is_not_known_is_refused(data: bytes) -> None:
+    with pytest.raises(ValueError, match="header"):
+        blend._block_codes(data)
 
 
 def test_damage_and_limits_are_lines(interpreter: str, tmp_path: Path) -> None:
