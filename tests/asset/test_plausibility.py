@@ -3,7 +3,7 @@ import pytest
 
 from grafu.asset.labels import label_of
 from grafu.asset.part import Part, PartSource
-from grafu.asset.plausibility import BODY, with_plausible_labels
+from grafu.asset.plausibility import BODY, with_control_panels, with_plausible_labels
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -101,3 +101,31 @@ def test_the_box_of_an_appliance_is_its_body_and_its_panel_is_static():
 def test_the_plate_of_an_appliance_is_left_open():
     case = part("kitchen", (0, 0, 0), (2, 0.6, 2))
     assert labels(case, part("oven", (0.1, -0.03, 0.2), (0.7, 0.0, 0.8)))["oven"] is PartLabel.UNKNOWN
+
+
+MICROWAVE_DOOR = part("door", (0.0, -0.03, 0.0), (0.33, 0.0, 0.25))
+PANEL = part("micro_front", (0.335, -0.03, 0.0), (0.42, 0.0, 0.25))
+BUTTON = part("Small_Buttons", (0.35, -0.034, 0.05), (0.4, -0.029, 0.15))
+
+
+@pytest.mark.parametrize("button", ["Small_Buttons", "microbutton", "display"])
+def test_a_narrow_front_with_buttons_beside_a_door_is_a_control_panel(button):
+    pressed = part(button, (0.35, -0.034, 0.05), (0.4, -0.029, 0.15))
+    found = {p.id: p.label for p in with_control_panels((MICROWAVE_DOOR, PANEL, pressed))}
+    assert found["micro_front"] is BODY
+    assert found["door"] is PartLabel.DOOR
+
+
+@pytest.mark.parametrize(
+    "others",
+    [
+        (MICROWAVE_DOOR,),  # nothing to press
+        (part("micro_front_1", (0.0, -0.03, 0.0), (0.33, 0.0, 0.25)), BUTTON),  # no door
+        (part("door", (0.0, -0.03, 0.0), (0.1, 0.0, 0.25)), BUTTON),  # wider than the door, and not beside it
+        (part("door", (0.0, -0.03, 0.4), (0.33, 0.0, 0.7)), BUTTON),  # below the door
+        (part("door", (0.0, 0.2, 0.0), (0.33, 0.22, 0.25)), BUTTON),  # in another plane
+    ],
+    ids=["no button", "no door", "small door", "below", "behind"],
+)
+def test_other_fronts_are_no_control_panels(others):
+    assert {p.id: p.label for p in with_control_panels((*others, PANEL))}["micro_front"] is PartLabel.UNKNOWN

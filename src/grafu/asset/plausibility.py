@@ -30,6 +30,9 @@ _FITTING, _GRASPED = 0.25, 0.45  # that of a hinge or a rail, and of a handle
 _PLATE, _OUTSIDE = 0.07, 0.06  # how thick a front is, and how far it may lie from the outside
 _TOUCH = 0.01  # how far a button may stand off the panel that it sits on
 _CONTROLS = word_set("button buttons switch dial display")
+_BUTTONS = ("button", "buttons")
+# A control panel beside a door: fractions of the door's height and width.
+_AS_HIGH, _NEXT, _NARROWER = 0.85, 0.06, 0.6
 # A top is a plate: the fraction that its thickness may have of its width.
 _THICK = 0.35
 
@@ -67,7 +70,7 @@ def with_plausible_labels(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], li
     boxes = [part.box for part in parts]
     low, high = np.array([b.low for b in boxes]), np.array([b.high for b in boxes])
     scene = _Scene(Box(low.min(axis=0), high.max(axis=0)), low, high)
-    controls = [p.box for p in parts if set(spoken(p.source.name)) & _CONTROLS]
+    controls = _controls(parts)
     found = tuple(_judged(part, scene) for part in parts)
     found = tuple(_of_controls(part, controls, scene) for part in found)
     notes = [
@@ -85,6 +88,43 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
     if _is_body(part.box, scene) or not any(part.box.overlaps(box, _TOUCH * scene.extent) for box in controls):
         return part
     return replace(part, label=PartLabel.MISC, labelled_by="name")
+
+
+def with_control_panels(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """Returns the parts with narrow unlabelled fronts beside a door, with buttons on them, as pieces of the body.
+
+    That is how microwaves are built: the control panel is as high as the door, in its plane, and less wide.
+    """
+    controls, doors = _controls(parts), [part.box for part in parts if part.label is PartLabel.DOOR]
+    if not controls or not doors:
+        return parts
+    touch = _TOUCH * max(float(np.max(part.box.size)) for part in parts)
+
+    def judged(part: Part) -> Part:
+        is_free = part.label is PartLabel.UNKNOWN and any(_is_narrow_beside(part.box, door) for door in doors)
+        is_panel = is_free and any(part.box.overlaps(box, touch) for box in controls)
+        return replace(part, label=BODY, labelled_by="name") if is_panel else part
+
+    return tuple(judged(part) for part in parts)
+
+
+def _controls(parts: tuple[Part, ...]) -> list[Box]:
+    """Returns the boxes of buttons, switches and displays (`Small_Buttons`, `microbutton`)."""
+    named = [(part, spoken(part.source.name)) for part in parts]
+    return [part.box for part, said in named if any(w in _CONTROLS or w.endswith(_BUTTONS) for w in said)]
+
+
+def _is_narrow_beside(box: Box, door: Box) -> bool:
+    """Whether a box continues a door's in one direction of its plane, less far than the door itself reaches."""
+    thin = door.thin_axis
+    common = np.minimum(box.high, door.high) - np.maximum(box.low, door.low)  # negative: a gap
+    for along in (k for k in range(3) if k != thin):
+        other = 3 - thin - along
+        is_as_high = common[other] >= _AS_HIGH * max(box.size[other], door.size[other])
+        is_next = -_NEXT * door.size[along] <= common[along] <= _NEXT * door.size[along]
+        if is_as_high and is_next and common[thin] > 0 and box.size[along] <= _NARROWER * door.size[along]:
+            return True
+    return False
 
 
 def _said(label: PartLabel) -> str:

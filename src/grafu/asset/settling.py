@@ -15,7 +15,7 @@ from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
-from grafu.asset.plausibility import with_plausible_labels
+from grafu.asset.plausibility import with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
@@ -49,6 +49,7 @@ def settled(
         reading = _plausible(reading)
     if options.parts == "auto" and reading.parts:
         reading = _with_split_handles(cut_where_fronts_appear(reading, settle_frame(reading, options, file), name))
+    reading = replace(reading, parts=with_control_panels(reading.parts))
     _check_parts(reading, path, options)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options, file)
