@@ -48,7 +48,7 @@ _NAMES_FILES: Final = {
 """What Blender opens when it opens a file, by the code of the block that names it."""
 _EXPECTED: Final = "a file of Blender; or export it as GLB"
 _SAID: Final = 300  # characters of Blender's own last words
-_LINKED: Final = 3  # exit code: the file names other files, and the last line says which
+_LINKED: Final = 3  # exit code: the file names other files, and the last line states which
 
 
 def read_blend(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
