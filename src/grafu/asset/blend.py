@@ -149,7 +149,7 @@ def _unpacked(data: bytes) -> bytes:
         with gzip.open(BytesIO(data)) as stream:
             unpacked = stream.read(_MOST_UNPACKED + 1)
     elif data.startswith(_ZSTANDARD):
-        import zstandard  # comes with `bpy`, and is nowhere else needed
+        import zstandard  # of the extra `blender`
 
         with zstandard.ZstdDecompressor().stream_reader(data, read_across_frames=True) as stream:
             unpacked = stream.read(_MOST_UNPACKED + 1)
