@@ -25,7 +25,7 @@ def doors(result: grafu.Result) -> list[str]:
 
 
 def test_a_result_prints_in_one_short_line(chest: grafu.Result) -> None:
-    assert repr(chest) == "<grafu.Result chest: 1 joints, 0 added, 0 skipped>"
+    assert repr(chest) == "<grafu.Result chest: 1 joint, 0 added, 0 skipped>"
     assert max(len(repr(each)) for each in (chest.made, chest.object, chest.graph, chest.made.completion)) < 200
 
 

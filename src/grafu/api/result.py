@@ -25,6 +25,7 @@ from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.words import counted
 from grafu.templates.available import open_handles
 from grafu.vocabulary import MechanismClass, PartLabel
 
@@ -47,8 +48,8 @@ class Result:
         return cls(request, request.run())
 
     def __repr__(self) -> str:
-        joints, added, skipped = len(self.joints), len(self.added), len(self.skipped)
-        return f"<grafu.Result {self.asset.name}: {joints} joints, {added} added, {skipped} skipped>"
+        joints, added, skipped = counted(len(self.joints), "joint"), len(self.added), len(self.skipped)
+        return f"<grafu.Result {self.asset.name}: {joints}, {added} added, {skipped} skipped>"
 
     @property
     def asset(self) -> Asset:
