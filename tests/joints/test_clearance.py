@@ -164,7 +164,10 @@ def test_the_body_of_a_drawer_is_lowered_behind_a_front_of_the_same_piece():
     """A bar of the case stands 5 mm deep in the way of the body; the front, which hides it, stays as it was."""
     front = trimesh.creation.box(bounds=[(-0.2, -0.2, 0.01), (0.2, -0.188, 0.18)])
     body = trimesh.creation.box(bounds=[(-0.195, -0.19, 0.02), (0.195, 0.2, 0.165)])
-    whole = trimesh.boolean.union([front, body])
+    label = trimesh.creation.box(
+        bounds=[(-0.02, -0.201, 0.1), (0.02, -0.2, 0.12)]
+    )  # a second piece of the same surface
+    whole = trimesh.util.concatenate([trimesh.boolean.union([front, body]), label])
     asset = drawer()
     tray = replace(asset.part("drawer"), surfaces=(Surface(TriangleMesh.from_trimesh(whole)),))
     bar = box("bar", (-0.21, -0.186, 0.16), (0.21, -0.16, 0.2))

@@ -13,7 +13,7 @@ from jaxtyping import Bool, Int
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Indices, Points, Scalars
+from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import BoxEnds, faces_of_parts, part_boxes, part_numbers
@@ -198,7 +198,7 @@ def _pressed(
     return replace(surface, mesh=mesh), deepest
 
 
-def _sections(local: Points, used: Indices, limits: _Limits) -> list[Int[np.ndarray, " _"]]:
+def _sections(local: Points, used: Int[np.ndarray, " _"], limits: _Limits) -> list[Int[np.ndarray, " _"]]:
     """Returns the vertices of a piece: together, or of a drawer's front and of what it hides, where it is of both."""
     if limits.front is None or limits.hides(Box.around(local[used])):
         return [used]
