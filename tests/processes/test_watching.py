@@ -33,9 +33,15 @@ def test_who_has_time_and_room_is_seldom_looked_at(left: float, room: float, sec
     assert next_look(left, room) == pytest.approx(seconds)
 
 
+@pytest.fixture
+def fresh(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A process that has given back nothing yet."""
+    monkeypatch.setattr(limits._LastGivenBack, "held", 0)
+
+
 @pytest.mark.parametrize(("held", "stays"), [(0.1 * GB, True), (2 * GB, False)])
 def test_what_nobody_uses_is_given_back_where_much_is_held(
-    monkeypatch: pytest.MonkeyPatch, held: float, stays: bool
+    fresh: None, monkeypatch: pytest.MonkeyPatch, held: float, stays: bool
 ) -> None:
     monkeypatch.setattr(limits, "_resident", lambda _: int(held))
     gc.disable()
@@ -45,3 +51,21 @@ def test_what_nobody_uses_is_given_back_where_much_is_held(
         assert (seen() is not None) == stays
     finally:
         gc.enable()
+
+
+def test_a_process_looks_again_only_where_it_has_grown(fresh: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    def looks(held: float) -> bool:
+        times: list[None] = []
+        monkeypatch.setattr(limits, "_resident", lambda _: int(held * GB))
+        monkeypatch.setattr(limits, "_collect", lambda: times.append(None))
+        give_back_unused()
+        return bool(times)
+
+    expected = [
+        (2.0, True),
+        (2.05, False),  # hardly more than it kept: a process may hold much that is not ours
+        (2.2, True),
+        (1.0, False),  # it has shrunk
+        (1.2, True),
+    ]
+    assert [(held, looks(held)) for held, _ in expected] == expected

@@ -15,6 +15,7 @@ from typing import Final, Generic, TypeVar, final
 
 _SPARE: Final = 2**30  # bytes that may be asked for and never be touched
 _MUCH: Final = 600 * 10**6  # bytes: a process that holds less is not worth the time of looking for what is unused
+_MORE: Final = 100 * 10**6  # bytes: nor is one that has grown by less since it last gave back
 
 
 def resident_bytes(process: int) -> int:
@@ -46,13 +47,28 @@ def refuse_beyond(memory: int) -> None:
             resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
 
 
+class _LastGivenBack:
+    """What this process held after it last gave back what was unused, or less where it shrank since; not a value."""
+
+    held = 0
+
+
 def give_back_unused() -> None:
     """Has this process, where it holds much, give back to the system what it does not use any more.
 
     Values that refer to one another stay until the garbage collector runs, and freed memory stays with the allocator.
+    Looking for them takes the longer the more a process holds, also of what is not ours: as in Blender, or beside
+    torch. It is done again only where the process has grown.
     """
-    if _resident(os.getpid()) < _MUCH:
+    held = _resident(os.getpid())
+    _LastGivenBack.held = min(_LastGivenBack.held, held)
+    if held < max(_MUCH, _LastGivenBack.held + _MORE):
         return
+    _collect()
+    _LastGivenBack.held = _resident(os.getpid())
+
+
+def _collect() -> None:
     gc.collect()
     if sys.platform == "linux":
         import ctypes
