@@ -36,13 +36,17 @@ class PartLabel(StrEnum):
 
 
 class EdgeKind(StrEnum):
-    """The paper's four kinds of functional edges, and `slide`: a door that slides, which the network does not know."""
+    """The paper's four kinds of functional edges, and two that the network does not know.
+
+    `slide` is a part that slides and is no drawer, `turn` one that turns about no border of its box.
+    """
 
     CONTACT = "contact"
     HINGE = "hinge"
     RAIL = "rail"
     ATTACHED = "attached"
     SLIDE = "slide"
+    TURN = "turn"
 
 
 class JointType(StrEnum):

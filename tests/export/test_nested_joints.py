@@ -9,9 +9,11 @@ import pytest
 from glb_reader import Glb
 
 import grafu
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import all_open
 from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.graph.serialize import completion_from_json, load_json
 from nested_urdfs import drawer_behind_door, drawer_in_door, folding_door
 
 
@@ -126,6 +128,25 @@ def test_nothing_collides_with_a_drawer_in_a_door(drawer, door, box):
     assert cuts(drawer, {"door_joint": door * uppers["door"], "drawer_joint": box * uppers["drawer"]}) == set()
 
 
+def test_the_graph_has_an_edge_for_each_joint_between_what_carries_it_and_what_moves(folding, drawer):
+    first, second = folding.graph.hinges
+    assert (first.child, first.coupling) == ("leaf_1", None)
+    assert not folding.graph.node(first.parent).label.is_movable
+    assert (second.parent, second.child, second.coupling) == ("leaf_1", "leaf_2", Coupling("leaf_1", 2.0, 0.0))
+    [rail] = drawer.graph.rails
+    assert (rail.parent, rail.child, rail.axis) == ("door", "drawer", 2)
+    for result in (folding, drawer):
+        assert result.graph.moving == {joint.part for joint in result.joints}
+        assert result.made.completion.refused == ()
+
+
+def test_the_graph_file_has_the_carrier_and_the_leader(folding, tmp_path):
+    text = (written(folding, tmp_path / "out", "urdf") / "graph.json").read_text()
+    assert completion_from_json(load_json(text)) == folding.made.completion
+    [edge] = [edge for edge in load_json(text)["edges"] if edge["dst"] == "leaf_2" and edge["kind"] == "hinge"]
+    assert (edge["src"], edge["follows"]["leader"]) == ("leaf_1", "leaf_1")
+
+
 def test_a_drawer_in_a_door_swings_with_it(drawer, tmp_path):
     root = ET.parse(written(drawer, tmp_path / "out", "urdf", "mjcf") / "model.urdf").getroot()
     assert root.find("joint[@name='drawer_joint']/parent").get("link") == "door"
@@ -153,6 +174,9 @@ def test_a_follower_whose_leader_is_fixed_moves_by_itself(tmp_path):
     assert [(s.request, s.reason) for s in result.skipped if s.request == "leaf_1"] == [("leaf_1", "rejected")]
     for joint in result.joints:
         assert (joint.parent, joint.follows) == ("body", None)
+    assert {joint.part for joint in result.joints} <= result.graph.moving == {"leaf_2"}
+    assert all(not result.graph.node(edge.parent).label.is_movable for edge in result.graph.motions)
+    assert all(edge.coupling is None for edge in result.graph.motions)
 
 
 def test_a_follower_that_would_start_outside_its_limits_is_not_coupled(tmp_path):

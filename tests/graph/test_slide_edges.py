@@ -13,9 +13,9 @@ from grafu.geometry.box import Box
 from grafu.graph.annotated import joint_edges
 from grafu.graph.arrays import KIND_CODES, graph_arrays
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Contact, Rail, Slide, as_paper
+from grafu.graph.edges import Contact, Rail, Slide
 from grafu.graph.edit import mirrored
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.functional_graph import FunctionalGraph, PartNode, paper_edges
 from grafu.graph.official_json import functional_to_official
 from grafu.graph.serialize import completion_from_json, completion_to_json, graph_from_json, graph_to_json
 from grafu.render.graph_picture import draw_graph, motion_words
@@ -37,7 +37,7 @@ def test_a_round_trip_is_exact_along_every_axis(axis):
 
 def test_only_doors_slide_so_and_on_one_way():
     assert (GRAPH.slides, GRAPH.moving) == ((SLIDE,), {"front"})
-    with pytest.raises(GraphError, match="a hinge or a slide joins support and door"):
+    with pytest.raises(GraphError, match="a slide what is no drawer"):
         replace(GRAPH, nodes=(CASE, replace(FRONT, label=PartLabel.DRAWER)))
     top = replace(CASE, id="top", label=PartLabel.TOP_PANEL)
     with pytest.raises(GraphError, match="must state one motion"):
@@ -58,7 +58,7 @@ def test_a_joint_that_slides_a_door_gets_the_edge():
 
 
 def test_the_network_and_the_authors_files_see_a_contact():
-    assert as_paper(SLIDE) == Contact("case", "front")
+    assert paper_edges(GRAPH) == (Contact("case", "front"),)
     arrays = graph_arrays(GRAPH)
     assert (arrays.edges[0, 1], arrays.child.any()) == (KIND_CODES[EdgeKind.CONTACT], False)
     assert [edge["kind"] for edge in functional_to_official(GRAPH)["edges"]] == ["contact"]

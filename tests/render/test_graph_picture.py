@@ -116,8 +116,10 @@ def test_writings_stay_in_the_picture():
 
 
 def test_edges_have_the_colours_of_their_kinds():
-    assert {s.color for s in draw_graph(GRAPH).strokes} == set(EDGE_COLORS.values()) - {EDGE_COLORS[EdgeKind.SLIDE]}
+    others = {EDGE_COLORS[EdgeKind.SLIDE], EDGE_COLORS[EdgeKind.TURN]}
+    assert {s.color for s in draw_graph(GRAPH).strokes} == set(EDGE_COLORS.values()) - others
     assert set(EDGE_COLORS) == set(EdgeKind)
+    assert len(set(EDGE_COLORS.values())) == len(EdgeKind)
     assert draw_graph(GRAPH).strokes[0].color == EDGE_COLORS[EdgeKind.CONTACT]  # at the back
 
 

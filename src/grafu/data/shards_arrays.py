@@ -23,8 +23,8 @@ from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
 from grafu.graph.arrays import KIND_CODES, KINDS, LABEL_CODES, LABELS
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, as_paper, ends_of, kind_of
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph, PartNode, paper_edges
 from grafu.synth.specimen import Defect, DefectKind
 from grafu.vocabulary import EdgeKind
 
@@ -131,8 +131,8 @@ def record_to_arrays(record: Record) -> ModelArrays:
         np.array([given.get(n.id, ABSENT) for n in nodes], dtype=np.uint8),
         np.array([n.id in record.removable for n in nodes], dtype=np.bool_),
         boxes,
-        _edge_array(record.truth.edges, places),
-        _edge_array(record.given.edges, places),
+        _edge_array(paper_edges(record.truth), places),
+        _edge_array(paper_edges(record.given), places),
         record.defects,
         counts,
         points_to_codes(np.concatenate(clouds) if clouds else np.zeros((0, 3)), boxes, counts),
@@ -185,7 +185,7 @@ def _clouds(arrays: ModelArrays) -> list[PointCloud | None]:
 
 def _edge_array(edges: Sequence[Edge], places: dict[str, int]) -> EdgeArray:
     rows = []
-    for edge in map(as_paper, edges):
+    for edge in edges:
         a, b = ends_of(edge)
         rows.append((places[a], places[b], KIND_CODES[kind_of(edge)], _motion_code(edge)))
     return np.array(rows, dtype=np.uint16).reshape(-1, 4)

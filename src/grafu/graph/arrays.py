@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Bool, Float64, Int64
 
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
-from grafu.graph.edges import Contact, Edge, Hinge, Rail, as_paper, ends_of, kind_of
-from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.edges import Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph, paper_edges
 from grafu.vocabulary import EdgeKind, PartLabel
 
 KINDS = (EdgeKind.CONTACT, EdgeKind.HINGE, EdgeKind.RAIL, EdgeKind.ATTACHED)
@@ -54,10 +54,10 @@ def graph_arrays(graph: FunctionalGraph) -> GraphArrays:
     count = len(place)
     edges, child = np.full((count, count), NULL), np.zeros((count, count), dtype=bool)
     motion = np.full((3, count), NONE)
-    for edge in graph.edges:
+    for edge in paper_edges(graph):
         first, second = (place[end] for end in ends_of(edge))
-        edges[first, second] = edges[second, first] = KIND_CODES[kind_of(as_paper(edge))]
-        child[second, first] = not isinstance(as_paper(edge), Contact)
+        edges[first, second] = edges[second, first] = KIND_CODES[kind_of(edge)]
+        child[second, first] = not isinstance(edge, Contact)
         motion[:, second] = np.maximum(motion[:, second], _motion(edge))
     lows = np.array([n.box.low for n in graph.nodes]).reshape(-1, 3)
     highs = np.array([n.box.high for n in graph.nodes]).reshape(-1, 3)

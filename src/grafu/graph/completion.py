@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from typing import Literal, final
 
 from grafu.errors import GraphError
+from grafu.graph.edges import Hinge, MotionEdge, Turn
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.refusal import Refusal
 
 BY_RULE, BY_BOTH = "rule", "network and rule"
 """`Decision.by`: a rule answers in the network's place, or leans its choice."""
-Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slide"]
+Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slide", "turn"]
 
 
 @final
@@ -37,6 +38,13 @@ class Decision:
         for score in (self.score, self.runner_up_score):
             if not 0.0 <= score <= 1.0:
                 raise GraphError(f"the scores of a decision must be in 0..1: got {score} for `{self.part}`")
+
+
+def decision_of(edge: MotionEdge) -> Decision:
+    """Returns the decision on a motion that the input or the user states."""
+    if isinstance(edge, Hinge):
+        return Decision(edge.child, "border", str(edge.border), 1.0)
+    return Decision(edge.child, "turn" if isinstance(edge, Turn) else "slide", str(edge.axis), 1.0)
 
 
 @final

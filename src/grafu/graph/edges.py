@@ -1,7 +1,8 @@
 """The kinds of functional edges as final types: a motion stands only where it can exist. No geometry here.
 
-Four are the paper's; the network and the authors' files know no others. `Slide` stands in graphs that were completed by
-what the input or the user states, and in graphs as built.
+Four are the paper's; the network and the authors' files know no others. `Slide` and `Turn` stand in graphs that were
+completed by what the input or the user states, and in graphs as built. So does a joint that follows another
+(`coupling`), and one whose parent is a moving part itself.
 
 Codes are the authors' (official.md 3): `HingeBorder` names a border of the door's own box, `AxisSign` the sense of the
 rotation axis along it (1 is positive), `SignedAxis` one of -X, +X, -Y, +Y, -Z, +Z. `grafu.graph.motion` turns them into
@@ -11,6 +12,7 @@ lines in space and back.
 from dataclasses import dataclass
 from typing import ClassVar, Literal, final, get_args
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.errors import GraphError
 from grafu.vocabulary import EdgeKind, JointType
 
@@ -50,7 +52,9 @@ class Attached:
 @final
 @dataclass(frozen=True, slots=True)
 class Hinge:
-    """The door `child` turns on the support `parent`, about a border of the door's box (official.md 3.2).
+    """The door `child` turns on the support or moving part `parent`, about a border of its own box (official.md 3.2).
+
+    The leader of a `coupling` is a part, and both values count from closed.
 
     Raises:
         GraphError: if `border` is not 0..3 or `sign` not 0 or 1.
@@ -61,6 +65,7 @@ class Hinge:
     child: str
     border: HingeBorder
     sign: AxisSign
+    coupling: Coupling | None = None
 
     def __post_init__(self) -> None:
         _require_code("Hinge.border", self.border, BORDERS)
@@ -70,7 +75,7 @@ class Hinge:
 @final
 @dataclass(frozen=True, slots=True)
 class Rail:
-    """The drawer `child` slides on the support `parent` and opens along a signed axis.
+    """The drawer `child` slides on the support or moving part `parent` and opens along a signed axis.
 
     Raises:
         GraphError: if `axis` is not 0..5.
@@ -80,6 +85,7 @@ class Rail:
     parent: str
     child: str
     axis: SignedAxis
+    coupling: Coupling | None = None
 
     def __post_init__(self) -> None:
         _require_code("Rail.axis", self.axis, SIGNED_AXES)
@@ -88,7 +94,7 @@ class Rail:
 @final
 @dataclass(frozen=True, slots=True)
 class Slide:
-    """The door `child` slides on the support `parent` and opens along a signed axis, which may be any of the case's.
+    """A part that is no drawer slides on the support or moving part `parent` and opens along any signed axis.
 
     Raises:
         GraphError: if `axis` is not 0..5.
@@ -98,12 +104,37 @@ class Slide:
     parent: str
     child: str
     axis: SignedAxis
+    coupling: Coupling | None = None
 
     def __post_init__(self) -> None:
         _require_code("Slide.axis", self.axis, SIGNED_AXES)
 
 
-Edge = Contact | Attached | Hinge | Rail | Slide
+@final
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A part turns on the support or moving part `parent` about a signed axis, but about no border of its own box.
+
+    Such are a knob, which turns about the axis across its thin side, and a part that is no door.
+
+    Raises:
+        GraphError: if `axis` is not 0..5.
+    """
+
+    joint_type: ClassVar = JointType.REVOLUTE
+    parent: str
+    child: str
+    axis: SignedAxis
+    coupling: Coupling | None = None
+
+    def __post_init__(self) -> None:
+        _require_code("Turn.axis", self.axis, SIGNED_AXES)
+
+
+MotionEdge = Hinge | Rail | Slide | Turn
+"""An edge that states how its child moves."""
+
+Edge = Contact | Attached | MotionEdge
 
 _KINDS: dict[type, EdgeKind] = {
     Contact: EdgeKind.CONTACT,
@@ -111,6 +142,7 @@ _KINDS: dict[type, EdgeKind] = {
     Hinge: EdgeKind.HINGE,
     Rail: EdgeKind.RAIL,
     Slide: EdgeKind.SLIDE,
+    Turn: EdgeKind.TURN,
 }
 
 
@@ -124,9 +156,10 @@ def ends_of(edge: Edge) -> tuple[str, str]:
     return (edge.a, edge.b) if isinstance(edge, Contact) else (edge.parent, edge.child)
 
 
-def as_paper(edge: Edge) -> Edge:
-    """Returns the edge as the paper's four kinds can say it: of a slide, that the two parts touch."""
-    return Contact(edge.parent, edge.child) if isinstance(edge, Slide) else edge
+def motion_of(edge: MotionEdge) -> tuple[EdgeKind, int, int, Coupling | None]:
+    """Returns what the edge states of the motion alone: all edges of one part must agree in it."""
+    code, sign = (edge.border, edge.sign) if isinstance(edge, Hinge) else (edge.axis, 0)
+    return kind_of(edge), code, sign, edge.coupling
 
 
 def _require_code(name: str, value: int, allowed: tuple[int, ...]) -> None:

@@ -6,28 +6,32 @@ from typing import assert_never
 
 import numpy as np
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of
-from grafu.graph.functional_graph import FunctionalGraph, is_allowed
-from grafu.graph.motion import mirror_face, mirror_hinge
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, MotionEdge, Rail, Slide, Turn, ends_of
+from grafu.graph.functional_graph import FunctionalGraph, allowed_edges
+from grafu.graph.motion import mirror_face, mirror_hinge, mirror_rotation
 from grafu.vocabulary import PartLabel
 
 
 def without_nodes(graph: FunctionalGraph, ids: Collection[str]) -> FunctionalGraph:
-    """Returns the graph without these nodes and the edges at them.
+    """Returns the graph without these nodes and the edges at them; what followed one of them follows nothing.
+
+    What moved on a part that does not move any more only touches it.
 
     Raises:
         GraphError: if an id is not in the graph.
     """
     _require_known(graph, ids)
     nodes = tuple(n for n in graph.nodes if n.id not in ids)
-    return replace(graph, nodes=nodes, edges=tuple(e for e in graph.edges if not set(ends_of(e)) & set(ids)))
+    kept = (_led_by_others(e, ids) for e in graph.edges if not set(ends_of(e)) & set(ids))
+    return replace(graph, nodes=nodes, edges=allowed_edges(kept, {n.id: n.label for n in nodes}))
 
 
 def without_edges(graph: FunctionalGraph, edges: Collection[Edge]) -> FunctionalGraph:
-    """Returns the graph without these edges.
+    """Returns the graph without these edges; what moved on a part that does not move any more only touches it.
 
     Raises:
         GraphError: if an edge is not in the graph.
@@ -35,7 +39,8 @@ def without_edges(graph: FunctionalGraph, edges: Collection[Edge]) -> Functional
     missing = [e for e in edges if e not in graph.edges]
     if missing:
         raise GraphError(f"an edge to leave out must be in graph `{graph.model_id}`: got {missing[0]}")
-    return replace(graph, edges=tuple(e for e in graph.edges if e not in edges))
+    label_of = {n.id: n.label for n in graph.nodes}
+    return replace(graph, edges=allowed_edges((e for e in graph.edges if e not in edges), label_of))
 
 
 def relabelled(graph: FunctionalGraph, labels: Mapping[str, PartLabel]) -> FunctionalGraph:
@@ -46,9 +51,7 @@ def relabelled(graph: FunctionalGraph, labels: Mapping[str, PartLabel]) -> Funct
     """
     _require_known(graph, labels)
     nodes = tuple(replace(n, label=labels.get(n.id, n.label)) for n in graph.nodes)
-    label_of = {n.id: n.label for n in nodes}
-    edges = (_allowed_or_contact(e, label_of) for e in graph.edges)
-    return replace(graph, nodes=nodes, edges=tuple(edges))
+    return replace(graph, nodes=nodes, edges=allowed_edges(graph.edges, {n.id: n.label for n in nodes}))
 
 
 def as_contacts(graph: FunctionalGraph) -> FunctionalGraph:
@@ -83,7 +86,9 @@ def scaled(graph: FunctionalGraph, factor: float) -> FunctionalGraph:
     """
     if not factor > 0:
         raise ValueError(f"`factor` must be positive: got {factor}")
-    return _with_moved_nodes(graph, np.full(3, factor))
+    sliding = {edge.child for edge in graph.motions if isinstance(edge, Rail | Slide)}
+    image = _with_moved_nodes(graph, np.full(3, factor))
+    return replace(image, edges=tuple(_scaled_edge(e, sliding, factor) for e in graph.edges))
 
 
 def mirrored(graph: FunctionalGraph, across: int) -> FunctionalGraph:
@@ -117,6 +122,8 @@ def _mirrored_edge(graph: FunctionalGraph, edge: Edge, across: int) -> Edge:
             return edge
         case Rail() | Slide():
             return replace(edge, axis=mirror_face(edge.axis, across))
+        case Turn():
+            return replace(edge, axis=mirror_rotation(edge.axis, across))
         case Hinge():
             border, sign = mirror_hinge(graph.node(edge.child).box.thin_axis, edge.border, edge.sign, across)
             return replace(edge, border=border, sign=sign)
@@ -124,9 +131,19 @@ def _mirrored_edge(graph: FunctionalGraph, edge: Edge, across: int) -> Edge:
             assert_never(edge)
 
 
-def _allowed_or_contact(edge: Edge, label_of: Mapping[str, PartLabel]) -> Edge:
-    first, second = ends_of(edge)
-    return edge if is_allowed(edge, label_of[first], label_of[second]) else Contact(first, second)
+def _led_by_others(edge: Edge, ids: Collection[str]) -> Edge:
+    follows = isinstance(edge, MotionEdge) and edge.coupling is not None and edge.coupling.leader in ids
+    return replace(edge, coupling=None) if isinstance(edge, MotionEdge) and follows else edge
+
+
+def _scaled_edge(edge: Edge, sliding: Collection[str], factor: float) -> Edge:
+    """Returns an edge whose coupling counts scaled metres wherever it counts metres."""
+    if not isinstance(edge, MotionEdge) or edge.coupling is None:
+        return edge
+    coupling = edge.coupling
+    own, its = (factor if part in sliding else 1.0 for part in (edge.child, coupling.leader))
+    scaled_coupling = Coupling(coupling.leader, coupling.multiplier * own / its, coupling.offset * own)
+    return replace(edge, coupling=scaled_coupling)
 
 
 def _require_known(graph: FunctionalGraph, ids: Iterable[str]) -> None:

@@ -1,11 +1,10 @@
-"""The functional graph: parts as nodes, four kinds of edges, and every invariant checked when it is made.
+"""The functional graph: parts as nodes, six kinds of edges, and every invariant checked when it is made.
 
 The paper's three attributes of a node are its label, its box and its points. It holds no meshes.
 """
 
-from collections import defaultdict
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import assert_never, final
 
@@ -14,7 +13,7 @@ import numpy as np
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of, kind_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of, motion_of
 from grafu.vocabulary import PartLabel
 
 
@@ -55,12 +54,13 @@ class PartNode:
 class FunctionalGraph:
     """Nodes in a fixed order (the network's slots) and edges without doubles.
 
-    An unknown label may stand for any part, so that a graph whose labels are masked keeps its edges.
+    An unknown label may stand for any part, so that a graph whose labels are masked keeps its edges. A door or drawer
+    may carry a moving part where an edge moves it itself.
 
     Raises:
         GraphError: if ids repeat or are empty, an edge dangles, joins a part to itself or doubles another, an edge
-            breaks the type system (official.md 6, rule 8), a handle has two parents, or two edges of one moving part
-            state different motions.
+            breaks the type system (official.md 6, rule 8), a handle has two parents, two edges of one moving part state
+            different motions, moving parts carry one another in a circle, or one follows what is no other part.
     """
 
     model_id: str
@@ -74,9 +74,11 @@ class FunctionalGraph:
         _require_unique_ids(self.nodes)
         _require_simple_edges(self.edges, self._by_id)
         for edge in self.edges:
-            _require_types(edge, self._by_id)
+            _require_types(edge, self._by_id, self.moving)
         _require_one_parent(self.edges)
         _require_one_motion(self.edges)
+        _require_leaders(self.motions, self._by_id)
+        _require_no_circle(self.motions)
 
     @cached_property
     def _by_id(self) -> dict[str, PartNode]:
@@ -133,9 +135,22 @@ class FunctionalGraph:
         return tuple(e for e in self.edges if isinstance(e, Slide))
 
     @cached_property
+    def motions(self) -> tuple[MotionEdge, ...]:
+        """The edges that state motions (hinges, rails, slides and turns), in order."""
+        return tuple(e for e in self.edges if isinstance(e, MotionEdge))
+
+    @cached_property
     def moving(self) -> frozenset[str]:
         """The ids of the parts that an edge moves."""
-        return frozenset(e.child for e in self.edges if isinstance(e, Hinge | Rail | Slide))
+        return frozenset(edge.child for edge in self.motions)
+
+    def motions_of(self, part: str) -> tuple[MotionEdge, ...]:
+        """Returns the edges that state how a part moves, in order."""
+        return tuple(edge for edge in self.motions if edge.child == part)
+
+    def carrier_of(self, part: str) -> str:
+        """Returns the moving part that carries a moving part; "" where a static part does."""
+        return next((edge.parent for edge in self.motions_of(part) if edge.parent in self.moving), "")
 
     @cached_property
     def neighbours(self) -> dict[str, tuple[str, ...]]:
@@ -148,20 +163,58 @@ class FunctionalGraph:
         return {node_id: tuple(ids) for node_id, ids in found.items()}
 
 
-def is_allowed(edge: Edge, parent: PartLabel, child: PartLabel) -> bool:
-    """Whether the type system allows this edge between these labels; for a contact, any two."""
+def is_allowed(edge: Edge, parent: PartLabel, child: PartLabel, *, parent_moves: bool = False) -> bool:
+    """Whether the type system allows this edge between these labels; for a contact, any two.
+
+    The paper's is that of parents that do not move; a door or drawer that moves may carry what moves on it.
+    """
     unknown = PartLabel.UNKNOWN
+    carries = parent.is_support or (parent_moves and parent.is_movable)
     match edge:
         case Contact():
             return True
-        case Hinge() | Slide():
-            return child in (PartLabel.DOOR, unknown) and parent.is_support
+        case Hinge():
+            return child in (PartLabel.DOOR, unknown) and carries
         case Rail():
-            return child in (PartLabel.DRAWER, unknown) and parent.is_support
+            return child in (PartLabel.DRAWER, unknown) and carries
+        case Slide():
+            return child is not PartLabel.DRAWER and carries
+        case Turn():
+            return carries
         case Attached():
             return child in (PartLabel.HANDLE, unknown) and (parent.is_movable or parent is unknown)
         case _:
             assert_never(edge)
+
+
+def allowed_edges(edges: Iterable[Edge], label_of: Mapping[str, PartLabel]) -> tuple[Edge, ...]:
+    """Returns the edges, those as contacts that these labels forbid, or whose parent moves no more because of that."""
+    given = tuple(edges)
+    moving = {edge.child for edge in given if isinstance(edge, MotionEdge)}
+    made = tuple(edge if _fits(edge, label_of, moving) else Contact(*ends_of(edge)) for edge in given)
+    return made if made == given else allowed_edges(made, label_of)
+
+
+def paper_edges(graph: FunctionalGraph) -> tuple[Edge, ...]:
+    """Returns the edges as the paper's four kinds can state them.
+
+    Of a slide, a turn, and a motion on a door or drawer they state that the two parts touch; that one follows another
+    is left out.
+    """
+    return tuple(_as_paper(edge, graph.node(ends_of(edge)[0]).label) for edge in graph.edges)
+
+
+def _as_paper(edge: Edge, parent: PartLabel) -> Edge:
+    if not isinstance(edge, MotionEdge):
+        return edge
+    if isinstance(edge, Slide | Turn) or parent.is_movable:
+        return Contact(*ends_of(edge))
+    return edge if edge.coupling is None else replace(edge, coupling=None)
+
+
+def _fits(edge: Edge, label_of: Mapping[str, PartLabel], moving: Set[str]) -> bool:
+    parent, child = ends_of(edge)
+    return is_allowed(edge, label_of[parent], label_of[child], parent_moves=parent in moving)
 
 
 def _require_unique_ids(nodes: tuple[PartNode, ...]) -> None:
@@ -188,12 +241,12 @@ def _require_simple_edges(edges: Iterable[Edge], known: dict[str, PartNode]) -> 
         seen.add(frozenset(ends))
 
 
-def _require_types(edge: Edge, known: dict[str, PartNode]) -> None:
+def _require_types(edge: Edge, known: dict[str, PartNode], moving: Set[str]) -> None:
     parent, child = (known[end].label for end in ends_of(edge))
-    if not is_allowed(edge, parent, child):
+    if not is_allowed(edge, parent, child, parent_moves=ends_of(edge)[0] in moving):
         rules = (
-            "a hinge or a slide joins support and door, a rail support and drawer, attached a door or drawer and its "
-            "handle"
+            "a hinge joins a door, a rail a drawer, a slide what is no drawer to a support or to what moves, attached "
+            "a door or drawer and its handle"
         )
         raise GraphError(f"{rules}: got {kind_of(edge)} from {parent} to {child}, {edge}")
 
@@ -208,15 +261,30 @@ def _require_one_parent(edges: Iterable[Edge]) -> None:
 
 
 def _require_one_motion(edges: Iterable[Edge]) -> None:
-    stated: dict[str, set[tuple[str, int, int]]] = defaultdict(set)
+    first: dict[str, MotionEdge] = {}
     for edge in edges:
-        if isinstance(edge, Hinge):
-            stated[edge.child].add(("hinge", edge.border, edge.sign))
-        elif isinstance(edge, Rail):
-            stated[edge.child].add(("rail", edge.axis, 0))
-        elif isinstance(edge, Slide):
-            stated[edge.child].add(("slide", edge.axis, 0))
-        if isinstance(edge, Hinge | Rail | Slide) and len(stated[edge.child]) > 1:
+        if isinstance(edge, MotionEdge) and motion_of(first.setdefault(edge.child, edge)) != motion_of(edge):
             raise GraphError(
-                f"all edges of a moving part must state one motion: `{edge.child}` has {stated[edge.child]}"
+                f"all edges of a moving part must state one motion: `{edge.child}` has {first[edge.child]} and {edge}"
             )
+
+
+def _require_leaders(edges: Iterable[MotionEdge], known: Mapping[str, PartNode]) -> None:
+    for edge in edges:
+        if edge.coupling is not None and (edge.coupling.leader not in known or edge.coupling.leader == edge.child):
+            raise GraphError(f"a moving part must follow another part of the graph: got {edge}")
+
+
+def _require_no_circle(edges: Iterable[MotionEdge]) -> None:
+    """Raises where a part would be carried by what it carries itself."""
+    parents: dict[str, set[str]] = {}
+    for edge in edges:
+        parents.setdefault(edge.child, set()).add(edge.parent)
+    for part in parents:
+        above, queue = set[str](), [part]
+        while queue:
+            new = parents.get(queue.pop(), set()) - above
+            above |= new
+            queue += new
+        if part in above:
+            raise GraphError(f"moving parts must not carry one another in a circle: `{part}` carries itself")

@@ -59,7 +59,7 @@ def read_code(data: Json, key: str, count: int) -> int | None:
     return value
 
 
-def read_score(data: Json, key: str, where: str) -> float:
+def read_number(data: Json, key: str, where: str) -> float:
     """Returns the finite number under `key`.
 
     Raises:

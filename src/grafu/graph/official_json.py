@@ -13,8 +13,8 @@ from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.transform import quaternion_matrix
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, as_paper, ends_of, kind_of
-from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed, paper_edges
 from grafu.graph.json_values import Json, read_list, read_object, read_text, read_vector
 from grafu.graph.motion import signed_axis
 from grafu.graph.official_motion import (
@@ -42,7 +42,7 @@ class OfficialReading:
 
 def input_to_official(graph: FunctionalGraph) -> dict[str, Any]:
     """Returns the authors' input graph: nodes in slot order, edges with their kind but without motion."""
-    edges = [_edge_to_official(edge, graph) for edge in graph.edges]
+    edges = [_edge_to_official(edge, graph) for edge in paper_edges(graph)]
     return {"model_id": graph.model_id, "nodes": _nodes_to_official(graph), "edges": edges}
 
 
@@ -56,9 +56,10 @@ def functional_to_official(graph: FunctionalGraph, older_labels: bool = False) -
         door, handle = graph.node(edge.parent), graph.node(edge.child)
         if door.label is PartLabel.DOOR:
             nodes[door.id].setdefault("handle_border", handle_border(door.box, handle.box))
-    edges = [_edge_to_official(e, graph) | motion_fields(e, graph) for e in graph.edges]
+    told = paper_edges(graph)
+    edges = [_edge_to_official(e, graph) | motion_fields(e, graph) for e in told]
     if older_labels:
-        edges = [d | older_motion_fields(e, graph, d["src"]) for d, e in zip(edges, graph.edges, strict=True)]
+        edges = [d | older_motion_fields(e, graph, d["src"]) for d, e in zip(edges, told, strict=True)]
     return {"model_id": graph.model_id, "nodes": nodes, "edges": edges}
 
 
@@ -118,7 +119,7 @@ def _obb(box: Box) -> dict[str, list[float]]:
 def _edge_to_official(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
     slot = {node.id: k for k, node in enumerate(graph.nodes)}
     src, dst = sorted(ends_of(edge), key=lambda end: slot[end])
-    return {"src": src, "dst": dst, "kind": kind_of(as_paper(edge)).value, "connector": None}
+    return {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None}
 
 
 def _node_items(data: Json) -> list[tuple[str, Json]]:

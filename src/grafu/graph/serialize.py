@@ -13,7 +13,8 @@ The form is a superset of the authors' (official.md 2), so that their tools read
     edges     [edge]
       src, dst, kind, connector as the authors'; src is the parent, dst the child of a directed edge
       hinge: hinge_border_4, hinge_axis_sign, hinge_border, hinge_axis_signed; rail: rail_axis_signed;
-      slide (a kind that the authors do not have): slide_axis_signed
+      slide, turn (kinds that the authors do not have): slide_axis_signed, turn_axis_signed
+      follows   only on a motion that follows another: {leader, multiplier, offset}; the leader is a part
     completion   only in a completed graph
       source, added [id], decisions [{part, question, choice, score, runner_up, runner_up_score, by}],
       refused [{part, why}], input {a graph of the same form}
@@ -27,13 +28,22 @@ from typing import Any, assert_never, get_args
 
 import numpy as np
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
 from grafu.graph.completion import Decision, GraphCompletion, Question
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of, kind_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.json_values import Json, read_code, read_list, read_object, read_score, read_text, read_vector
+from grafu.graph.json_values import (
+    Json,
+    read_code,
+    read_list,
+    read_number,
+    read_object,
+    read_text,
+    read_vector,
+)
 from grafu.graph.official_motion import motion_fields, node_to_material
 from grafu.refusal import Reason, Refusal
 from grafu.visible import writable
@@ -138,11 +148,15 @@ def _node_to_json(node: PartNode) -> dict[str, Any]:
 
 def _edge_to_json(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
     src, dst = ends_of(edge)
-    return {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None} | _motion_to_json(edge, graph)
+    follows = asdict(edge.coupling) if isinstance(edge, MotionEdge) and edge.coupling else None
+    ends = {"src": src, "dst": dst, "kind": kind_of(edge).value, "connector": None}
+    return ends | _motion_to_json(edge, graph) | ({"follows": follows} if follows else {})
 
 
 def _motion_to_json(edge: Edge, graph: FunctionalGraph) -> dict[str, int]:
-    return {"slide_axis_signed": edge.axis} if isinstance(edge, Slide) else motion_fields(edge, graph)
+    if isinstance(edge, Slide | Turn):
+        return {f"{kind_of(edge).value}_axis_signed": edge.axis}
+    return motion_fields(edge, graph)
 
 
 def _node_from_json(node_id: str, data: Any) -> PartNode:
@@ -171,13 +185,25 @@ def _edge_from_json(data: Json) -> Edge:
             return Attached(src, dst)
         case EdgeKind.HINGE:
             border, sign = _code(data, "hinge_border_4", 4), _code(data, "hinge_axis_sign", 2)
-            return Hinge(src, dst, border, sign)
+            return Hinge(src, dst, border, sign, _coupling_from_json(data))
         case EdgeKind.RAIL:
-            return Rail(src, dst, _code(data, "rail_axis_signed", 6))
+            return Rail(src, dst, _code(data, "rail_axis_signed", 6), _coupling_from_json(data))
         case EdgeKind.SLIDE:
-            return Slide(src, dst, _code(data, "slide_axis_signed", 6))
+            return Slide(src, dst, _code(data, "slide_axis_signed", 6), _coupling_from_json(data))
+        case EdgeKind.TURN:
+            return Turn(src, dst, _code(data, "turn_axis_signed", 6), _coupling_from_json(data))
         case other:
             assert_never(other)
+
+
+def _coupling_from_json(data: Json) -> Coupling | None:
+    if data.get("follows") is None:
+        return None
+    follows = read_object(data["follows"], "`follows` of an edge")
+    multiplier, offset = (read_number(follows, key, "`follows` of an edge") for key in ("multiplier", "offset"))
+    if multiplier == 0:
+        raise GraphError(f"`follows` of an edge must have a `multiplier` that is not 0: {data['src']}-{data['dst']}")
+    return Coupling(read_text(follows, "leader", "`follows` of an edge"), multiplier, offset)
 
 
 def _code(data: Json, key: str, count: int) -> Any:
@@ -197,9 +223,9 @@ def _decision_from_json(data: Json) -> Decision:
         read_text(data, "part", "a decision"),
         question,  # type: ignore[arg-type]
         read_text(data, "choice", "a decision"),
-        read_score(data, "score", "a decision"),
+        read_number(data, "score", "a decision"),
         read_text(data, "runner_up", "a decision", ""),
-        read_score(data, "runner_up_score", "a decision"),
+        read_number(data, "runner_up_score", "a decision"),
         read_text(data, "by", "a decision", ""),
     )
 

@@ -14,13 +14,17 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
+from grafu.graph.annotated import carrying_part
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Rail, Slide
+from grafu.graph.edges import Attached, Hinge, MotionEdge, Rail, Slide, Turn
+from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.joints.carried import carried_parts
 from grafu.joints.config import PlanConfig
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.refusal import Reason, Refusal
+
+_ORDER = (Hinge, Rail, Slide, Turn)
 
 
 def plan_from_annotation(asset: Asset, config: PlanConfig = PlanConfig()) -> RealizationPlan:
@@ -51,24 +55,30 @@ def plan_from_completion(
     known = {part.id for part in asset.parts}
     fixed_to = {part.id: part.rides_on for part in asset.parts if part.rides_on}
     carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to, config) if part in known]
-    attached = attached_to(asset, [*((edge.parent, edge.child) for edge in graph.attachments), *carried])
-    requests = []
-    for hinge in graph.hinges:
-        axis = hinge_to_axis(graph.node(hinge.child).box, hinge.border, hinge.sign)
-        rides = attached.get(hinge.child, ())
-        requests.append(
-            JointRequest(hinge.child, hinge.joint_type, axis, completion.source, None, (hinge.parent,), rides)
-        )
-    slides: list[Rail | Slide] = [*graph.rails, *graph.slides]
-    for child in dict.fromkeys(edge.child for edge in slides):
-        edges = [edge for edge in slides if edge.child == child]
-        axis = rail_to_axis(graph.node(child).box, edges[0].axis)
-        mounts = tuple(edge.parent for edge in edges)
-        rides = attached.get(child, ())
-        requests.append(JointRequest(child, edges[0].joint_type, axis, completion.source, None, mounts, rides))
+    rides = [(edge.parent, edge.child) for edge in (*graph.attachments, *graph.motions) if _is_carried(edge, graph)]
+    attached = attached_to(asset, [*rides, *carried])
+    motions = sorted(graph.motions, key=lambda edge: _ORDER.index(type(edge)))
+    moving = dict.fromkeys(edge.child for edge in motions)
+    requests = [_from_graph(part, attached.get(part, ()), completion) for part in moving]
     moved = {part for _, part in carried}
     refused = tuple(r for r in completion.refused if r.part not in moved)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
+
+
+def _is_carried(edge: Attached | MotionEdge, graph: FunctionalGraph) -> bool:
+    """Whether an edge states that a door or drawer, as it moves, takes its child along."""
+    return isinstance(edge, Attached) or edge.parent == graph.carrier_of(edge.child)
+
+
+def _from_graph(part: str, attached: tuple[str, ...], completion: GraphCompletion) -> JointRequest:
+    """Returns the request of one part that edges of a completed graph move."""
+    graph = completion.completed
+    edges, box, carrier = graph.motions_of(part), graph.node(part).box, graph.carrier_of(part)
+    first = edges[0]
+    axis = hinge_to_axis(box, first.border, first.sign) if isinstance(first, Hinge) else rail_to_axis(box, first.axis)
+    mounts = () if carrier else tuple(edge.parent for edge in edges)
+    made = JointRequest(part, first.joint_type, axis, completion.source, None, mounts, attached)
+    return replace(made, parent=carrier, coupling=first.coupling)
 
 
 def attached_to(asset: Asset, attachments: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:
@@ -138,7 +148,7 @@ def _linked(
 ) -> JointRequest:
     """Returns a request with the moving part that carries it and the coupling, in values that count from closed."""
     joint = joints[request.moving]
-    parent = _carrying_part(request.moving, made, asset)
+    parent = carrying_part(request.moving, made, asset)
     if joint.coupling is None or _leads_back(joint, joints):
         return replace(request, parent=parent)
     leader = made[joint.coupling.leader]
@@ -151,17 +161,6 @@ def _linked(
 def _sign(request: JointRequest, joint: AnnotatedJoint) -> float:
     """Returns 1 where positive values of the stated joint open, else -1."""
     return 1.0 if float(np.dot(request.axis.direction, joint.axis.direction)) > 0 else -1.0
-
-
-def _carrying_part(moving: str, made: Mapping[str, JointRequest], asset: Asset) -> str:
-    """Returns the nearest part with a joint that a part rides on; "" where the static body carries it."""
-    seen, above = {moving}, asset.part(moving).rides_on
-    while above is not None and above not in made:
-        if above in seen:
-            return ""
-        seen.add(above)
-        above = asset.part(above).rides_on
-    return "" if above is None or above == moving else above
 
 
 def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float) -> float:

@@ -1,19 +1,21 @@
-"""The completed graph as it was built: parts that were added instead of nodes that were merely expected.
+"""The completed graph as it was built: parts that were added instead of expected nodes, and an edge for each joint.
 
 Where a part was built for a node that the network had added, what was decided about the node is said of the part. It
 builds nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from grafu.additions.addition import Addition
-from grafu.asset.part import Asset, Part
+from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint
+from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.touching import near_pairs, touching_pairs
+from grafu.graph.annotated import joint_edges
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, ends_of
+from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import ParsingConfig
@@ -41,6 +43,48 @@ def as_built(
     return replace(completion, completed=graph, added=tuple(p.id for p in new), decisions=decisions, refused=refused)
 
 
+def with_joints(completion: GraphCompletion, made: ArticulatedObject, mounts: Mapping[str, str]) -> GraphCompletion:
+    """Returns the completion in which each joint that was built has its edges, from what carries it to what it moves.
+
+    Edges that state so are kept. On a moving part it has one edge, from that part; `mounts` are, by moving part, the
+    static parts that hold the hardware of the others. A joint that follows another states that on its edges.
+    """
+    graph = completion.completed
+    joints = {joint.child: joint for joint in made.moving_joints if joint.child in graph}
+    moved = {joint.id: joint.child for joint in made.moving_joints}
+    still = [n for n in graph.nodes if n.label.is_support and n.id not in graph.moving | joints.keys()]
+    edges: list[MotionEdge] = []
+    for joint in joints.values():  # what carries others comes before them
+        moves = {edge.child for edge in edges}
+        carriers = still if joint.parent not in joints else [graph.node(p) for p in moves if p == joint.parent]
+        found = _joint_edges(joint, graph, carriers, mounts.get(joint.child, ""))
+        edges += (replace(edge, coupling=_coupling(joint, moved)) for edge in found)
+    had = {edge.child for edge in edges}
+    others = (
+        Contact(*ends_of(e)) if isinstance(e, MotionEdge) and e.child in had and e not in edges else e
+        for e in graph.edges
+    )
+    by_ends = {frozenset(ends_of(e)): e for e in (*others, *edges)}
+    refused = tuple(r for r in completion.refused if r.part not in had)
+    return replace(completion, completed=replace(graph, edges=tuple(by_ends.values())), refused=refused)
+
+
+def _joint_edges(joint: Joint, graph: FunctionalGraph, carriers: list[PartNode], mount: str) -> list[MotionEdge]:
+    """Returns the edges of a joint: those that it has from what may carry it, else new ones of the same motion."""
+    stated = graph.motions_of(joint.child)
+    kept = [edge for edge in stated if edge.parent in {node.id for node in carriers}]
+    if kept or not carriers:
+        return kept
+    limits, held = joint.limits, [node for node in carriers if node.id == mount] or carriers
+    as_built = AnnotatedJoint(joint.child, joint.type, joint.axis, limits.lower, limits.upper)
+    new = joint_edges(as_built, graph, held)
+    return [replace(stated[0], parent=edge.parent) for edge in new] if stated else new
+
+
+def _coupling(joint: Joint, moved: Mapping[str, str]) -> Coupling | None:
+    return joint.coupling and replace(joint.coupling, leader=moved[joint.coupling.leader])
+
+
 def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs: Sequence[str] = ()) -> GraphCompletion:
     """Returns the completion without parts of the input that were replaced, and what was decided about them.
 
@@ -49,7 +93,7 @@ def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs:
     if not removed:
         return completion
     graph = completion.completed
-    carried = [e for e in graph.edges if isinstance(e, Hinge | Rail | Slide) and e.parent in removed]
+    carried = [e for e in graph.edges if isinstance(e, MotionEdge) and e.parent in removed]
     graph = with_edges(graph, [replace(e, parent=_nearest(heirs, e.parent, graph)) for e in carried if heirs])
     given, completed = (without_nodes(g, removed & {n.id for n in g.nodes}) for g in (completion.input, graph))
     decisions = tuple(d for d in completion.decisions if d.part not in removed)

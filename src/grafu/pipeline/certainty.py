@@ -10,7 +10,14 @@ from grafu.pipeline.report_schema import GuessRecord
 from grafu.vocabulary import PartLabel
 
 _SIDES = dict(zip(AXIS_NAMES, ("left", "right", "front", "back", "bottom", "top"), strict=True))
-_ASKED = {"border": "pinned", "sign": "opens to the", "slide": "slides to the", "mount": "on", "parent": "carried by"}
+_ASKED = {
+    "border": "pinned",
+    "sign": "opens to the",
+    "slide": "slides to the",
+    "turn": "turns about",
+    "mount": "on",
+    "parent": "carried by",
+}
 _OF_MOTION = ("border", "sign", "slide")  # what carries a part is measured on the meshes
 _MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
 _STATED = 1.0  # the score of what was not guessed
@@ -71,6 +78,8 @@ def _named(decision: Decision, choice: str, graph: FunctionalGraph, hinge: Hinge
     if not choice.isdecimal() or decision.part not in graph:
         return choice
     code, thin = int(choice), graph.node(decision.part).box.thin_axis
+    if decision.question == "turn" and code < len(AXIS_NAMES):
+        return AXIS_NAMES[code]
     if decision.question == "slide" and code < len(AXIS_NAMES):
         return _SIDES[AXIS_NAMES[code]]
     if decision.question == "border" and code < len(BORDERS):

@@ -25,10 +25,10 @@ from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import JointChoice, RealizationPlan
-from grafu.joints.realize import realize
+from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
-from grafu.pipeline.built_graph import as_built, without_removed
+from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
@@ -216,7 +216,7 @@ def functionalize(
     fit = partial(add_after_joints, realized.scene, completion, config.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     with budget.in_force():
-        graph_built = by_contacts(config.parsing, partial(_graph_as_built, completion, asset, body.then(fittings)))
+        graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(
         asset,
         MotionSource(completion.source) if stages.gave_up("complete") else chosen,
@@ -234,12 +234,13 @@ def functionalize(
     )
 
 
-def _graph_as_built(
-    completion: GraphCompletion, asset: Asset, made: StepResult, parsing: ParsingConfig
+def _as_built(
+    completion: GraphCompletion, asset: Asset, realized: Realized, made: StepResult, parsing: ParsingConfig
 ) -> GraphCompletion:
-    """Returns the completed graph with what was added, without what was replaced."""
+    """Returns the completed graph with what was added, without what was replaced, with an edge for each joint."""
     tops = [addition.part.id for addition in made.additions if addition.part.label is PartLabel.TOP_PANEL]
-    return without_removed(as_built(completion, asset, made.additions, parsing), made.changes.removed, tops)
+    built = without_removed(as_built(completion, asset, made.additions, parsing), made.changes.removed, tops)
+    return with_joints(built, realized.object, {done.moving: done.mount for done in realized.report.installed})
 
 
 def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:

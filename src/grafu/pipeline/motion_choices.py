@@ -3,7 +3,7 @@
 It searches no hardware; what the codes of a graph cannot say is refused there, and built from the plan all the same.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 from math import pi
 
@@ -13,8 +13,8 @@ from grafu.completion.handles import attach_handles
 from grafu.errors import GraphError, OptionError
 from grafu.geometry.box import Box
 from grafu.graph.annotated import joint_edges
-from grafu.graph.completion import Decision, GraphCompletion
-from grafu.graph.edges import Attached, Contact, Hinge, Rail, Slide, ends_of
+from grafu.graph.completion import GraphCompletion, decision_of
+from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
@@ -25,7 +25,7 @@ from grafu.vocabulary import PartLabel
 
 USER = "user"
 REJECTED = "the user fixed it"
-_OF_MOTIONS = ("mount", "border", "sign", "slide")
+_OF_MOTIONS = ("mount", "border", "sign", "slide", "turn")
 
 Motions = Mapping[str, MotionChoice]
 
@@ -79,53 +79,60 @@ def with_motions(completion: GraphCompletion, motions: Motions, asset: Asset) ->
 
 
 def _with_motion(completion: GraphCompletion, part: Part, choice: MotionChoice, asset: Asset) -> GraphCompletion:
-    graph = _without_motion(completion.completed, part.id)
+    before = completion.completed
+    graph, on_it = _without_motion(before, part.id), _motions_on(part.id, before)
     decisions = tuple(d for d in completion.decisions if d.part != part.id or d.question not in _OF_MOTIONS)
     refused = tuple(r for r in completion.refused if r.part != part.id)
     if choice.moves is Moves.FIXED:
-        left = (Refusal(part.id, Reason.REJECTED, REJECTED),) if graph.node(part.id).label.is_movable else ()
-        return replace(completion, completed=graph, decisions=decisions, refused=(*refused, *left))
+        fixed = (Refusal(part.id, Reason.REJECTED, REJECTED),) if graph.node(part.id).label.is_movable else ()
+        mount = next((edge.parent for edge in before.motions_of(part.id)), "")
+        rehung = [replace(edge, parent=mount) if edge.parent == part.id else edge for edge in on_it]
+        return replace(completion, completed=with_edges(graph, rehung), decisions=decisions, refused=(*refused, *fixed))
     graph = relabelled(graph, {part.id: part.label})
-    axis = axis_of_motion(part, choice, asset.box)
-    joint = AnnotatedJoint(part.id, choice.type, axis, 0.0, pi / 2, stated_by=USER)
-    moving = graph.moving | {part.id}
+    joint = AnnotatedJoint(part.id, choice.type, axis_of_motion(part, choice, asset.box), 0.0, pi / 2, stated_by=USER)
+    moving = graph.moving | {part.id, *(edge.child for edge in on_it)}
     try:
         edges = joint_edges(joint, graph, [n for n in graph.nodes if n.label.is_support and n.id not in moving])
     except GraphError as error:
-        return replace(
-            completion,
-            completed=graph,
-            decisions=decisions,
-            refused=(*refused, Refusal(part.id, Reason.NO_MOTION, str(error))),
-        )
-    told = tuple(_decision(edge) for edge in edges[:1])
-    return replace(completion, completed=with_edges(graph, edges), decisions=(*decisions, *told), refused=refused)
-
-
-def _decision(edge: Hinge | Rail | Slide) -> Decision:
-    if isinstance(edge, Hinge):
-        return Decision(edge.child, "border", str(edge.border), 1.0)
-    return Decision(edge.child, "slide", str(edge.axis), 1.0)
+        left = dict.fromkeys((part.id, *(edge.child for edge in on_it)))
+        unmoved = tuple(Refusal(name, Reason.NO_MOTION, str(error)) for name in left)
+        return replace(completion, completed=graph, decisions=decisions, refused=(*refused, *unmoved))
+    told = tuple(decision_of(edge) for edge in edges[:1])
+    completed = with_edges(graph, [*edges, *on_it])
+    return replace(completion, completed=completed, decisions=(*decisions, *told), refused=refused)
 
 
 def _without_motion(graph: FunctionalGraph, part: str) -> FunctionalGraph:
-    """Returns the graph in which a part hangs on nothing: its hinge, rails and attachment are contacts."""
+    """Returns the graph in which a part hangs on nothing and nothing moves on it: such edges are contacts."""
+    moved = {part, *(edge.child for edge in _motions_on(part, graph))}
     edges = (
-        Contact(*ends_of(e)) if isinstance(e, Hinge | Rail | Slide | Attached) and e.child == part else e
+        Contact(*ends_of(e)) if _moves(e, moved) or (isinstance(e, Attached) and e.child == part) else e
         for e in graph.edges
     )
     return replace(graph, edges=tuple(edges))
 
 
-def _carrying(part: str, graph: FunctionalGraph) -> list[Hinge | Rail | Slide]:
-    return [e for e in graph.edges if isinstance(e, Hinge | Rail | Slide) and e.child == part]
+def _moves(edge: Edge, parts: Set[str]) -> bool:
+    return isinstance(edge, MotionEdge) and edge.child in parts
+
+
+def _motions_on(part: str, graph: FunctionalGraph) -> list[MotionEdge]:
+    """Returns the motions on a part, and on what moves on it."""
+    found: list[MotionEdge] = []
+    queue = [part]
+    while queue:
+        above = queue.pop(0)
+        direct = [edge for edge in graph.motions if edge.parent == above and graph.carrier_of(edge.child) == above]
+        found += direct
+        queue += [edge.child for edge in direct]
+    return found
 
 
 def with_mounts(completion: GraphCompletion, joints: Mapping[str, JointChoice]) -> GraphCompletion:
     """Returns the completed graph in which parts hang on, or run on, the mounts that were chosen for them."""
     graph = completion.completed
     for part, choice in joints.items():
-        found = _carrying(part, graph)
+        found = graph.motions_of(part)
         if not choice.mount or choice.mount not in graph or choice.mount in {edge.parent for edge in found}:
             continue
         for edge in found[:1]:
@@ -174,6 +181,6 @@ def _request(
     part: Part, choice: MotionChoice, attached: tuple[str, ...], completion: GraphCompletion, asset: Asset
 ) -> JointRequest:
     graph = completion.completed
-    mounts = tuple(edge.parent for edge in _carrying(part.id, graph))
+    mounts = tuple(edge.parent for edge in graph.motions_of(part.id))
     axis = axis_of_motion(part, choice, asset.box)
     return JointRequest(part.id, choice.type, axis, USER, None, mounts, attached)

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 from PIL import Image, ImageDraw, ImageFont
 
-from grafu.graph.edges import Contact, Edge, Hinge, Rail, Slide, ends_of, kind_of
+from grafu.graph.edges import Contact, Edge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import AXIS_NAMES, border_to_face, border_to_signed_axis
 from grafu.render.exposure import displayed
@@ -75,6 +75,7 @@ EDGE_COLORS: dict[EdgeKind, Rgb] = {
     EdgeKind.RAIL: (222, 112, 16),
     EdgeKind.ATTACHED: (190, 24, 44),
     EdgeKind.SLIDE: (142, 84, 168),
+    EdgeKind.TURN: (16, 132, 132),
 }
 """An sRGB colour for each kind of edge."""
 
@@ -199,10 +200,12 @@ def drawing_picture(drawing: GraphDrawing) -> Picture:
     return np.array(image.resize((width, height), Image.Resampling.LANCZOS))
 
 
-def motion_words(graph: FunctionalGraph, edge: Hinge | Rail | Slide) -> str:
+def motion_words(graph: FunctionalGraph, edge: MotionEdge) -> str:
     """Returns how the child moves: `-X about +Z` (the pin lies on the -X side, the axis points up), or `slides -Y`."""
     if isinstance(edge, Rail | Slide):
         return f"slides {AXIS_NAMES[edge.axis]}"
+    if isinstance(edge, Turn):
+        return f"turns about {AXIS_NAMES[edge.axis]}"
     thin = graph.node(edge.child).box.thin_axis
     face = border_to_face(thin, edge.border)
     return f"{AXIS_NAMES[face]} about {AXIS_NAMES[border_to_signed_axis(thin, edge.border, edge.sign)]}"
@@ -227,9 +230,8 @@ def _disc(node: PartNode, place: Point, radius: float, dashed: bool) -> Disc:
 
 def _motions(graph: FunctionalGraph, place_of: dict[str, Point], radius: float, above: bool) -> list[Writing]:
     """Returns one writing for each moving part: above it, or else on the side where its first edge does not run."""
-    first: dict[str, Hinge | Rail | Slide] = {}
-    moves: list[Hinge | Rail | Slide] = [*graph.hinges, *graph.rails, *graph.slides]
-    for edge in moves:
+    first: dict[str, MotionEdge] = {}
+    for edge in sorted(graph.motions, key=lambda edge: list(EDGE_COLORS).index(kind_of(edge))):
         first.setdefault(edge.child, edge)
     size = float(np.clip(0.85 * radius, 7.0, 11.0))
     found = []
