@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from grafu.additions.addition import Addition
+from grafu.additions.step import Addition
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis

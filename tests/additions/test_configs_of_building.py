@@ -19,12 +19,15 @@ from grafu.additions.top.config import (
     SupportConfig,
     TopConfig,
 )
-from grafu.joints.config import HingeConfig, RailConfig, RealizationConfig
+from grafu.joints.config import RealizationConfig
+from grafu.joints.hinge.config import HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.rail.config import BehindConfig, FlankConfig, RailConfig
 
 CONFIGS = (
-    BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig, GraspConfig,
-    GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig,
-    OpeningConfig, OutlineConfig, RailConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, TopConfig,
+    BehindConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig,
+    FlankConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials,
+    HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PivotConfig, RailConfig, RealizationConfig, ReliefConfig,
+    RoomConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -43,7 +46,11 @@ POSITIVE = [
     (HandleConfig, "inset"),
     (HandleConfig, "from_top"),
     (HandleConfig, "least"),
-    (HingeConfig, "plate"),
+    (BehindConfig, "air"),
+    (FlankConfig, "taller"),
+    (HingeConfig, "tongue"),
+    (PivotConfig, "plate"),
+    (SurveyConfig, "even"),
     (InteriorConfig, "touch"),
     (OpeningConfig, "crack"),
     (OutlineConfig, "line"),
@@ -69,7 +76,11 @@ RATIOS = [
     (HandleConfig, "both"),
     (HandleConfig, "central"),
     (HandleConfig, "from_top_ratio"),
+    (BehindConfig, "span"),
+    (FlankConfig, "margin"),
     (HingeConfig, "slim"),
+    (PivotConfig, "met"),
+    (SurveyConfig, "ends"),
     (InteriorConfig, "carried"),
     (OpeningConfig, "least"),
     (OutlineConfig, "carries"),

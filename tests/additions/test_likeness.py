@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from grafu.additions.addition import added_part, free_ids
 from grafu.additions.likeness import surface_like
+from grafu.additions.step import added_part, free_ids
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import vec3

@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from grafu.additions.addition import Addition, added_part
 from grafu.additions.config import AdditionConfig
-from grafu.additions.step import Changes, Request, StepResult
+from grafu.additions.step import Addition, Changes, Request, StepResult, added_part
 from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, Step, run_steps
 from grafu.geometry.appearance import Surface
 from grafu.joints.make_plan import plan_from_annotation

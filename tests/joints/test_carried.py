@@ -9,7 +9,7 @@ from grafu.geometry.box import Box
 from grafu.graph.edges import Contact, Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import face_to_border, sign_for_opening
-from grafu.joints.carried import carried_parts
+from grafu.joints.make_plan import carried_parts
 from grafu.vocabulary import PartLabel
 
 

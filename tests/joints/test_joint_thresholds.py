@@ -1,14 +1,17 @@
 """Thresholds of joints are fields of configurations: the numbers that stand in modules are listed with a reason."""
 
+import inspect
+import sys
 from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
 
-from grafu.joints import config
-from grafu.joints.config import DrawerConfig, HingeConfig, PlanConfig, RailConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
-from module_numbers import explained_fields, named_numbers
+from grafu.joints.hinge.config import HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.rail.config import BehindConfig, DrawerConfig, FlankConfig, RailConfig
+from module_numbers import explained_fields, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
 
@@ -26,29 +29,35 @@ REASONS = {
     "coupled.py": {"_ALIKE": TOLERANCE},
     "hinge/candidates.py": {"MAKESHIFT": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
-    "hinge/pivot.py": {"_SEGMENTS": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
-    "hinge/survey.py": {"_LEVELS": SAMPLES, "_ENDS": SAMPLES, "_START": SAMPLES},
     "limits.py": {"_REST_DENSITY": SAMPLES},
     "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},
     "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
-    "rail/spots.py": {"_GRID": SAMPLES, "_STEPS": SAMPLES, "_LEVELS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
 }
-CONFIGS = (RealizationConfig, HingeConfig, RailConfig, DrawerConfig, PlanConfig, TimeConfig)
+CONFIGS = (
+    BehindConfig, DrawerConfig, FlankConfig, HingeConfig, PivotConfig, PlanConfig, RailConfig, RealizationConfig,
+    SurveyConfig, TimeConfig,
+)  # fmt: skip
+MEASURING = ("hinge/pivot.py", "hinge/survey.py", "rail/spots.py")
 
 
 def test_no_threshold_stands_in_a_module() -> None:
     assert named_numbers(JOINTS) == {name: set(reasons) for name, reasons in REASONS.items()}
 
 
+@pytest.mark.parametrize("name", MEASURING)
+def test_no_threshold_stands_in_a_function_that_measures(name: str) -> None:
+    assert list(floats_in_functions(modules_of(JOINTS)[name])) == []
+
+
 @pytest.mark.parametrize("kind", CONFIGS, ids=lambda kind: kind.__name__)
 def test_every_field_has_a_line_that_explains_it(kind: type) -> None:
-    explained = explained_fields(Path(config.__file__).read_text(), kind.__name__)
+    source = inspect.getsource(sys.modules[kind.__module__])
 
-    assert explained == {field.name for field in fields(kind)}
+    assert explained_fields(source, kind.__name__) == {field.name for field in fields(kind)}
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from grafu.additions.addition import Addition, added_part
+from grafu.additions.step import Addition, added_part
 from grafu.asset.part import Asset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3, vec3

@@ -1,14 +1,15 @@
 """The one shape that every addition has: `(scene, request, config) -> StepResult`. It adds nothing itself."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Literal, final
 
 import numpy as np
 
-from grafu.additions.addition import Addition
 from grafu.additions.grip.carve import Carved
+from grafu.asset.part import Part, PartSource
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.joints.plan import RealizationPlan
@@ -18,6 +19,37 @@ from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
 GraspKind = Literal["handle", "recess", "edge", "none"]
+
+
+@final
+@dataclass(frozen=True)
+class Addition:
+    """A new part at rest in the object frame, why it was added, and in which style (a template's id, an outline).
+
+    `part.rides_on` is the door or drawer that it is fixed to; None: it is static.
+    """
+
+    part: Part
+    why: str
+    style: str = ""
+
+
+def added_part(part_id: str, label: PartLabel, surfaces: Sequence[Surface], rides_on: str | None = None) -> Part:
+    """Returns a part that the input did not have."""
+    return Part(part_id, label, tuple(surfaces), PartSource(""), "added", rides_on)
+
+
+def free_ids(stem: str, count: int, taken: Collection[str]) -> tuple[str, ...]:
+    """Returns `count` ids that no part has: the stem itself if one is enough and it is free, else with numbers."""
+    if count == 1 and stem not in taken:
+        return (stem,)
+    found: list[str] = []
+    number = 1
+    while len(found) < count:
+        if (name := f"{stem}_{number}") not in taken:
+            found.append(name)
+        number += 1
+    return tuple(found)
 
 
 class DeficiencyKind(StrEnum):

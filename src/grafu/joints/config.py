@@ -5,6 +5,8 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
+from grafu.joints.hinge.config import HingeConfig
+from grafu.joints.rail.config import DrawerConfig, RailConfig
 
 
 @final
@@ -58,127 +60,6 @@ class TimeConfig:
     def of_joint(self, left: int) -> float:
         """Returns the fraction of the time left that the first of `left` joints may take."""
         return 1.0 if left <= 1 else min(self.most_of_joint, max(self.least_of_joint, self.hard_joint / left))
-
-
-@final
-@dataclass(frozen=True)
-class DrawerConfig:
-    """What counts as a drawer, as a front without a container, and as a sliding door.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
-    """
-
-    shallow: float = 0.15
-    """What is less deep than this fraction of its smaller side is a front without a container."""
-    thickest_board: float = 0.03
-    """What is less deep than this is a board, however low it is (metres)."""
-    slat: float = 0.1
-    """Depth of such a board, at most this fraction of its longer side: low fronts are thick for their height."""
-    shortest: float = 0.3
-    """A body shorter than this fraction of the drawer's depth is no container (official 7.4)."""
-    flat: float = 0.2
-    """A sliding door is thinner than this fraction of its smaller side, and slides nearly along its plane."""
-    stands_out: float = 1e-3
-    """How far an attached part may stand out and still count as behind a drawer's front side (metres)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, "thickest_board", "stands_out")
-        require_ratios(self, "shallow", "slat", "shortest", "flat")
-
-
-@final
-@dataclass(frozen=True)
-class RailConfig:
-    """Sizes of rails and of the dividers that carry them.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
-    """
-
-    thinnest: float = 0.0025
-    """Thickness below which rails are inset into the flank and the wall by what is missing (metres)."""
-    lowest: float = 0.004
-    """Least height of a rail, where the flank is as high (metres)."""
-    common: float = 0.0127
-    """Thickness of most ball-bearing slides (metres)."""
-    dynamic_reach: float = 0.86
-    """Fraction of a rail's thickness that its moving member takes, from the drawer's side."""
-    most_inset: float = 0.5
-    """Fraction of a rail's thickness that is inset at most: deeper, its static member would cut into the drawer."""
-    divider: float = 0.016
-    """Thickness of a divider where there is room for it (metres)."""
-    thinnest_divider: float = 0.003
-    """Thickness below which a divider carries nothing (metres)."""
-    divider_air: float = 0.001
-    """Distance between a divider and what stands behind it (metres)."""
-    deeper: float = 3.0
-    """A shallow drawer before a space so many times as deep is a front with its pull, not a container (ratio)."""
-    travel: float = 0.77
-    """Fraction of the depth that a drawer travels: what rails over 0.9 of a body travel with a lap of 15 %."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "dynamic_reach", "most_inset", "travel")
-
-
-@final
-@dataclass(frozen=True)
-class HingeConfig:
-    """Sizes of hinges that are not templates, and what is tried where usual ones do not fit.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
-    """
-
-    slim: float = 0.5
-    """Barrel radius of a slim hinge, a fraction of what suits the door."""
-    looser: float = 4.0
-    """Seams and steps for a class that is forced, over the usual ones (ratio): support blocks bridge what remains."""
-    disc_inset: float = 0.0015
-    """How deep a pivot's disc is inset into its own part (metres)."""
-    plate: float = 0.002
-    """Thickness of a plate beside a door's end (metres)."""
-    plate_play: float = 0.001
-    """Distance between the door's end and the plate (metres)."""
-    plate_reach: float = 0.025
-    """How far the plate reaches behind the door's back, and how far inwards the case may stand there (metres)."""
-    two_up_to: float = 0.9
-    """Longest door that hangs on two hinges (metres): cabinet makers put 2 up to 0.9 m, 3 up to 1.5, 4 up to 2.1."""
-    one_more_per: float = 0.6
-    """Length beyond that for each further hinge (metres)."""
-    length_ratio: float = 0.12
-    """Longest hinge, a fraction of its door's length along the axis (official 7.3)."""
-    radius_ratio: float = 0.22
-    """Largest barrel radius, a fraction of the door's thickness."""
-    radius: float = 0.0036
-    """Barrel radius of a common 60 mm butt hinge (metres): none is larger."""
-    smallest: float = 0.001
-    """Smallest barrel radius (metres)."""
-    tongue: float = 0.02
-    """How deep the tongue of an inset leaf reaches into what stands behind the door (metres)."""
-    lap: float = 0.002
-    """How far the tongue overlaps the leaf that it extends (metres)."""
-    inside: float = 0.1
-    """An axis nearer to a side than this fraction of the part runs along its border."""
-    chunky: float = 0.45
-    """A part thicker than this fraction of its width is no door panel."""
-    drawn_reach: float = 0.06
-    """How far from the door's border the barrel of a drawn hinge lies at most (metres on furniture of usual size)."""
-    drawn_line: float = 0.0015
-    """Barrels nearer to one line than this turn about one pin (metres on furniture of usual size)."""
-    drawn_spread: float = 0.3
-    """Fraction of the border's length over which the barrels that carry a door are spread at least."""
-    thinnest_drawn: float = 0.0015
-    """Smallest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
-    thickest_drawn: float = 0.02
-    """Largest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
-    nearly: float = 0.05
-    """A pin that leaves this fraction of the wanted opening blocked is still as good as free."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")
 
 
 @final

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.additions.addition import Addition
+from grafu.additions.step import Addition
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.touching import near_pairs, touching_pairs

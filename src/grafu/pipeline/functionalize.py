@@ -6,9 +6,8 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar, final
 
-from grafu.additions.addition import Addition
 from grafu.additions.config import AdditionConfig
-from grafu.additions.step import StepResult
+from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.motions import ForeignMotions

@@ -13,13 +13,12 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.carcass.bays import Bay, View
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.carcass.missing_panels import MissingPanel, missing_panels, panels_missing
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
-from grafu.additions.step import Deficiency, DeficiencyKind, Request, StepResult
+from grafu.additions.step import Addition, Deficiency, DeficiencyKind, Request, StepResult, added_part, free_ids
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box

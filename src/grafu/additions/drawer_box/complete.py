@@ -11,7 +11,6 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.closed_scene import ClosedScene, closed_part, closed_scene
 from grafu.additions.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
@@ -19,7 +18,16 @@ from grafu.additions.drawer_box.loose import loose_boards
 from grafu.additions.drawer_box.room import Room, find_room
 from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
 from grafu.additions.likeness import surface_like
-from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult
+from grafu.additions.step import (
+    Addition,
+    Changes,
+    Deficiency,
+    DeficiencyKind,
+    Request,
+    StepResult,
+    added_part,
+    free_ids,
+)
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box

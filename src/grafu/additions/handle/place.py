@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import final
 
-from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.fit import HandleObstacles, Shape, fitted, ground_of, handle_obstacles
 from grafu.additions.handle.grasp_config import ReliefConfig
@@ -15,7 +14,7 @@ from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.handle.spots import Extent, Spot, spots_on
 from grafu.additions.handle.style import Sibling, Style, choose_style, named_template, siblings_of
 from grafu.additions.likeness import surface_like
-from grafu.additions.step import Grasp
+from grafu.additions.step import Addition, Grasp, added_part, free_ids
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh

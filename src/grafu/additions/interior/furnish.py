@@ -9,7 +9,6 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.interior.arrangement import (
     Arrangement,
     by_size,
@@ -26,7 +25,7 @@ from grafu.additions.interior.occupied import is_drawer
 from grafu.additions.interior.panels import Clearing, Place, WallRays, clearing_of, cut_panel, moved_to
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
-from grafu.additions.step import PanelHint
+from grafu.additions.step import Addition, PanelHint, added_part, free_ids
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster

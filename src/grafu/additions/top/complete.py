@@ -11,8 +11,8 @@ import shapely
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
-from grafu.additions.addition import Addition, added_part, free_ids
 from grafu.additions.likeness import surface_like
+from grafu.additions.step import Addition, added_part, free_ids
 from grafu.additions.top.config import TopConfig
 from grafu.additions.top.coverage import Coverage, coverage_of
 from grafu.additions.top.cutouts import cutouts_of, thick_enough

@@ -8,8 +8,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, final
 
-from grafu.additions.addition import free_ids
-from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult
+from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult, free_ids
 from grafu.additions.top.complete import TopVerdict, missing_tops
 from grafu.additions.top.config import TopConfig
 from grafu.asset.languages import word_set

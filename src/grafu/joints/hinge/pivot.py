@@ -15,26 +15,23 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, robust_median
-from grafu.joints.config import HingeConfig
 from grafu.joints.hinge.candidates import PinCandidate
+from grafu.joints.hinge.config import PivotConfig
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame
 from grafu.vocabulary import PartLabel
-
-_SEGMENTS = 24  # sides of a disc
-
 
 PivotEnd = tuple[tuple[Visual, ...], tuple[Visual, ...]]
 
 
 def pivot_ends(
-    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, reach: float, config: HingeConfig
+    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, config: PivotConfig
 ) -> list[PivotEnd]:
-    """Returns (static, dynamic) discs at each end of the pin where the door and, within `reach`, the body are met."""
+    """Returns (static, dynamic) discs at each end of the pin where the door and the body near it are met."""
     found: list[PivotEnd] = []
-    casters = RayCaster(door), RayCaster(static)
+    casters, reach = (RayCaster(door), RayCaster(static)), config.reach * frame.length
     for sign in (1.0, -1.0):
-        met = _met_by_rays(frame, pin, casters, sign, reach) or _met_by_corners(
+        met = _met_by_rays(frame, pin, casters, sign, reach, config) or _met_by_corners(
             frame, pin, (door, static), sign, reach, config
         )
         if met is None:
@@ -45,25 +42,29 @@ def pivot_ends(
         gap = sign * (on_body - on_door)
         middle = on_door + sign * min(max(gap, 0.0) / 2, config.disc_inset)
         wide = replace(pin, radius=radius)
-        static_disc = _disc(frame, wide, middle, max(sign * on_body, sign * middle) * sign + sign * config.disc_inset)
-        dynamic_disc = _disc(frame, wide, min(sign * on_door, sign * middle) * sign - sign * config.disc_inset, middle)
+        on_static = max(sign * on_body, sign * middle) * sign + sign * config.disc_inset
+        on_dynamic = min(sign * on_door, sign * middle) * sign - sign * config.disc_inset
+        static_disc = _disc(frame, wide, middle, on_static, config.sides)
+        dynamic_disc = _disc(frame, wide, on_dynamic, middle, config.sides)
         found.append(((_visual("hinge_static", static_disc),), (_visual("hinge_dynamic", dynamic_disc),)))
     return found
 
 
 def _plated_end(
-    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, config: HingeConfig
+    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, config: PivotConfig
 ) -> PivotEnd | None:
     """Returns the discs beside an end of a door where the body has nothing, the static one on a plate.
 
     The plate lies beside the door's end and reaches back along it; a block joins it to what stands behind the door.
     """
     door, static = casters
-    start = np.array([[x, y, sign * (frame.length / 2 + 0.01)] for x, y in _ring(pin)])
-    to_door = robust_median(door.along(frame.to_object(start), frame.direction(0.0, 0.0, -sign)), 0.02, 0.6)
+    outside = frame.length / 2 + config.start
+    start = np.array([[x, y, sign * outside] for x, y in _ring(pin, config)])
+    met = door.along(frame.to_object(start), frame.direction(0.0, 0.0, -sign))
+    to_door = robust_median(met, config.plate_end, config.met)
     if not np.isfinite(to_door):
         return None
-    on_door = frame.length / 2 + 0.01 - to_door
+    on_door = outside - to_door
     inner, outer = on_door + config.plate_play, on_door + config.plate_play + config.plate
     back = -frame.thickness - config.plate_reach
     middle = sign * (on_door + config.plate_play / 2)
@@ -74,37 +75,44 @@ def _plated_end(
         frame.direction(0.0, (pin.y + pin.radius - back) / 2, 0.0),
     )
     foot = Footing(
-        frame.to_object(vec3(pin.x, back + 0.4 * config.plate_reach, sign * inner)[None])[0],
+        frame.to_object(vec3(pin.x, back + config.foot * config.plate_reach, sign * inner)[None])[0],
         frame.direction(0.0, 0.0, -sign),
-        frame.direction(0.9 * pin.radius, 0.0, 0.0),
-        frame.direction(0.0, 0.36 * config.plate_reach, 0.0),
+        frame.direction(config.foot_width * pin.radius, 0.0, 0.0),
+        frame.direction(0.0, config.foot_depth * config.plate_reach, 0.0),
     )
     gap = foot.gap(static, config.plate_reach)
     if not np.isfinite(gap):
         return None
     still = (
-        _visual("hinge_static", _disc(frame, pin, middle, sign * outer)),
+        _visual("hinge_static", _disc(frame, pin, middle, sign * outer, config.sides)),
         block("hinge_plate", plate, config.plate, METAL),
         block("support_hinge", foot, gap, METAL),
     )
-    return still, (_visual("hinge_dynamic", _disc(frame, pin, sign * (on_door - config.disc_inset), middle)),)
+    moving = _disc(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
+    return still, (_visual("hinge_dynamic", moving),)
 
 
 def _met_by_rays(
-    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, reach: float
+    frame: BorderFrame,
+    pin: PinCandidate,
+    casters: tuple[RayCaster, RayCaster],
+    sign: float,
+    reach: float,
+    config: PivotConfig,
 ) -> tuple[float, float, float] | None:
     """Returns the z of the door's end and of the body beyond it on the pin's line, and the pin's radius."""
     door, static = casters
-    outside = frame.length / 2 + 0.01
+    outside = frame.length / 2 + config.start
     direction = frame.direction(0.0, 0.0, sign)
-    ring = np.array(list(_ring(pin)))
+    ring = np.array(list(_ring(pin, config)))
     start = np.column_stack([ring, np.full(len(ring), sign * outside)])
-    to_door = robust_median(door.along(frame.to_object(start), -direction), frame.length, 0.6)
+    to_door = robust_median(door.along(frame.to_object(start), -direction), frame.length, config.met)
     if not np.isfinite(to_door):
         return None
     on_door = sign * (outside - to_door)
-    start[:, 2] = on_door - sign * 0.4 * frame.length
-    to_body = robust_median(static.along(frame.to_object(start), direction), reach + 0.4 * frame.length, 0.6)
+    inside = config.inside * frame.length
+    start[:, 2] = on_door - sign * inside
+    to_body = robust_median(static.along(frame.to_object(start), direction), reach + inside, config.met)
     return (on_door, float(start[0, 2]) + sign * to_body, pin.radius) if np.isfinite(to_body) else None
 
 
@@ -114,16 +122,16 @@ def _met_by_corners(
     meshes: tuple[TriangleMesh, TriangleMesh],
     sign: float,
     reach: float,
-    config: HingeConfig,
+    config: PivotConfig,
 ) -> tuple[float, float, float] | None:
     """Returns the same for tubes and sockets, which rays along the axis pass through: from corners about the pin."""
     corners = [frame.to_border(mesh.vertices) * _upright(sign) for mesh in meshes]
-    for radius in np.array([1.5, 3.0, 5.0, 8.0]) * pin.radius:
+    for radius in np.array(config.tubes) * pin.radius:
         near = [c[np.hypot(c[:, 0] - pin.x, c[:, 1] - pin.y) <= radius, 2] for c in corners]
         if not all(len(heights) for heights in near):
             continue
         on_door = float(near[0].max())
-        beyond = near[1][np.abs(near[1] - on_door) <= max(reach, 0.25 * frame.length)]
+        beyond = near[1][np.abs(near[1] - on_door) <= max(reach, config.tube_reach * frame.length)]
         if len(beyond):
             rim = corners[0][np.abs(corners[0][:, 2] - on_door) <= config.disc_inset]
             wide = np.hypot(rim[:, 0] - pin.x, rim[:, 1] - pin.y)
@@ -137,23 +145,24 @@ def _upright(sign: float) -> np.ndarray:
     return np.array([1.0, 1.0, sign])
 
 
-def _ring(pin: PinCandidate) -> Iterator[tuple[float, float]]:
+def _ring(pin: PinCandidate, config: PivotConfig) -> Iterator[tuple[float, float]]:
     yield pin.x, pin.y
-    for k in range(6):
-        yield pin.x + 0.7 * pin.radius * np.cos(k * np.pi / 3), pin.y + 0.7 * pin.radius * np.sin(k * np.pi / 3)
+    radius = config.ring * pin.radius
+    for angle in 2 * np.pi * np.arange(config.rays) / config.rays:
+        yield pin.x + radius * np.cos(angle), pin.y + radius * np.sin(angle)
 
 
-def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float) -> TriangleMesh:
+def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float, sides: int) -> TriangleMesh:
     """Returns the watertight cylinder about the pin between two heights, in the object frame."""
     low, high = min(start, end), max(start, end)
-    angles = np.arange(_SEGMENTS) * 2 * np.pi / _SEGMENTS
+    angles = np.arange(sides) * 2 * np.pi / sides
     circle = np.column_stack([pin.x + pin.radius * np.cos(angles), pin.y + pin.radius * np.sin(angles)])
-    rings = [np.column_stack([circle, np.full(_SEGMENTS, z)]) for z in (low, high)]
+    rings = [np.column_stack([circle, np.full(sides, z)]) for z in (low, high)]
     vertices = np.vstack([*rings, vec3(pin.x, pin.y, low), vec3(pin.x, pin.y, high)])
-    k, n = np.arange(_SEGMENTS), np.roll(np.arange(_SEGMENTS), -1)
-    bottom, top = np.full(_SEGMENTS, 2 * _SEGMENTS), np.full(_SEGMENTS, 2 * _SEGMENTS + 1)
-    walls = [np.column_stack(c) for c in ((k, n, n + _SEGMENTS), (k, n + _SEGMENTS, k + _SEGMENTS))]
-    caps = [np.column_stack([bottom, n, k]), np.column_stack([top, k + _SEGMENTS, n + _SEGMENTS])]
+    k, n = np.arange(sides), np.roll(np.arange(sides), -1)
+    bottom, top = np.full(sides, 2 * sides), np.full(sides, 2 * sides + 1)
+    walls = [np.column_stack(c) for c in ((k, n, n + sides), (k, n + sides, k + sides))]
+    caps = [np.column_stack([bottom, n, k]), np.column_stack([top, k + sides, n + sides])]
     return TriangleMesh(frame.to_object(vertices), np.vstack([*walls, *caps]))
 
 

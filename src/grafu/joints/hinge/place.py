@@ -136,7 +136,7 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
-    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, 0.2 * search.frame.length, search.config.hinge)
+    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config.hinge.pivot)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
     free = [hinge for hinge in held if not hinge.struck_by]

@@ -24,7 +24,7 @@ from grafu.joints.hinge.candidates import (
     turns_about_itself,
 )
 from grafu.joints.hinge.hardware import Neighbour, neighbours_of
-from grafu.joints.hinge.survey import survey
+from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import (
     all_blockers,
     free_opening,
@@ -154,14 +154,17 @@ class DoorSearch:
     def _ruled_pins(self, tol: Tolerances) -> list[PinCandidate]:
         """Returns the pins of the classes that the surroundings allow; of a forced class, over wider seams at need."""
         forced = self.request.choice.mechanism
-        pins = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * tol.contact), tol)
+        pins = ruled_pins(self.frame, self._survey(tol), tol)
         if forced is None:
             return pins
         looser = self.config.hinge.looser
         wider = replace(tol, contact=looser * tol.contact, flush=looser * tol.flush)
         of_class = [pin for pin in pins if pin.mechanism is forced]
-        more = ruled_pins(self.frame, survey(self.frame, self.static_rays, 4 * wider.contact), wider)
+        more = ruled_pins(self.frame, self._survey(wider), wider)
         return of_class or [pin for pin in more if pin.mechanism is forced]
+
+    def _survey(self, tol: Tolerances) -> BorderSurvey:
+        return survey(self.frame, self.static_rays, 4 * tol.contact, self.config.hinge.survey)
 
     @property
     def _tolerances(self) -> Tolerances:

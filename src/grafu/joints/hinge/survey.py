@@ -10,16 +10,8 @@ import numpy as np
 
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.raycast import RayCaster, robust_median
+from grafu.joints.hinge.config import SurveyConfig
 from grafu.scene.border import BorderFrame
-
-_LEVELS = 7  # heights along the border at which rays are cast
-_ENDS = 0.475  # the outermost heights, a fraction of the border: top and bottom panels may be all there is
-_START = 0.3  # rays start this fraction of the door's thickness inside the door
-
-
-def _median_of(distances: Scalars, reach: float) -> float:
-    """Returns the median of what is met; two of seven heights suffice: a flap may have stiles behind its ends alone."""
-    return robust_median(distances, reach, 2 / _LEVELS - 1e-6)
 
 
 @final
@@ -42,10 +34,10 @@ class BorderSurvey:
     side_face: float
 
 
-def survey(frame: BorderFrame, body: RayCaster, reach: float) -> BorderSurvey:
+def survey(frame: BorderFrame, body: RayCaster, reach: float, config: SurveyConfig) -> BorderSurvey:
     """Returns what rays against the static body find within `reach` metres of the border."""
-    probe = _Probe(frame, body, reach)
-    side_gap = min(probe.side(y) for y in (-0.15, -0.5, -0.85))
+    probe = _Probe(frame, body, reach, config)
+    side_gap = min(probe.side(-depth) for depth in config.beside)
     back_gap, back_width = probe.back()
     return BorderSurvey(
         side_gap=side_gap,
@@ -61,68 +53,72 @@ def survey(frame: BorderFrame, body: RayCaster, reach: float) -> BorderSurvey:
 class _Probe:
     """Casts rows of rays, one per height, from points of the border frame."""
 
-    def __init__(self, frame: BorderFrame, body: RayCaster, reach: float) -> None:
-        self._frame, self._body, self._reach = frame, body, reach
-        self._heights = np.linspace(-_ENDS, _ENDS, _LEVELS) * frame.length
+    def __init__(self, frame: BorderFrame, body: RayCaster, reach: float, config: SurveyConfig) -> None:
+        self._frame, self._body, self._reach, self._config = frame, body, reach, config
+        self._heights = np.linspace(-config.ends, config.ends, config.heights) * frame.length
 
     def row(self, x: float, y: float, dx: float, dy: float) -> Scalars:
         """Returns the distances from (x, y) along the direction (dx, dy), one per height."""
-        points = np.column_stack([np.full(_LEVELS, x), np.full(_LEVELS, y), self._heights])
+        points = np.column_stack([np.full_like(self._heights, x), np.full_like(self._heights, y), self._heights])
         return self._body.along(self._frame.to_object(points), self._frame.direction(dx, dy, 0.0))
+
+    def median_of(self, distances: Scalars, reach: float) -> float:
+        """Returns the median of what is met within `reach`; infinity where too little is."""
+        return robust_median(distances, reach, self._config.met_at / self._config.heights - 1e-6)
 
     def side(self, level: float) -> float:
         """Returns the gap beside the door at a level of its thickness (0 front, -1 back)."""
-        inside = min(_START * self._frame.thickness, 0.25 * self._frame.width)
+        inside = min(self._config.start * self._frame.thickness, self._config.start_width * self._frame.width)
         distances = self.row(inside, level * self._frame.thickness, -1.0, 0.0)
-        return _median_of(distances, self._reach + inside) - inside
+        return self.median_of(distances, self._reach + inside) - inside
 
     def side_top(self, side_gap: float) -> float:
         """Returns the y of the front of what stands beside the door, seen from in front of it."""
         if not np.isfinite(side_gap):
             return float("-inf")
-        tops = [self._height_at(-max(side_gap, 0.0) - step * self._frame.board) for step in (0.1, 0.25, 0.4)]
+        tops = [self._height_at(-max(side_gap, 0.0) - step * self._frame.board) for step in self._config.in_front]
         found = [top for top in tops if np.isfinite(top)]
         return float(np.median(found)) if found else float("-inf")
 
     def _height_at(self, x: float) -> float:
         """Returns the y at which rays from the front meet the static body at an x."""
         start = self._reach
-        distance = _median_of(self.row(x, start, 0.0, -1.0), start + self._frame.board)
+        distance = self.median_of(self.row(x, start, 0.0, -1.0), start + self._frame.board)
         return start - distance
 
     def side_depth(self, side_gap: float) -> float:
         """Returns how deep from the door's front the face beside it reaches."""
         if not np.isfinite(side_gap):
             return 0.0
-        levels = np.linspace(-0.05, -1.5, 12)
+        levels = np.linspace(-self._config.shallowest, -self._config.deepest, self._config.depths)
         gaps = np.array([self.side(level) for level in levels])
-        near = np.abs(gaps - side_gap) < 0.003 * max(1.0, self._frame.width)
+        near = np.abs(gaps - side_gap) < self._config.even * max(1.0, self._frame.width)
         return float(-levels[near].min() * self._frame.board) if near.any() else 0.0
 
     def back(self) -> tuple[float, float]:
         """Returns the smallest gap behind the border and how far inwards the face there reaches."""
-        inside = _START * self._frame.thickness
-        steps = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0]) * self._frame.board
+        inside, on_border = self._config.start * self._frame.thickness, self._config.on_border
+        steps = np.array(self._config.behind) * self._frame.board
         gaps = np.array(
             [
-                _median_of(self.row(x, inside - self._frame.thickness, 0.0, -1.0), self._reach + inside) - inside
+                self.median_of(self.row(x, inside - self._frame.thickness, 0.0, -1.0), self._reach + inside) - inside
                 for x in steps
             ]
         )
-        if not np.isfinite(gaps[:5]).any():
+        if not np.isfinite(gaps[:on_border]).any():
             return self._edge_behind(), self._frame.board
-        gap = float(gaps[:5].min())
-        near = gaps < gap + 0.1 * self._frame.board + 1e-4
+        gap = float(gaps[:on_border].min())
+        near = gaps < gap + self._config.even_behind * self._frame.board + self._config.rounding
         end = int(np.argmin(near)) if not near.all() else len(near)
         return gap, float(steps[max(end - 1, int(np.argmax(near)))])
 
     def _edge_behind(self) -> float:
         """Returns the gap to a panel that stands edge-on behind the border: a sheet has no front to be met by a ray."""
-        for step in (0.02, 0.1, 0.3, 0.6):
+        for step in self._config.edge:
             gap = step * self._frame.board
             start = -self._reach / 2
-            distance = _median_of(self.row(start, -self._frame.thickness - gap, 1.0, 0.0), self._reach)
-            if start + distance <= 3 * self._frame.board:
+            distance = self.median_of(self.row(start, -self._frame.thickness - gap, 1.0, 0.0), self._reach)
+            if start + distance <= self._config.edge_inwards * self._frame.board:
                 return gap
         return float("inf")
 
@@ -131,9 +127,9 @@ class _Probe:
         if not np.isfinite(back_gap):
             return float("-inf")
         faces = []
-        for step in (0.25, 0.6, 1.0):
+        for step in self._config.outside:
             y = -self._frame.thickness - max(back_gap, 0.0) - step * self._frame.board
-            distance = _median_of(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.board)
+            distance = self.median_of(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.board)
             faces.append(distance - self._reach)
         found = [x for x in faces if np.isfinite(x)]
         return float(np.median(found)) if found else float("-inf")

@@ -21,10 +21,10 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, reflection
-from grafu.joints.config import RailConfig
 from grafu.joints.limits import in_the_way, is_free, swept_box
 from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
+from grafu.joints.rail.config import RailConfig
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
 from grafu.joints.report import Placement
@@ -172,7 +172,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     region = search.region
     if region is None:
         return None
-    gaps = flank_gaps(search.frame, region, search.static_rays, 0.25 * search.scene.extent)
+    gaps = flank_gaps(search.frame, region, search.static_rays, 0.25 * search.scene.extent, search.config.rail.flank)
     choice = search.request.choice
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):

@@ -12,7 +12,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
-from grafu.joints.config import DrawerConfig, RealizationConfig
+from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import (
     PoseFunction,
     all_blockers,
@@ -24,6 +24,7 @@ from grafu.joints.limits import (
 )
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_shallow
+from grafu.joints.rail.config import DrawerConfig
 from grafu.joints.rail.spots import front_only_region
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
@@ -80,7 +81,7 @@ class DrawerSearch:
         container = body_region(self.mesh, self.frame, self.config.body_tolerance, self.config.drawer)
         if container is not None and not is_shallow(self.frame, self.config.drawer):
             return container
-        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent, self.config.rail.common)
+        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent, self.config.rail)
         if container is None or (behind is not None and behind.length > self.config.rail.deeper * container.length):
             return behind
         return container

@@ -1,0 +1,164 @@
+"""Sizes of hinges and pivots, and the places around a door's border at which its surroundings are measured."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.geometry.config_checks import require_positive, require_ratios
+
+
+@final
+@dataclass(frozen=True)
+class SurveyConfig:
+    """Where rays are cast around a hinge border, and what of it counts as one face.
+
+    Thickness, width and length are the door's. A board is its thickness, or that of a thin board where it has none.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    heights: int = 7
+    """Number of heights along the border at which rays are cast."""
+    met_at: int = 2
+    """At how many of them a face must be met: a flap may have stiles behind its ends alone."""
+    ends: float = 0.475
+    """Where the outermost heights lie (fraction of the length from the middle): often there are only top and bottom."""
+    start: float = 0.3
+    """How far inside the door rays start (fraction of the thickness)."""
+    start_width: float = 0.25
+    """The same at most, of rays to the side (fraction of the width)."""
+    beside: tuple[float, ...] = (0.15, 0.5, 0.85)
+    """Depths behind the front at which the gap beside the door is measured (fractions of the thickness)."""
+    in_front: tuple[float, ...] = (0.1, 0.25, 0.4)
+    """Distances beyond that gap at which the neighbour's front is measured (in boards)."""
+    shallowest: float = 0.05
+    """Least depth behind the front to which the face beside the door is followed (fraction of the thickness)."""
+    deepest: float = 1.5
+    """Largest depth behind the front to which it is followed (fraction of the thickness)."""
+    depths: int = 12
+    """Number of depths between the two."""
+    even: float = 0.003
+    """Gaps that differ by less are those of one face (metres; of doors wider than 1 m a fraction of the width)."""
+    behind: tuple[float, ...] = (0.05, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
+    """Distances from the border inwards at which the gap behind the door is measured, ascending (in boards)."""
+    on_border: int = 5
+    """The first so many of these distances lie on the border itself."""
+    even_behind: float = 0.1
+    """Gaps behind the door that differ by less than this and `rounding` are those of one face (in boards)."""
+    rounding: float = 1e-4
+    """What is added to that for doors without thickness (metres)."""
+    edge: tuple[float, ...] = (0.02, 0.1, 0.3, 0.6)
+    """Distances behind the door at which a panel that stands edge-on is sought (in boards)."""
+    edge_inwards: float = 3.0
+    """How far from the border inwards the edge of such a panel lies at most (in boards)."""
+    outside: tuple[float, ...] = (0.25, 0.6, 1.0)
+    """Depths in what stands behind the door at which its outer side is measured (in boards)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "ends", "start", "start_width")
+
+
+@final
+@dataclass(frozen=True)
+class PivotConfig:
+    """Sizes of the discs and plates that carry a door at its ends, and where they are sought.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    disc_inset: float = 0.0015
+    """How deep a pivot's disc is inset into its own part (metres)."""
+    sides: int = 24
+    """Number of sides of a disc."""
+    reach: float = 0.2
+    """How far beyond a door's end the static body may stand (fraction of the border's length)."""
+    start: float = 0.01
+    """How far beyond the border's end rays to the door start (metres)."""
+    ring: float = 0.7
+    """Where rays about the pin start (fraction of its radius)."""
+    rays: int = 6
+    """Number of rays about the pin, besides the one on it."""
+    met: float = 0.6
+    """Fraction of these rays that must meet a part."""
+    inside: float = 0.4
+    """How far inside the door's end rays to the static body start (fraction of the border's length)."""
+    tubes: tuple[float, ...] = (1.5, 3.0, 5.0, 8.0)
+    """Radii within which corners of tubes and sockets are sought, which rays pass through (in radii of the pin)."""
+    tube_reach: float = 0.25
+    """How far apart such corners may be along the axis, where `reach` is less (fraction of the border's length)."""
+    plate: float = 0.002
+    """Thickness of a plate beside a door's end (metres)."""
+    plate_play: float = 0.001
+    """Distance between the door's end and the plate (metres)."""
+    plate_reach: float = 0.025
+    """How far the plate reaches behind the door's back, and how far inwards the case may stand there (metres)."""
+    plate_end: float = 0.02
+    """How far from the border's end, outside of which rays start, the door's end may lie (metres)."""
+    foot: float = 0.4
+    """Where the middle of the plate's foot lies, from its rear end (fraction of `plate_reach`)."""
+    foot_depth: float = 0.36
+    """Half the depth of the foot (fraction of `plate_reach`)."""
+    foot_width: float = 0.9
+    """Half the width of the foot (fraction of the pin's radius)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "reach", "ring", "met", "inside", "tube_reach", "foot", "foot_depth", "foot_width")
+
+
+@final
+@dataclass(frozen=True)
+class HingeConfig:
+    """Sizes of hinges that are not templates, what is tried where usual ones do not fit, and where it is measured.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    slim: float = 0.5
+    """Barrel radius of a slim hinge, a fraction of what suits the door."""
+    looser: float = 4.0
+    """Seams and steps for a class that is forced, over the usual ones (ratio): support blocks bridge what remains."""
+    two_up_to: float = 0.9
+    """Longest door that hangs on two hinges (metres): cabinet makers put 2 up to 0.9 m, 3 up to 1.5, 4 up to 2.1."""
+    one_more_per: float = 0.6
+    """Length beyond that for each further hinge (metres)."""
+    length_ratio: float = 0.12
+    """Longest hinge, a fraction of its door's length along the axis (official 7.3)."""
+    radius_ratio: float = 0.22
+    """Largest barrel radius, a fraction of the door's thickness."""
+    radius: float = 0.0036
+    """Barrel radius of a common 60 mm butt hinge (metres): none is larger."""
+    smallest: float = 0.001
+    """Smallest barrel radius (metres)."""
+    tongue: float = 0.02
+    """How deep the tongue of an inset leaf reaches into what stands behind the door (metres)."""
+    lap: float = 0.002
+    """How far the tongue overlaps the leaf that it extends (metres)."""
+    inside: float = 0.1
+    """An axis nearer to a side than this fraction of the part runs along its border."""
+    chunky: float = 0.45
+    """A part thicker than this fraction of its width is no door panel."""
+    drawn_reach: float = 0.06
+    """How far from the door's border the barrel of a drawn hinge lies at most (metres on furniture of usual size)."""
+    drawn_line: float = 0.0015
+    """Barrels nearer to one line than this turn about one pin (metres on furniture of usual size)."""
+    drawn_spread: float = 0.3
+    """Fraction of the border's length over which the barrels that carry a door are spread at least."""
+    thinnest_drawn: float = 0.0015
+    """Smallest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
+    thickest_drawn: float = 0.02
+    """Largest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
+    nearly: float = 0.05
+    """A pin that leaves this fraction of the wanted opening blocked is still as good as free."""
+
+    survey: SurveyConfig = SurveyConfig()
+    """Of what lies around a border."""
+    pivot: PivotConfig = PivotConfig()
+    """Of discs at a door's ends."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "pivot"}))
+        require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")

@@ -1,0 +1,158 @@
+"""What counts as a drawer, sizes of rails, and the places at which the room for them is measured."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.geometry.config_checks import require_positive, require_ratios
+
+
+@final
+@dataclass(frozen=True)
+class DrawerConfig:
+    """What counts as a drawer, as a front without a container, and as a sliding door.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    shallow: float = 0.15
+    """What is less deep than this fraction of its smaller side is a front without a container."""
+    thickest_board: float = 0.03
+    """What is less deep than this is a board, however low it is (metres)."""
+    slat: float = 0.1
+    """Depth of such a board, at most this fraction of its longer side: low fronts are thick for their height."""
+    shortest: float = 0.3
+    """A body shorter than this fraction of the drawer's depth is no container (official 7.4)."""
+    flat: float = 0.2
+    """A sliding door is thinner than this fraction of its smaller side, and slides nearly along its plane."""
+    stands_out: float = 1e-3
+    """How far an attached part may stand out and still count as behind a drawer's front side (metres)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "thickest_board", "stands_out")
+        require_ratios(self, "shallow", "slat", "shortest", "flat")
+
+
+@final
+@dataclass(frozen=True)
+class FlankConfig:
+    """Where the walls beside a drawer's flanks are sought, and where on the flanks rails are tried.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    along: int = 12
+    """Number of rays along a flank."""
+    up: int = 5
+    """Number of rays over its height."""
+    margin: float = 0.05
+    """What is left out at its front and back (fraction of the drawer's length)."""
+    margin_height: float = 0.2
+    """What is left out at its lower and upper edge (fraction of its height)."""
+    inside: float = 0.01
+    """How far inside a flank rays start (metres)."""
+    inside_width: float = 0.2
+    """The same at most, of narrow drawers (fraction of half the width)."""
+    met: float = 0.2
+    """Fraction of the rays that must meet a wall."""
+    narrow: int = 10
+    """The gap to a wall is that which one of so many rays finds at most: a hinge or a screw stands out of it."""
+    ahead: float = 0.02
+    """How far before the drawer its path is looked along, besides `ahead_length` (metres)."""
+    ahead_length: float = 0.1
+    """The same as a fraction of the drawer's length."""
+    highest: float = 0.6
+    """Largest height of a rail (fraction of the flank's)."""
+    slender: float = 4.0
+    """Largest height of a rail over its thickness, besides `taller` (ratio)."""
+    taller: float = 0.01
+    """What its height may be beyond that (metres)."""
+    heights: tuple[float, ...] = (0.5, 0.3, 0.7, 0.15, 0.85)
+    """Where on the flank a rail is tried in turn (fractions of the height from below)."""
+    thinner: tuple[float, ...] = (0.0018, 0.001)
+    """Thicknesses that are tried where not even a rail of the thinnest kind passes (metres)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "margin", "margin_height", "inside_width", "met", "ahead_length", "highest")
+
+
+@final
+@dataclass(frozen=True)
+class BehindConfig:
+    """Where rails may run behind a drawer's front that has no container.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    inset: float = 0.02
+    """How far inside the front's sides the rails stay (fraction of its width)."""
+    start: float = 1e-3
+    """How far behind the front rays start (metres)."""
+    shallow: float = 0.5
+    """A space less deep than this fraction of the front's height holds no drawer."""
+    near: tuple[float, ...] = (0.005, 0.015)
+    """Depths behind the front at which the walls are sought: a face frame leaves the narrowest passage (metres)."""
+    deep: float = 0.4
+    """One more such depth (fraction of the space's)."""
+    narrow: float = 0.1
+    """A space whose half width is less than this fraction of the front's width holds no drawer."""
+    overlap: float = 2e-4
+    """How far the rails reach into the front (metres)."""
+    span: float = 0.3
+    """Where the outermost heights lie at which the depth is measured (fraction of the height, from the middle)."""
+    heights: int = 7
+    """Number of these heights."""
+    as_deep: float = 0.8
+    """What is at least this fraction as deep as the middle belongs to the space."""
+    air: float = 0.01
+    """How far before the space's end the rails end (metres)."""
+    covered: float = 1.5
+    """How far above the front's middle what covers the space may stand (in heights of the front)."""
+    steps: int = 61
+    """Number of depths at which it is sought."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "inset", "shallow", "deep", "narrow", "span", "as_deep")
+
+
+@final
+@dataclass(frozen=True)
+class RailConfig:
+    """Sizes of rails and of the dividers that carry them.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    thinnest: float = 0.0025
+    """Thickness below which rails are inset into the flank and the wall by what is missing (metres)."""
+    lowest: float = 0.004
+    """Least height of a rail, where the flank is as high (metres)."""
+    common: float = 0.0127
+    """Thickness of most ball-bearing slides (metres)."""
+    dynamic_reach: float = 0.86
+    """Fraction of a rail's thickness that its moving member takes, from the drawer's side."""
+    most_inset: float = 0.5
+    """Fraction of a rail's thickness that is inset at most: deeper, its static member would cut into the drawer."""
+    divider: float = 0.016
+    """Thickness of a divider where there is room for it (metres)."""
+    thinnest_divider: float = 0.003
+    """Thickness below which a divider carries nothing (metres)."""
+    divider_air: float = 0.001
+    """Distance between a divider and what stands behind it (metres)."""
+    deeper: float = 3.0
+    """A shallow drawer before a space so many times as deep is a front with its pull, not a container (ratio)."""
+    travel: float = 0.77
+    """Fraction of the depth that a drawer travels: what rails over 0.9 of a body travel with a lap of 15 %."""
+    flank: FlankConfig = FlankConfig()
+    """Of the walls beside a drawer, and of places on its flanks."""
+    behind: BehindConfig = BehindConfig()
+    """Of the space behind a front without a container."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *(set(self.__dataclass_fields__) - {"flank", "behind"}))
+        require_ratios(self, "dynamic_reach", "most_inset", "travel")
