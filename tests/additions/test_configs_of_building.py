@@ -20,8 +20,8 @@ from grafu.additions.top.config import (
     TopConfig,
 )
 from grafu.joints.config import RealizationConfig
-from grafu.joints.hinge.config import HingeConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail.config import BehindConfig, FlankConfig, RailConfig
+from grafu.joints.hinge_config import HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.rail_config import BehindConfig, FlankConfig, RailConfig
 
 CONFIGS = (
     BehindConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig,

@@ -9,8 +9,8 @@ import pytest
 
 from grafu.joints.config import PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge.config import HingeConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail.config import BehindConfig, DrawerConfig, FlankConfig, RailConfig
+from grafu.joints.hinge_config import HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.rail_config import BehindConfig, DrawerConfig, FlankConfig, RailConfig
 from module_numbers import explained_fields, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"

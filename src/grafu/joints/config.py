@@ -5,8 +5,8 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
-from grafu.joints.hinge.config import HingeConfig
-from grafu.joints.rail.config import DrawerConfig, RailConfig
+from grafu.joints.hinge_config import HingeConfig
+from grafu.joints.rail_config import DrawerConfig, RailConfig
 
 
 @final

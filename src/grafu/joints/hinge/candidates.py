@@ -20,8 +20,8 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
-from grafu.joints.hinge.config import HingeConfig
 from grafu.joints.hinge.survey import BorderSurvey
+from grafu.joints.hinge_config import HingeConfig
 from grafu.scene.border import BorderFrame
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel

@@ -19,7 +19,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
-from grafu.joints.hinge.config import HingeConfig
+from grafu.joints.hinge_config import HingeConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
 from grafu.scene.border import BorderFrame, part_axes

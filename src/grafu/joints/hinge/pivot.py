@@ -16,7 +16,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.joints.hinge.candidates import PinCandidate
-from grafu.joints.hinge.config import PivotConfig
+from grafu.joints.hinge_config import PivotConfig
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame
 from grafu.vocabulary import PartLabel

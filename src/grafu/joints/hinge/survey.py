@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.raycast import RayCaster, robust_median
-from grafu.joints.hinge.config import SurveyConfig
+from grafu.joints.hinge_config import SurveyConfig
 from grafu.scene.border import BorderFrame
 
 

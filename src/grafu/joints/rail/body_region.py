@@ -16,7 +16,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.joints.rail.config import DrawerConfig
+from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import SNAP, part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)

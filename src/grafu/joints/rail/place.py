@@ -24,9 +24,9 @@ from grafu.geometry.transform import from_rotation, reflection
 from grafu.joints.limits import in_the_way, is_free, swept_box
 from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
-from grafu.joints.rail.config import RailConfig
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
+from grafu.joints.rail_config import RailConfig
 from grafu.joints.report import Placement
 from grafu.joints.support_block import Footing, block, nearest_part, shortest_bridge
 from grafu.scene.scene import Obstacle

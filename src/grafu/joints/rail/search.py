@@ -24,8 +24,8 @@ from grafu.joints.limits import (
 )
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_shallow
-from grafu.joints.rail.config import DrawerConfig
 from grafu.joints.rail.spots import front_only_region
+from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel

@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
-from grafu.joints.rail.config import BehindConfig, FlankConfig, RailConfig
+from grafu.joints.rail_config import BehindConfig, FlankConfig, RailConfig
 from grafu.templates.template import RailModel, RailSize
 from grafu.vocabulary import MechanismClass
 
