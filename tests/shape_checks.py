@@ -2,27 +2,50 @@
 
 jaxtyping's import hook writes `@jaxtyping.jaxtyped(typechecker=...)` above each of them. Its decorator binds arguments
 by `inspect` at every call and has them checked twice. Here the type checker wraps the function itself, and only a
-signature that names axes gets a context of its own, where one name is one size. What is refused is the same.
+signature that names axes more than once gets a context of its own, where one name is one size. Whether an array fits
+a hint without names is asked once for all arrays of its shape and kind of number. What is refused is the same.
 """
 
 import inspect
+import re
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import is_dataclass
-from functools import partial, wraps
+from functools import cache, partial, wraps
 from typing import Any, get_args, get_type_hints
 
 import jaxtyping
+import numpy as np
 from beartype import BeartypeConf, beartype
 
 typed = beartype(conf=BeartypeConf(violation_type=jaxtyping.TypeCheckError))
 usual = jaxtyping.jaxtyped
 _own_names = usual("context")
 _OWN = "_names_its_own_axes"
+_Hint = type(jaxtyping.AbstractArray)
+fits_as_usual = _Hint.__instancecheck__
+_answers: dict[tuple[Any, ...], bool] = {}
 
 
 def use_in_import_hook() -> None:
     """Lets jaxtyping's import hook decorate with `checked`: for modules that are imported from now on."""
     jaxtyping.jaxtyped = checked
+    _Hint.__instancecheck__ = fits
+
+
+def fits(hint: Any, value: object) -> bool:
+    """Whether a value is an array as the hint states; what is known of an equal shape and kind is not asked again."""
+    if type(value) is not np.ndarray or _has_names(hint):
+        return fits_as_usual(hint, value)
+    asked = hint, value.shape, value.dtype
+    if asked not in _answers:
+        _answers[asked] = fits_as_usual(hint, value)
+    return _answers[asked]
+
+
+@cache
+def _has_names(hint: Any) -> bool:
+    return any(not (axis.isdigit() or axis in ("_", "...")) for axis in hint.dim_str.split())
 
 
 def checked(target: Any = None, *, typechecker: Callable[[Any], Any]) -> Any:
@@ -40,7 +63,7 @@ def checked(target: Any = None, *, typechecker: Callable[[Any], Any]) -> Any:
 
 def _checked_function(function: Callable[..., Any], typechecker: Callable[[Any], Any]) -> Callable[..., Any]:
     stated = function.__annotations__
-    hints = {name: _resolved(hint, function.__globals__) for name, hint in stated.items()}
+    hints = _without_lone_names({name: _resolved(hint, function.__globals__) for name, hint in stated.items()}, function)
     function.__annotations__ = hints
     inner = typechecker(function)
     function.__annotations__ = stated
@@ -58,6 +81,20 @@ def _resolved(hint: Any, names: dict[str, Any]) -> Any:
         return Any
 
 
+def _without_lone_names(hints: dict[str, Any], function: Callable[..., Any]) -> dict[str, Any]:
+    """Returns the hints where an axis that is named once in all of them, and there for one array, may be of any size."""
+    arrays = [one for hint in hints.values() for one in _within(hint) if isinstance(one, _Hint)]
+    named = Counter(name for one in arrays for name in re.findall(r"\w+", one.dim_str))
+    parameters = inspect.signature(function).parameters.values()
+    several = {p.name for p in parameters if p.kind in (p.VAR_POSITIONAL, p.VAR_KEYWORD)}
+
+    def lone(hint: Any) -> Any:
+        axes = ["_" if axis.isidentifier() and named[axis] == 1 else axis for axis in hint.dim_str.split()]
+        return hint.dtype[hint.array_type, " ".join(axes)]
+
+    return {name: lone(h) if isinstance(h, _Hint) and name not in several else h for name, h in hints.items()}
+
+
 def _in_own_names(function: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(function)
     def in_own_names(*args: Any, **kwargs: Any) -> Any:
@@ -70,8 +107,7 @@ def _in_own_names(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _names_axes(hint: Any) -> bool:
-    dims = [one.dim_str for one in _within(hint) if isinstance(one, type(jaxtyping.AbstractArray))]
-    return any(not (axis.isdigit() or axis in ("_", "...")) for dim in dims for axis in dim.split())
+    return any(_has_names(one) for one in _within(hint) if isinstance(one, _Hint))
 
 
 def _within(hint: Any) -> Iterator[Any]:

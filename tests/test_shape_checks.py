@@ -13,7 +13,7 @@ from jaxtyping import Float, Int, TypeCheckError
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import transform_points
-from shape_checks import checked, typed, usual
+from shape_checks import checked, fits, fits_as_usual, typed, usual
 
 Numbers = Float[np.ndarray, " n"]
 
@@ -34,6 +34,14 @@ def listed(values: list[Numbers], among: "Numbers | None" = None) -> tuple[Numbe
     return tuple(values)
 
 
+def lone(rows: Float[np.ndarray, "n 3"], turned: Float[np.ndarray, "2 m"]) -> Float[np.ndarray, " k"]:
+    return rows @ np.ones(3)
+
+
+def several(*rows: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, "_ m"], ...]:
+    return rows
+
+
 def symbolic(values: Numbers) -> Float[np.ndarray, " n+1"]:
     return np.zeros(4)
 
@@ -50,7 +58,7 @@ def early(value: "NotYet") -> "NotYet":  # noqa: F821  # a hint that cannot be r
     return value
 
 
-FUNCTIONS = (fixed, named, counted, listed, symbolic, called, running, early)
+FUNCTIONS = (fixed, named, counted, listed, lone, several, symbolic, called, running, early)
 PAIRS = {f: (checked(f, typechecker=typed), usual(f, typechecker=typed)) for f in FUNCTIONS}
 
 lengths = st.integers(0, 4)
@@ -93,6 +101,23 @@ def test_one_name_is_one_size_within_a_call_alone() -> None:
     assert calls_another(np.zeros(3)).shape == (3,)
     with pytest.raises(TypeCheckError):
         ours(np.zeros(5), np.zeros((4, 3)))
+
+
+HINTS = [kind[np.ndarray, dims] for kind in (Float, Int) for dims in ("3", "_ 3", "", "... 2", "_", "n", "n n", "2 n")]
+
+
+@pytest.mark.parametrize("hint", HINTS)
+@given(values)
+def test_an_array_fits_where_it_fits_for_jaxtyping(hint: type, value: object) -> None:
+    assert [fits(hint, value) for _ in range(2)] == [fits_as_usual(hint, value)] * 2  # also when it is known
+
+
+def test_several_arrays_have_one_size_where_one_hint_names_it() -> None:
+    ours, theirs = PAIRS[several]
+    assert len(ours(np.zeros((2, 3)), np.zeros((2, 3)))) == 2
+    for function in (ours, theirs):
+        with pytest.raises(TypeCheckError):
+            function(np.zeros((2, 3)), np.zeros((4, 3)))
 
 
 @pytest.mark.parametrize("wrong", [np.zeros(2), np.zeros((3, 1)), np.zeros(3, dtype=np.int64), [0.0, 0.0, 0.0]])
