@@ -21,9 +21,14 @@ WITH_TIMES = {"report.json", "report.html"}
 SIMPLER = ("got the mass", "collide as one box", "were not cut back", "near at rest", "no keyframe `open`")
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def made() -> Functionalized:
     return functionalize(make_cabinet(CABINET), MotionSource.ANNOTATION, builtin_gallery())
+
+
+@pytest.fixture(scope="module")
+def plain(made: Functionalized) -> Saved:
+    return saved(made)
 
 
 def saved(made: Functionalized, budget: Budget = UNLIMITED) -> Saved:
@@ -34,21 +39,21 @@ def page_of(found: Saved) -> str:
     return found.files["report.html"].decode()
 
 
-def test_a_budget_that_holds_all_changes_no_byte(made: Functionalized) -> None:
-    plain, found = saved(made), saved(made, Budget.lasting(1e9))
+def test_a_budget_that_holds_all_changes_no_byte(made: Functionalized, plain: Saved) -> None:
+    found = saved(made, Budget.lasting(1e9))
     assert found.files.names == plain.files.names
     assert all(found.files[name] == plain.files[name] for name in plain.files.names if name not in WITH_TIMES)
     assert found.report.notes == plain.report.notes == ()
     assert "<canvas" in page_of(found)
 
 
-def test_when_time_is_up_the_first_format_and_a_page_of_words_are_written(made: Functionalized) -> None:
+def test_when_time_is_up_the_first_format_and_a_page_of_words_are_written(made: Functionalized, plain: Saved) -> None:
     clock = Clock()
     budget = Budget.lasting(1.0, clock=clock)
     clock.now = 2.0
     found = saved(made, budget)
     assert set(found.files.formats) == {"glb"}
-    assert found.files["model.glb"] == saved(made).files["model.glb"]
+    assert found.files["model.glb"] == plain.files["model.glb"]
     assert {"graph.json", "report.json", "report.html"} <= set(found.files.names)
     assert found.report.notes[0] == "left out for lack of time: urdf, mjcf; allow more time"
     assert found.report.notes[1].startswith("report.html has no 3D view and no pictures: it takes more time")
