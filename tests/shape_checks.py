@@ -63,8 +63,8 @@ def checked(target: Any = None, *, typechecker: Callable[[Any], Any]) -> Any:
 
 def _checked_function(function: Callable[..., Any], typechecker: Callable[[Any], Any]) -> Callable[..., Any]:
     stated = function.__annotations__
-    hints = _without_lone_names({name: _resolved(hint, function.__globals__) for name, hint in stated.items()}, function)
-    function.__annotations__ = hints
+    resolved = {name: _resolved(hint, function.__globals__) for name, hint in stated.items()}
+    function.__annotations__ = hints = _without_lone_names(resolved, function)
     inner = typechecker(function)
     function.__annotations__ = stated
     return _in_own_names(inner) if any(map(_names_axes, hints.values())) else inner
@@ -82,7 +82,7 @@ def _resolved(hint: Any, names: dict[str, Any]) -> Any:
 
 
 def _without_lone_names(hints: dict[str, Any], function: Callable[..., Any]) -> dict[str, Any]:
-    """Returns the hints where an axis that is named once in all of them, and there for one array, may be of any size."""
+    """Returns the hints where an axis may be of any size that is named once in all of them, and there for one array."""
     arrays = [one for hint in hints.values() for one in _within(hint) if isinstance(one, _Hint)]
     named = Counter(name for one in arrays for name in re.findall(r"\w+", one.dim_str))
     parameters = inspect.signature(function).parameters.values()

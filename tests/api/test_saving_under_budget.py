@@ -21,14 +21,18 @@ WITH_TIMES = {"report.json", "report.html"}
 SIMPLER = ("got the mass", "collide as one box", "were not cut back", "near at rest", "no keyframe `open`")
 
 
-@pytest.fixture(scope="module")
-def made() -> Functionalized:
+def functionalized() -> Functionalized:
     return functionalize(make_cabinet(CABINET), MotionSource.ANNOTATION, builtin_gallery())
 
 
+@pytest.fixture
+def made() -> Functionalized:
+    return functionalized()  # anew for each test: an object keeps masses and shapes that were worked out in time
+
+
 @pytest.fixture(scope="module")
-def plain(made: Functionalized) -> Saved:
-    return saved(made)
+def plain() -> Saved:
+    return saved(functionalized())
 
 
 def saved(made: Functionalized, budget: Budget = UNLIMITED) -> Saved:
