@@ -3,11 +3,14 @@
 It is written on trimesh's collision manager, apart from the product's own sweep, so that the two check each other.
 """
 
+from functools import lru_cache
+
 import numpy as np
 import trimesh
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Mat4
+from grafu.geometry.mesh import TriangleMesh
 from grafu.vocabulary import JointType
 
 
@@ -19,6 +22,11 @@ def moving_bodies(asset: Asset, part_id: str) -> list[Part]:
     return [p for p in asset.parts if p.id == part_id or p.rides_on == part_id]
 
 
+@lru_cache(maxsize=256)  # a part of furniture is asked for with each of its joints, and whether it is convex takes long
+def solid(mesh: TriangleMesh) -> trimesh.Trimesh:
+    return mesh.to_trimesh()
+
+
 def collisions(asset: Asset, part_id: str, values=None, ignored: frozenset[str] = frozenset()) -> dict[str, float]:
     """Returns the parts hit and the deepest penetration in metres, over joint values (default 12 from 3 % to full)."""
     joint = next(j for j in asset.joints if j.part == part_id)
@@ -27,12 +35,13 @@ def collisions(asset: Asset, part_id: str, values=None, ignored: frozenset[str] 
     still = trimesh.collision.CollisionManager()
     for part in asset.parts:
         if part not in moving and part.id not in ignored:
-            still.add_object(part.id, part.mesh.to_trimesh())
+            still.add_object(part.id, solid(part.mesh))
+    meshes = [solid(part.mesh) for part in moving]
     hit: dict[str, float] = {}
     for value in values:
         motion = joint_motion(joint, float(value))
-        for part in moving:
-            _, contacts = still.in_collision_single(part.mesh.to_trimesh(), transform=motion, return_data=True)
+        for mesh in meshes:
+            _, contacts = still.in_collision_single(mesh, transform=motion, return_data=True)
             for contact in contacts:
                 for name in contact.names - {"__external"}:
                     hit[name] = max(hit.get(name, 0.0), float(contact.depth))

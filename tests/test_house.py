@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tomllib
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,11 @@ def tracked_texts() -> list[tuple[str, str]]:
     return [(name, data.decode()) for name, data in contents if b"\0" not in data]
 
 
+@cache
+def tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text())
+
+
 def python(code: str) -> str:
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
 
@@ -48,7 +54,7 @@ def test_files_stay_under_300_lines() -> None:
 
 
 def test_every_module_says_what_it_does() -> None:
-    assert [p for p in SOURCES if not ast.get_docstring(ast.parse(p.read_text()))] == []
+    assert [p for p in SOURCES if not ast.get_docstring(tree(p))] == []
 
 
 def test_slow_tests_start_first(request: pytest.FixtureRequest) -> None:
@@ -57,7 +63,7 @@ def test_slow_tests_start_first(request: pytest.FixtureRequest) -> None:
 
 
 def functions() -> list[tuple[Path, ast.FunctionDef]]:
-    nodes = ((p, node) for p in SOURCES for node in ast.walk(ast.parse(p.read_text())))
+    nodes = ((p, node) for p in SOURCES for node in ast.walk(tree(p)))
     return [(p, node) for p, node in nodes if isinstance(node, ast.FunctionDef)]
 
 
@@ -105,7 +111,7 @@ def test_no_file_names_a_place_on_one_machine() -> None:
 
 def imported_packages(*, to_train: bool) -> set[str]:
     """Returns what is imported to train, or by all else."""
-    trees = [ast.parse(p.read_text()) for p in SOURCES if (p.relative_to(ROOT).parts[2] in LEARNING) == to_train]
+    trees = [tree(p) for p in SOURCES if (p.relative_to(ROOT).parts[2] in LEARNING) == to_train]
     nodes = [node for tree in trees for node in ast.walk(tree)]
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module and not node.level}

@@ -11,7 +11,7 @@ from grafu.cli.main import main
 from grafu.pipeline.inspection import Inspection
 
 
-def blank_sheet(_: object) -> np.ndarray:
+def blank_sheet(*_: object) -> np.ndarray:
     """Stands in for the rendered sheet, which takes seconds."""
     return np.zeros((2, 2, 4), np.uint8)
 
@@ -54,7 +54,8 @@ def test_a_missing_template_folder_is_one_line(tmp_path: Path, capsys: pytest.Ca
 
 def test_templates_keeps_a_folder_that_is_not_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "diary.txt").write_text("mine")
-    monkeypatch.setattr("grafu.render.gallery.gallery_sheet", blank_sheet)
+    for name in ("gallery_sheet", "handle_sheet"):
+        monkeypatch.setattr(f"grafu.render.gallery.{name}", blank_sheet)
 
     assert main(["templates", "--out", str(tmp_path), "--overwrite"]) == 2
     assert [p.name for p in tmp_path.iterdir()] == ["diary.txt"]
@@ -65,4 +66,4 @@ def test_templates_writes_one_file_each(tmp_path: Path, monkeypatch: pytest.Monk
 
     assert main(["templates", "--out", str(tmp_path / "gallery")]) == 0
     names = {p.name for p in (tmp_path / "gallery").iterdir()}
-    assert {"butt.glb", "centre_mount.glb", "templates.png"} <= names
+    assert {"butt.glb", "centre_mount.glb", "templates.png", "handles.png"} <= names

@@ -4,6 +4,7 @@ import json
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 from obj_inputs import CABINET, write_cabinet
 
@@ -90,7 +91,11 @@ def test_arguments_at_fault_are_shown_escaped(capsys: pytest.CaptureFixture[str]
         assert r"\x1b]0;owned" in heard(capsys)
 
 
-def test_templates_says_where_it_wrote_escaped(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_templates_says_where_it_wrote_escaped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("gallery_sheet", "handle_sheet"):  # they are rendered, which takes seconds
+        monkeypatch.setattr(f"grafu.render.gallery.{name}", lambda *_: np.zeros((2, 2, 4), np.uint8))
     assert main(["templates", "--out", str(tmp_path / HOSTILE)]) == 0
     assert SHOWN in heard(capsys)
 

@@ -66,7 +66,8 @@ def test_a_run_that_was_asked_to_stop_goes_on_to_the_same_end(tmp_path: Path) ->
     assert report.step == 4
     rest = run(little(6), cut, RunOptions(log_every=1, resume=True))
     assert [report.step for report in rest] == [4, 5, 6]
-    assert all(torch.allclose(value, weights(cut)[name], atol=1e-6) for name, value in weights(whole).items())
+    wanted, found = weights(whole), weights(cut)
+    assert all(torch.allclose(value, found[name], atol=1e-6) for name, value in wanted.items())
     assert (whole / VALIDATION).read_text().splitlines()[-1][:9] == (cut / VALIDATION).read_text().splitlines()[-1][:9]
 
 
