@@ -15,7 +15,9 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import realize
+from grafu.pipeline.additions import planned_scene
 from grafu.scene.scale import metre_on
+from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
@@ -43,12 +45,16 @@ def without(asset: Asset, label: PartLabel) -> Asset:
     return replace(asset, parts=tuple(p for p in asset.parts if p.label is not label))
 
 
+def drawn(asset: Asset) -> Scene:
+    return planned_scene(asset, plan_from_annotation(asset))
+
+
 def missing(asset: Asset) -> list[PartLabel]:
-    return [panel.what for panel in missing_panels(asset.parts, plan_from_annotation(asset))]
+    return [panel.what for panel in missing_panels(drawn(asset), plan_from_annotation(asset))]
 
 
 def closed(asset: Asset):
-    return complete_carcass(asset.parts, plan_from_annotation(asset))
+    return complete_carcass(drawn(asset), plan_from_annotation(asset))
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)

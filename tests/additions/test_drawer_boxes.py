@@ -16,7 +16,9 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import realize
+from grafu.pipeline.additions import planned_scene
 from grafu.scene.scale import metre_on
+from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Drawer, DrawerBox, Stack
@@ -35,8 +37,12 @@ def stack(kind: DrawerBox, **sizes) -> Asset:
     return make_cabinet(Cabinet("chest", CASE, layout, **sizes))
 
 
+def drawn(asset: Asset) -> Scene:
+    return planned_scene(asset, plan_from_annotation(asset))
+
+
 def found(asset: Asset):
-    return complete_drawers(asset.parts, plan_from_annotation(asset))
+    return complete_drawers(drawn(asset), plan_from_annotation(asset))
 
 
 def completed(asset: Asset):
@@ -276,7 +282,7 @@ def test_any_scale_gets_a_box_in_proportion(factor):
     T = np.diag([factor, factor, factor, 1.0])
     asset = stack("front only")
     parts = tuple(replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts)
-    made = complete_drawers(parts, plan_from_annotation(asset))
+    made = complete_drawers(drawn(replace(asset, parts=parts)), plan_from_annotation(asset))
     assert len(made.additions) == 8
     widths = {a.part.id: a.part.box.size / factor for a in made.additions}
     assert 0.3 < widths["drawer_1_bottom"][0] < 0.42
@@ -294,14 +300,14 @@ def test_a_front_drawn_ajar_keeps_its_boards_with_it():
     parts = tuple(
         replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) if p.id in moving else p for p in asset.parts
     )
-    ajar = complete_drawers(parts, replace(plan, joints=requests))
+    ajar = complete_drawers(drawn(replace(asset, parts=parts)), replace(plan, joints=requests))
     for one, other in zip(closed.additions, ajar.additions, strict=True):
         np.testing.assert_allclose(other.part.box.low, one.part.box.low + vec3(0.0, -0.1, 0.0), atol=1e-6)
 
 
 def test_the_input_is_only_looked_at_where_nothing_is_to_be_built():
     asset = stack("front only")
-    made = complete_drawers(asset.parts, plan_from_annotation(asset), build=False)
+    made = complete_drawers(drawn(asset), plan_from_annotation(asset), build=False)
     assert [v.missing for v in made.verdicts] == [("side_left", "side_right", "back", "bottom")] * 2
     assert made.additions == ()
 
@@ -312,6 +318,5 @@ def test_drawers_of_tables_are_whole():
 
 
 def test_a_model_without_drawers_lacks_none():
-    assert (
-        complete_drawers((box("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),), plan_from_annotation(scene())).verdicts == ()
-    )
+    body = scene(box("body", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))
+    assert complete_drawers(drawn(body), plan_from_annotation(body)).verdicts == ()

@@ -59,23 +59,28 @@ class ClosedScene:
         return replace(self, scene=self.scene.with_parts(parts))
 
 
-def closed_scene(parts: Iterable[Part], plan: RealizationPlan) -> ClosedScene:
-    """Returns the parts with every moving body of a plan closed; parts without faces are left out."""
-    known = {part.id: part for part in parts if len(part.mesh.faces)}
-    requests = tuple(r for r in plan.joints if r.moving in known)
+def closed_scene(scene: Scene, plan: RealizationPlan) -> ClosedScene:
+    """Returns a scene with every moving body of a plan closed, once for all steps; parts without faces are left out."""
+    return scene.once(_closed, plan.joints)
+
+
+def _closed(scene: Scene, joints: tuple[JointRequest, ...]) -> ClosedScene:
+    known = {part.id: part for part in scene.parts.values() if len(part.mesh.faces)}
+    requests = tuple(r for r in joints if r.moving in known)
     moving_bodies = {
         r.moving: MovingBody(r.moving, (r.moving, *(i for i in r.attached if i in known))) for r in requests
     }
     for request in requests:
-        if request.drawn_at > 0:
-            for member in moving_bodies[request.moving].members:
-                known[member] = closed_part(known[member], request)
+        for member in moving_bodies[request.moving].members:
+            known[member] = closed_part(known[member], request)
     whole = Box.enclosing(part.box for part in known.values())
     return ClosedScene(Scene(known, moving_bodies, float(whole.size.max())), requests)
 
 
 def closed_part(part: Part, request: JointRequest) -> Part:
     """Returns a part that moves with a joint as it stands when the joint is closed."""
+    if request.drawn_at <= 0:
+        return part
     T = request.kind.transform(request.axis, -request.drawn_at)
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 

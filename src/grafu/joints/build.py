@@ -162,7 +162,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     """Returns why nothing was built: nothing to hold it, what blocks it, or the lack of a place for hardware."""
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
-    held_by = [o for o in scene.static_obstacles if not request.holders or o.id in request.holders]
+    held_by = scene.static_obstacles_of(request.holders)
     if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in held_by):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)

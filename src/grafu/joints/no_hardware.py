@@ -179,6 +179,6 @@ def _stays_near(scene: Scene, request: JointRequest, motion: PoseFunction, upper
 def _nearest(scene: Scene, request: JointRequest, near: float) -> str:
     """Returns a part within a distance, in metres, of those that may hold a moving body; a wanted mount first."""
     mesh = scene.moving_mesh(request.moving)
-    may_hold = (o.id for o in scene.static_obstacles if not request.holders or o.id in request.holders)
+    may_hold = (obstacle.id for obstacle in scene.static_obstacles_of(request.holders))
     names = [name for name in may_hold if scene.is_near_static(mesh, near, (name,))]
     return min(names, key=lambda name: (name not in request.mounts, name), default="")

@@ -79,7 +79,7 @@ def shortest_bridge(footings: Iterable[Footing], target: RayCaster, reach: float
 def nearest_part(hardware: Visual, scene: Scene, request: JointRequest) -> str:
     """Returns the id of the static part that hardware sits on, "" where none is near; a wanted mount wins a draw."""
     collider = MeshCollider(hardware.mesh)
-    held_by = [o for o in scene.static_obstacles if not request.holders or o.id in request.holders]
+    held_by = scene.static_obstacles_of(request.holders)
     near = [o for o in held_by if o.collider.box.overlaps(collider.box, 0.1 * scene.extent)]
     ranked = sorted((round(collider.distance(o.collider), 4), o.id not in request.mounts, o.id) for o in near)
     return ranked[0][2] if ranked else ""

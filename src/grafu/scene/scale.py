@@ -1,4 +1,8 @@
-"""The scale of furniture, one answer for all: how long one metre is on it."""
+"""The scale of furniture and the floor that it stands on, one answer for all."""
+
+from collections.abc import Iterable
+
+from grafu.geometry.mesh import TriangleMesh
 
 _COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
 
@@ -13,3 +17,8 @@ def metre_on(extent: float) -> float:
     if extent <= 0:
         return 1.0
     return min(extent / low, 1.0) if extent < high else extent / high
+
+
+def floor_under(meshes: Iterable[TriangleMesh]) -> float:
+    """Returns the height of the floor, metres: z = 0 in the object frame, or less where a mesh reaches below that."""
+    return min([0.0, *(float(mesh.box.low[2]) for mesh in meshes if len(mesh.faces))])

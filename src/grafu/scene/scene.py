@@ -19,7 +19,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, mesh_near
-from grafu.scene.scale import metre_on
+from grafu.scene.scale import floor_under, metre_on
 from grafu.vocabulary import JointType
 
 P = ParamSpec("P")
@@ -99,6 +99,11 @@ class Scene:
         return metre_on(self.extent)
 
     @cached_property
+    def floor(self) -> float:
+        """The height of the floor, metres; see `floor_under`."""
+        return floor_under(part.mesh for part in self.parts.values())
+
+    @cached_property
     def moving_ids(self) -> frozenset[str]:
         """The ids of all parts that move."""
         return frozenset(member for moving in self.moving_bodies.values() for member in moving.members)
@@ -118,9 +123,22 @@ class Scene:
         """One obstacle per installed static piece of hardware."""
         return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for owner, v in self.hardware if not owner)
 
+    @cached_property
+    def still_obstacles(self) -> tuple[Obstacle, ...]:
+        """All that is static: the parts, then the hardware."""
+        return (*self.static_obstacles, *self.static_hardware)
+
+    def static_obstacles_of(self, parts: Collection[str]) -> tuple[Obstacle, ...]:
+        """Returns the obstacles of some static parts alone; of all, where none are named."""
+        return tuple(o for o in self.static_obstacles if o.id in parts) if parts else self.static_obstacles
+
     def hardware_obstacles(self, moving_id: str) -> tuple[Obstacle, ...]:
         """Returns one obstacle per piece of hardware that a moving body carries, at rest: the same whoever asks."""
         return self.once(_hardware_obstacles, moving_id)
+
+    def body_obstacles(self, moving_id: str) -> tuple[Obstacle, ...]:
+        """Returns one obstacle per part of a moving body, then per piece of hardware that it carries, at rest."""
+        return self.once(_body_obstacles, moving_id)
 
     def moving_mesh(self, moving_id: str) -> TriangleMesh:
         """Returns the moving body with all that rides on it, without hardware, as one mesh."""
@@ -156,14 +174,12 @@ class Scene:
 
     def other_bodies(self, moving_id: str) -> tuple[Obstacle, ...]:
         """Returns the other moving bodies as obstacles, at rest, with the hardware that they carry."""
-        others = (other for other in self.moving_bodies if other != moving_id)
-        return tuple(Obstacle(other, MeshCollider(self.equipped_mesh(other))) for other in others)
+        return tuple(self.once(_equipped_obstacle, other) for other in self.moving_bodies if other != moving_id)
 
     def is_near_static(self, mesh: TriangleMesh, within: float, of: Collection[str] = ()) -> bool:
         """Whether a mesh comes within so many metres of a static part (`of`: of one of these)."""
         collider = MeshCollider(mesh)
-        obstacles = (obstacle for obstacle in self.static_obstacles if not of or obstacle.id in of)
-        return any(collider.is_within(within, obstacle.collider) for obstacle in obstacles)
+        return any(collider.is_within(within, obstacle.collider) for obstacle in self.static_obstacles_of(of))
 
     def hardware_of(self, moving_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a moving body."""
@@ -225,3 +241,13 @@ class Scene:
 
 def _hardware_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:
     return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for v in scene.hardware_of(moving_id))
+
+
+def _body_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:
+    parts = (scene.parts[member] for member in scene.moving_bodies[moving_id].members)
+    own = (Obstacle(part.id, MeshCollider(part.mesh)) for part in parts if len(part.mesh.faces))
+    return (*own, *scene.hardware_obstacles(moving_id))
+
+
+def _equipped_obstacle(scene: Scene, moving_id: str) -> Obstacle:
+    return Obstacle(moving_id, MeshCollider(scene.equipped_mesh(moving_id)))

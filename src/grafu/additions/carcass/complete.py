@@ -19,7 +19,6 @@ from grafu.additions.carcass.missing_panels import MissingPanel, missing_panels,
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, Deficiency, DeficiencyKind, Request, StepResult, added_part, free_ids
-from grafu.asset.part import Part
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import meeting, pieces_in
@@ -43,13 +42,14 @@ class BoardRoom:
     body: TriangleMesh
     rays: RayCaster
     moving: np.ndarray
+    floor: float
     config: CarcassConfig
     boards: tuple[Box, ...] = ()
 
     @classmethod
-    def of(cls, still: TriangleMesh, moving: TriangleMesh, config: CarcassConfig) -> "BoardRoom":
+    def of(cls, still: TriangleMesh, moving: TriangleMesh, floor: float, config: CarcassConfig) -> "BoardRoom":
         """Returns the room around a still mesh and a moving one, both in the view."""
-        return cls(still, RayCaster(still), moving.triangles, config)
+        return cls(still, RayCaster(still), moving.triangles, floor, config)
 
     @property
     def box(self) -> Box:
@@ -144,11 +144,10 @@ class CarcassCompletion:
 
 def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | None) -> StepResult:
     """Returns the scene with the backs and bottoms that it lacks; without a config it is only said which."""
-    parts = tuple(scene.parts.values())
     made = (
-        CarcassCompletion(missing_panels(parts, request.plan))
+        CarcassCompletion(missing_panels(scene, request.plan))
         if config is None
-        else complete_carcass(parts, request.plan, config)
+        else complete_carcass(scene, request.plan, config)
     )
     return StepResult(
         scene.with_parts(addition.part for addition in made.additions),
@@ -158,16 +157,14 @@ def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | N
     )
 
 
-def complete_carcass(
-    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = CarcassConfig()
-) -> CarcassCompletion:
+def complete_carcass(scene: Scene, plan: RealizationPlan, config: CarcassConfig = CarcassConfig()) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
-    closed = closed_scene(parts, plan)
+    closed = closed_scene(scene, plan)
     config = config.at_scale(closed.scene.metre)
     missing = panels_missing(closed, config)
     additions: list[Addition] = []
     refused: list[Refusal] = []
-    taken = {part.id for part in parts}
+    taken = set(scene.parts)
     rooms = {id(panel.view): _room(panel.view, closed, config) for panel in {id(k.view): k for k in missing}.values()}
     for group in _groups(missing, closed.scene.extent, config):
         room = rooms[id(group[0].view)]
@@ -242,7 +239,7 @@ def _room(view: View, closed: ClosedScene, config: CarcassConfig) -> BoardRoom:
     moving = [closed.scene.parts[i] for i in sorted(closed.scene.moving_ids)]
     merged = (merge_meshes([p.mesh for p in some]) for some in (closed.scene.static_parts, moving))
     still, moved = (TriangleMesh(view.local(mesh.vertices), mesh.faces) for mesh in merged)
-    return BoardRoom.of(still, moved, config)
+    return BoardRoom.of(still, moved, closed.scene.floor, config)
 
 
 def _backs(bay: Bay, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
@@ -271,11 +268,11 @@ def _bottoms(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Ite
     bay = panel.bay
     width, depth = (float(bay.high[axis] - bay.low[axis]) for axis in (0, 1))
     full = min(config.bottom, config.thickness_ratio * min(width, depth))
-    foot, floor = float(bay.outline[2]), float(room.box.low[2])
+    foot = float(bay.outline[2])
     for thick in (full, 0.4 * full):
         below = foot - min(config.gap, 0.2 * thick) - thick
         for z in (below, foot) if bay.inset else (foot, below):
-            if z < floor - config.touch:
+            if z < room.floor - config.touch:
                 continue
             start, end = float(bay.low[1]), float(bay.high[1])
             spot = vec3(float(bay.low[0] + bay.high[0]) / 2, (start + end) / 2, z + thick / 2)

@@ -5,7 +5,6 @@ part of the height under them, between walls on both sides, is looked at. Whethe
 around pipes, say) cannot be known; it is reported all the same.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -14,9 +13,9 @@ import numpy as np
 from grafu.additions.carcass.bays import Bay, View, find_bays, find_views
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene, closed_scene
-from grafu.asset.part import Part
 from grafu.geometry.arrays import vec3
 from grafu.joints.plan import RealizationPlan
+from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 RAY_GRID = np.linspace(0.12, 0.88, 13)
@@ -40,10 +39,10 @@ class MissingPanel:
 
 
 def missing_panels(
-    parts: Sequence[Part], plan: RealizationPlan, config: CarcassConfig = CarcassConfig()
+    scene: Scene, plan: RealizationPlan, config: CarcassConfig = CarcassConfig()
 ) -> tuple[MissingPanel, ...]:
     """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
-    closed = closed_scene(parts, plan)
+    closed = closed_scene(scene, plan)
     return panels_missing(closed, config.at_scale(closed.scene.metre))
 
 
@@ -54,7 +53,7 @@ def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingP
         bays = [
             bay
             for bay in find_bays(view, closed.scene, closed.requests, config)
-            if bay.walled >= config.walled and _is_carcass(bay, closed.scene.extent, view, config)
+            if bay.walled >= config.walled and _is_carcass(bay, closed.scene, config)
         ]
         for bay in bays:
             covered = _back_covered(view, bay)
@@ -75,13 +74,12 @@ def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: View) -> Mis
     )
 
 
-def _is_carcass(bay: Bay, extent: float, view: View, config: CarcassConfig) -> bool:
+def _is_carcass(bay: Bay, scene: Scene, config: CarcassConfig) -> bool:
     """Whether a bay is that of a body: it has a door, or drawers fill enough of the height down to the floor."""
     if bay.has_door:
         return True
-    floor = float(view.body.low[2])
     filled = float(bay.outline[3] - bay.outline[2])
-    return filled >= config.filled * max(float(bay.outline[3]) - floor, 0.1 * extent)
+    return filled >= config.filled * max(float(bay.outline[3]) - scene.floor, 0.1 * scene.extent)
 
 
 def _back_covered(view: View, bay: Bay) -> float:

@@ -5,7 +5,7 @@ ride on the drawer. They are labelled misc, as the loose boards of drawers are i
 of the case, and none moves on its own.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -28,7 +28,6 @@ from grafu.additions.step import (
     added_part,
     free_ids,
 )
-from grafu.asset.part import Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.cells import pieces_in, spans_of
@@ -62,8 +61,7 @@ class DrawerBoxes:
 
 def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | None) -> StepResult:
     """Returns the scene in which drawers have their boxes; without a config it is only said what they lack."""
-    parts = tuple(scene.parts.values())
-    made = complete_drawers(parts, request.plan, config or DrawerBoxConfig(), build=config is not None)
+    made = complete_drawers(scene, request.plan, config or DrawerBoxConfig(), build=config is not None)
     lacking = [verdict for verdict in made.verdicts if verdict.missing]
     return StepResult(
         scene.with_attached(made.loose).with_parts(addition.part for addition in made.additions),
@@ -75,7 +73,7 @@ def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | N
 
 
 def complete_drawers(
-    parts: Sequence[Part], plan: RealizationPlan, config: DrawerBoxConfig = DrawerBoxConfig(), *, build: bool = True
+    scene: Scene, plan: RealizationPlan, config: DrawerBoxConfig = DrawerBoxConfig(), *, build: bool = True
 ) -> DrawerBoxes:
     """Returns the boards that the drawers of a plan lack, each drawer keeping out of those of the others.
 
@@ -84,13 +82,13 @@ def complete_drawers(
     requests = [r for r in plan.joints if r.kind.slides]
     if not requests:
         return DrawerBoxes()
-    closed = closed_scene(parts, plan)
+    closed = closed_scene(scene, plan)
     config = config.at_scale(closed.scene.metre)
     verdicts: list[BoxVerdict] = []
     additions: list[Addition] = []
     refused: list[Refusal] = []
     loose: list[tuple[str, str]] = []
-    known = {part.id for part in parts}
+    known = set(scene.parts)
     for request in requests:
         if request.moving not in closed.scene.parts:
             continue

@@ -70,7 +70,6 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     moving = scene.moving_bodies[moving_id]
     if moving_id not in scene.joint_motions:
         return _no_grip(moving_id, Reason.NO_MOTION)
-    scale = scene.metre
     frame = grip_frame(scene.parts[moving.id].mesh, front_of(scene, moving_id), config)
     part = front_part(scene, moving_id, frame)
     if part.id != moving_id:
@@ -80,7 +79,7 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     reasons: list[tuple[GripKind, Counter[Reason]]] = []
     for kind in config.kinds:
         met: Counter[Reason] = Counter()
-        for cut in spots(frame, config, kind, scale, spot):
+        for cut in spots(frame, config, kind, scene, spot):
             found = levelled(site, cut, config)
             made = found if isinstance(found, Reason) else _carved(site, found, config)
             if isinstance(made, Carved):

@@ -14,16 +14,18 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import triangle_bounds
 from grafu.geometry.raycast import line_crossings
 from grafu.refusal import Reason
+from grafu.scene.scene import Scene
 
 LINES = (21, 17)
 """Lines along and across a grip that look at the front: near enough for beads and narrow mouldings."""
 
 
-def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wish: Vec3 | None) -> Iterator[Cut]:
+def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scene: Scene, wish: Vec3 | None) -> Iterator[Cut]:
     """Yields grips to try, best first; their levels are not known yet (0). None: the front is too small.
 
     `wish` is a point of the object frame near which the grip is wanted.
     """
+    scale = scene.metre
     margin = _margin(frame, config, scale)
     wanted = config.wanted(kind)
     length = min(wanted.length * scale, config.length_ratio * frame.length)
@@ -43,7 +45,7 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scale: float, wi
             inner = size.width / 2 + margin
             y = edge if kind is GripKind.EDGE else np.clip(y, frame.box.low[1] + inner, frame.box.high[1] - inner)
             yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
-        middle = best_along(frame, scale, config)
+        middle = best_along(frame, scene, config)
         columns = dict.fromkeys(float(np.clip(middle + s * frame.length, low, high)) for s in config.trials.shifts)
         for y, x in product(rows, columns):
             yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
@@ -59,15 +61,15 @@ def _is_too_small(size: GripSize, scale: float, config: GripConfig) -> bool:
     return across < config.finger_thickness * scale - 1e-9 or along < config.finger_width * scale - 1e-9
 
 
-def best_along(frame: GripFrame, scale: float, config: GripConfig) -> float:
+def best_along(frame: GripFrame, scene: Scene, config: GripConfig) -> float:
     """Returns the X at which a front is best gripped: in its middle; tall and high doors where a hand reaches."""
-    low, high = float(frame.box.low[0]), float(frame.box.high[0])
+    scale, low, high = scene.metre, float(frame.box.low[0]), float(frame.box.high[0])
     up = float(frame.rotation[2, 0])
     if abs(up) < 0.9 or frame.length < config.tall * scale:
         return (low + high) / 2
     bottom, top = sorted((low * up, high * up))
     inset = config.end_ratio * (top - bottom)
-    reach = bottom if bottom > config.high * scale else config.reach_height * scale
+    reach = bottom if bottom - scene.floor > config.high * scale else scene.floor + config.reach_height * scale
     return min(max(reach, bottom + inset), top - inset) / up
 
 

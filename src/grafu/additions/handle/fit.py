@@ -108,14 +108,9 @@ def _closed(_: float) -> Mat4:
 
 def handle_obstacles(scene: Scene) -> HandleObstacles:
     """Returns the obstacles to all handles of a scene."""
-    moving = {
-        moving.id: (
-            *(Obstacle(m, MeshCollider(scene.parts[m].mesh)) for m in moving.members if len(scene.parts[m].mesh.faces)),
-            *scene.hardware_obstacles(moving.id),
-        )
-        for moving in scene.moving_bodies.values()
-    }
-    return HandleObstacles(scene, (*scene.static_obstacles, *scene.static_hardware), moving)
+    return HandleObstacles(
+        scene, scene.still_obstacles, {name: scene.body_obstacles(name) for name in scene.moving_bodies}
+    )
 
 
 def _met(body: SweptBody, motion: PoseFunction, upper: float, near: Sequence[Obstacle], poses: int) -> str:

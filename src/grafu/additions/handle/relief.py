@@ -1,7 +1,7 @@
 """What lies before a hand at a front: depth maps of the front and of all that surrounds it at rest, by rays.
 
 The moving body's own handles and what stands before the front (a closed door before a drawer) are left out; its
-hardware and the floor, z = 0, belong to the surroundings.
+hardware and the floor belong to the surroundings.
 """
 
 from collections.abc import Sequence
@@ -36,7 +36,7 @@ class Relief:
 
     `u` and `v` are the cells' middles; `face` is the moving body's first surface (infinite where there is none),
     `first` that of anything (a kilometre). `plane` is where the front's face mainly lies; `factor` what hands are
-    scaled by.
+    scaled by, `floor` the height of the floor in the object frame.
     """
 
     front: Front
@@ -47,6 +47,7 @@ class Relief:
     face: Grid
     first: Grid
     plane: float
+    floor: float
     moving: RayCaster
     others: RayCaster
     config: ReliefConfig
@@ -97,7 +98,7 @@ class Reliefs:
         bodies = [scene.parts[m].mesh for m in body_members(scene, moving_id)]
         others = _others(scene, moving_id, front, self.config.before)
         moving, around = (RayCaster(self._near(meshes, region)) for meshes in (bodies, others))
-        return _looked_at(front, factor, moving, around, self.config)
+        return _looked_at(front, scene, moving, around, self.config)
 
     def _near(self, meshes: Sequence[TriangleMesh], region: Box) -> TriangleMesh:
         """Returns the triangles whose own boxes meet a box of the object frame."""
@@ -117,8 +118,8 @@ class Reliefs:
         return self._extents[id(mesh)][1:]
 
 
-def _looked_at(front: Front, factor: float, moving: RayCaster, others: RayCaster, config: ReliefConfig) -> Relief:
-    area = front.width * front.height
+def _looked_at(front: Front, scene: Scene, moving: RayCaster, others: RayCaster, config: ReliefConfig) -> Relief:
+    area, factor = front.width * front.height, scene.metre
     cell = min(max(sqrt(area / MOST_CELLS), factor * config.cell), factor * config.coarse_cell)
     cell = max(cell, sqrt(area / (4 * MOST_CELLS)))
     u, v = (_cells(side, cell, config.margin * factor) for side in (front.width, front.height))
@@ -127,8 +128,9 @@ def _looked_at(front: Front, factor: float, moving: RayCaster, others: RayCaster
     origins = front.to_object(grid.reshape(-1, 3))
     face = moving.along(origins, front.inwards).reshape(grid.shape[:2]) - lead
     first = np.minimum(others.along(origins, front.inwards).reshape(face.shape) - lead, face)
-    first = np.where(origins[:, 2].reshape(face.shape) < 0.0, -lead, np.minimum(first, UNSEEN))
-    return Relief(front, factor, cell, u, v, face, first, _plane(face, config.plane), moving, others, config)
+    first = np.where(origins[:, 2].reshape(face.shape) < scene.floor, -lead, np.minimum(first, UNSEEN))
+    plane = _plane(face, config.plane)
+    return Relief(front, factor, cell, u, v, face, first, plane, scene.floor, moving, others, config)
 
 
 def _plane(face: Grid, ratio: float) -> float:

@@ -205,9 +205,9 @@ def _usual_height(relief: Relief, tall: float, config: HandleConfig) -> float:
     height = high - low
     if float(front.up[2]) < config.lid or height <= s * config.short:
         return (low + high) / 2
-    floor = float(front.origin[2]) + low  # the door's lower edge above the floor
+    lower_edge = float(front.origin[2]) + low - relief.floor  # above the floor
     end = min(s * config.from_end, config.from_end_ratio * height) + tall / 2
-    wanted = s * config.reach_height - floor
+    wanted = s * config.reach_height - lower_edge
     if height >= s * config.tall:
         end = config.tall_end_ratio * height
         return low + min(max(wanted, end), height - end)

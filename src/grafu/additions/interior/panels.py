@@ -52,7 +52,7 @@ class Clearing:
                 return other.id
         body = SweptBody(mesh, self._depth)
         body.place(np.eye(4))
-        still = [*self._scene.static_obstacles, *self._panels, *self._hardware, *self._at_rest]
+        still = [*self._scene.still_obstacles, *self._panels, *self._at_rest]
         near = in_the_way(still, mesh.box)
         met = body.penetrated([obstacle.collider for obstacle in near])
         if met:
@@ -61,13 +61,8 @@ class Clearing:
         return next((moving for moving in self._scene.joint_motions if self._stops(panel, body, moving)), "")
 
     @cached_property
-    def _hardware(self) -> list[Obstacle]:
-        carried = (self._scene.hardware_obstacles(moving) for moving in self._scene.moving_bodies)
-        return [*self._scene.static_hardware, *(obstacle for some in carried for obstacle in some)]
-
-    @cached_property
     def _at_rest(self) -> list[Obstacle]:
-        return [Obstacle(moving, MeshCollider(self._scene.moving_mesh(moving))) for moving in self._scene.moving_bodies]
+        return [obstacle for moving in self._scene.moving_bodies for obstacle in self._scene.body_obstacles(moving)]
 
     def _stops(self, panel: MeshCollider, body: SweptBody, moving: str) -> bool:
         """Whether a panel stands in the way of a moving body or of the hardware that it carries."""

@@ -11,10 +11,12 @@ from typing import final
 import numpy as np
 from jaxtyping import Float
 
+from grafu.additions.closed_scene import closed_part
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.plan import JointRequest
+from grafu.scene.scale import floor_under
 from grafu.vocabulary import PartLabel
 
 COVERING_LABELS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them
@@ -59,6 +61,11 @@ class Roles:
         meshes = [p.mesh for p in self.still] or [m.mesh for m in self.moving]
         return Box.enclosing(mesh.box for mesh in meshes)
 
+    @cached_property
+    def floor(self) -> float:
+        """The height of the floor, metres."""
+        return floor_under([*(p.mesh for p in self.still), *(mesh for m in self.moving for mesh in m.bodies)])
+
 
 def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest], upright: float) -> Roles | None:
     """Returns the parts by role, moving bodies closed; None where nothing but handles has a face.
@@ -89,10 +96,8 @@ def _labelled(part: Part) -> Closed:
 def _closed(joint: JointRequest, known: dict[str, Part], upright: float) -> Closed:
     """Returns what a joint moves, moved back to where it is closed."""
     members = [known[m] for m in (joint.moving, *joint.attached) if m in known]
-    bodies = [p.mesh for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
-    if joint.drawn_at:
-        T = joint.kind.transform(joint.axis, -joint.drawn_at)
-        bodies = [mesh.transformed(T) for mesh in bodies]
+    own = [p for p in members if p.id == joint.moving or p.label is not PartLabel.HANDLE]
+    bodies = [closed_part(p, joint).mesh for p in own]
     level = abs(float(joint.axis.direction[2])) < upright
     covers = any(p.label in COVERING_LABELS for p in members)
     slides = joint.kind.slides and level and not covers

@@ -131,7 +131,7 @@ def views_of(roles: Roles, front: float) -> Views:
     wall = np.maximum(cover, sliding)
     stands = np.isfinite(still if roles.still else wall)
     near = ndimage.binary_dilation(_between(stands), iterations=grid.cells(front))
-    return Views(grid, still, cover, wall, _between(stands) | (near & np.isfinite(wall)), float(roles.box.low[2]))
+    return Views(grid, still, cover, wall, _between(stands) | (near & np.isfinite(wall)), roles.floor)
 
 
 def _between(stands: CellMask) -> CellMask:

@@ -253,7 +253,7 @@ def door_search(
         config,
         border_frame(part.mesh, request.axis),
         scene.swept_body(request.moving, config.depth * scene.extent, part_axes(part.mesh)),
-        tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored),
+        tuple(o for o in scene.still_obstacles if o.id not in ignored),
         scene.other_bodies(request.moving),
         max(wanted, radians(30)),
     )

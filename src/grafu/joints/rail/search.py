@@ -148,5 +148,5 @@ def drawer_search(
     if frame is None:
         return None
     body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))
-    obstacles = tuple(o for o in scene.static_obstacles + scene.static_hardware if o.id not in ignored)
+    obstacles = tuple(o for o in scene.still_obstacles if o.id not in ignored)
     return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_bodies(request.moving))
