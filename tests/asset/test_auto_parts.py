@@ -13,7 +13,8 @@ from grafu.asset.part import IDENTITY_FRAME, Part, PartSource
 from grafu.asset.reading import Convention, Reading
 from grafu.errors import UnsegmentedAsset
 from grafu.geometry.appearance import Material, Surface
-from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.vocabulary import PartLabel
 from small_assets import CABINET, DOOR, DRAWER, mesh_of, write_grouped_obj, write_obj_folder, write_pnm
 
@@ -177,3 +178,33 @@ def test_handles_of_fronts_that_were_cut_are_split_between_them(tmp_path):
 
     parts = {part.id: part for part in found.parts}
     assert {part.rides_on for part in parts.values() if part.label is PartLabel.HANDLE} >= {"fridge_front"}
+
+
+def test_objects_without_names_that_are_one_drawer_are_joined(tmp_path):
+    """The boards of a drawer in a GLB, each an object called `Cube`; with names that tell, nothing is joined."""
+    boards = {
+        "left": ((-0.37, -0.18, 0.65), (-0.36, 0.15, 0.90)),
+        "right": ((0.36, -0.18, 0.65), (0.37, 0.15, 0.90)),
+        "back": ((-0.36, 0.14, 0.65), (0.36, 0.15, 0.90)),
+    }
+    meshes = [
+        *(mesh_of(n) for n in CABINET),
+        *(TriangleMesh.box_mesh(Box(np.array(a), np.array(b))) for a, b in boards.values()),
+    ]
+
+    def read(names, **options):
+        scene = trimesh.Scene()
+        for name, mesh in zip(names, meshes, strict=True):
+            scene.add_geometry(mesh.to_trimesh(), node_name=name, geom_name=name)
+        scene.export(tmp_path / "cabinet.glb")
+        return load_asset(tmp_path / "cabinet.glb", replace(AUTO, **options))
+
+    nameless = [f"Cube.{k:03}" for k in range(len(meshes))]
+    found = read(nameless)
+    front = next(p for p in found.parts if p.source.name == "Cube.008")
+
+    assert front.box.size[1] == pytest.approx(0.35)
+    assert len(found.parts) == len(meshes) - 4
+    assert any("joined to Cube.008" in note for note in found.notes)
+    assert len(read(nameless, parts="input").parts) == len(meshes)
+    assert len(read([*CABINET, *(f"side_panel_{name}" for name in boards)]).parts) == len(CABINET) - 1 + len(boards)

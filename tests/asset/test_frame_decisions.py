@@ -5,12 +5,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from grafu.asset.attached_parts import with_attached
 from grafu.asset.edit import as_static_object, yawed
 from grafu.asset.frame import decide_front, front_votes, settle_frame, up_from_parts, vector, whole_box
 from grafu.asset.load import load_asset
 from grafu.asset.options import DIRECTIONS, LoadOptions
 from grafu.asset.part import Asset
+from grafu.asset.pieces import with_attached
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
 from grafu.errors import AssetError

@@ -191,3 +191,41 @@ def test_a_flap_with_nothing_but_stiles_behind_its_ends_hangs_on_them():
     outcome = installed(realized(make_cabinet(Cabinet(case=case, layout=layout))))["door"]
     assert outcome.opening >= radians(90)
     assert outcome.collision_share == 0
+
+
+UPRIGHT = box("door", (0.0, -0.02, 0.1), (0.4, 0.0, 0.5))
+LEVEL = box("door", (0.0, -0.4, 0.5), (0.4, 0.0, 0.52))
+X = vec3(1.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("leaf", "axis", "held_by", "degrees"),
+    [
+        (UPRIGHT, Axis(vec3(0.0, -0.02, 0.1), X), box("sill", (0.0, -0.02, 0.0), (0.4, 0.4, 0.1)), 90),
+        (UPRIGHT, Axis(vec3(0.0, -0.02, 0.5), -X), box("top", (0.0, 0.0, 0.5), (0.4, 0.4, 0.6)), 90),
+        (LEVEL, Axis(vec3(0.0, 0.0, 0.52), -X), box("top", (0.0, 0.0, 0.4), (0.4, 0.4, 0.52)), 95),
+    ],
+    ids=["a flap that drops", "a flap that lifts", "a lid"],
+)
+def test_flaps_stop_level_and_lids_past_upright(leaf, axis, held_by, degrees):
+    """However far the input states that they open; a chosen opening wins."""
+    asset = scene(leaf, held_by, joints=(hinged(axis=axis, upper=radians(170)),))
+    outcome = installed(realized(asset))["door"]
+
+    assert np.degrees(outcome.opening) == pytest.approx(degrees, abs=1.0)
+    assert not outcome.restricted
+
+
+def test_nothing_swings_below_the_floor():
+    """The handle of a flap whose lower edge is at the floor meets it before the flap is level."""
+    leaf = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.4))
+    handle = box("handle", (0.15, -0.06, 0.3), (0.25, -0.02, 0.32), rides_on="door")
+    case = box("bottom", (0.0, 0.0, 0.0), (0.4, 0.4, 0.02))
+    axis = Axis(vec3(0.0, -0.02, 0.0), X)
+    openings = [
+        np.degrees(installed(realized(scene(*parts, joints=(hinged(axis=axis),))))["door"].opening)
+        for parts in ((leaf, case), (leaf, case, handle))
+    ]
+
+    assert openings[0] > 88
+    assert openings[1] == pytest.approx(90 - np.degrees(np.arctan2(0.04, 0.32)), abs=3.0)

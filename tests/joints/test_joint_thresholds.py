@@ -30,7 +30,7 @@ REASONS = {
     "hinge/candidates.py": {"MAKESHIFT": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
-    "limits.py": {"_REST_DENSITY": SAMPLES},
+    "limits.py": {"_REST_DENSITY": SAMPLES, "_DIP": TOLERANCE},
     "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},
     "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},

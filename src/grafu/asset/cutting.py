@@ -14,10 +14,12 @@ from grafu.asset.labels import is_appliance, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
+from grafu.asset.pieces import in_words, with_pieces
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.geometry.arrays import Indices, Mat4
 from grafu.segmentation.division import Piece, divided
+from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
 
 _DOOR_HEIGHT = 0.5  # of its width: how high the door of an appliance is at least
@@ -52,6 +54,29 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> R
         for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+
+
+def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
+    """Returns the reading with objects joined that no name tells and that are one door, drawer or handle; with notes.
+
+    Args:
+        reading: what was read.
+        frame: how it stands; its unit does not matter.
+    """
+    if not reading.parts or _is_divided(reading):
+        return reading
+    T = _turn(frame)
+    nameless = [part.label is PartLabel.UNKNOWN and part.rides_on is None for part in reading.parts]
+    if sum(nameless) < 2:
+        return reading
+    groups = joined_objects([part.mesh.transformed(T) for part in reading.parts], nameless)
+    joined = {k: group[0] for group in groups for k in group[1:]}
+    members = {group[0]: [reading.parts[k] for k in group[1:]] for group in groups}
+    ids = {reading.parts[k].id: reading.parts[host].id for k, host in joined.items()}
+    kept = [k for k in range(len(reading.parts)) if k not in joined]
+    parts = tuple(with_pieces(reading.parts[k], members.get(k, []), ids) for k in kept)
+    notes = (f"{in_words(found)} joined to {reading.parts[k].source.name}" for k, found in members.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes))
 
 

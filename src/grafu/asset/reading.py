@@ -9,8 +9,8 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.asset.attached_parts import with_attached
 from grafu.asset.part import Annotation, AssetKind, Frame, Part, moved_joints
+from grafu.asset.pieces import with_attached
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mask
 from grafu.geometry.mesh import TriangleMesh

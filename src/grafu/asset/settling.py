@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from grafu.asset.cutting import cut_where_fronts_appear
+from grafu.asset.cutting import cut_where_fronts_appear, joined_where_nameless
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
@@ -48,7 +48,9 @@ def settled(
     if reading.parts:
         reading = _plausible(reading)
     if options.parts == "auto" and reading.parts:
-        reading = _with_split_handles(cut_where_fronts_appear(reading, settle_frame(reading, options, file), name))
+        stands = settle_frame(reading, options, file)
+        reading = joined_where_nameless(cut_where_fronts_appear(reading, stands, name), stands)
+        reading = _with_split_handles(reading)
     reading = replace(reading, parts=with_control_panels(reading.parts))
     _check_parts(reading, path, options)
     reading = _without_labels(reading) if options.labels == "none" else reading

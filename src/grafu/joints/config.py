@@ -85,6 +85,12 @@ class RealizationConfig:
     """Longest block (extent) that bridges the gap to a chosen mount: what stands farther off does not carry it."""
     door_opening: float = radians(110)
     """How far a door may open at most; real butt hinges stop the leaf at about 110 degrees."""
+    lid_opening: float = radians(95)
+    """How far a level lid may open at most: past upright, so that it stays open."""
+    level_axis: float = 0.5
+    """Largest vertical part of an axis's direction at which it counts as level."""
+    upright: float = 0.7
+    """Least vertical part of a leaf's direction, from its axis to its far side, at which it is a flap, and no lid."""
     restricted: float = 0.7
     """An opening below this fraction of the reference is reported as restricted (design, section 5)."""
     trim: bool = True
@@ -139,10 +145,12 @@ class RealizationConfig:
         require_positive(
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
-        require_positive(self, "no_hardware_gap", "carved_faces")
+        require_positive(self, "lid_opening", "no_hardware_gap", "carved_faces")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
             self,
+            "level_axis",
+            "upright",
             "restricted",
             "max_trim",
             "max_carve",

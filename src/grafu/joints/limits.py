@@ -9,11 +9,14 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.arrays import Mat4, Scalars, frozen_array
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import transform_points
 from grafu.scene.scene import Obstacle
 
+_DIP = 1e-6  # metres below the floor that rounding alone makes
 _REST_DENSITY = 1.5  # exponent that brings the poses of a sweep closer together near rest
 
 PoseFunction = Callable[[float], Mat4]
@@ -99,18 +102,39 @@ def widest_free(
 
     A collision at rest does not count: it cannot be avoided by opening less.
     """
-    values = opening_values(reach, poses)
-    for before, after in pairwise(values):
-        if not _blockers(body, motion(after), obstacles):
+    return _before_first(lambda value: bool(_blockers(body, motion(value), obstacles)), reach, poses)
+
+
+def _before_first(is_blocked: Callable[[float], bool], reach: float, poses: int) -> float:
+    """Returns the widest opening before the first pose after rest that is blocked."""
+    for before, after in pairwise(opening_values(reach, poses)):
+        if not is_blocked(after):
             continue
         for _ in range(6):
             middle = (before + after) / 2
-            if not _blockers(body, motion(middle), obstacles):
-                before = middle
-            else:
+            if is_blocked(middle):
                 after = middle
+            else:
+                before = middle
         return float(before)
     return float(reach)
+
+
+def widest_above(mesh: TriangleMesh, axis: Axis, reach: float, floor: float, poses: int) -> float:
+    """Returns the widest opening in [0, reach] before a mesh that turns about an axis dips below the height `floor`.
+
+    What lies lower at rest may stay as low. The last step is refined by bisection, as in `widest_free`.
+    """
+    from_axis = mesh.vertices - axis.point
+    along = float(axis.direction[2]) * (from_axis @ axis.direction)
+    ahead = np.cross(axis.direction, from_axis)[:, 2]
+    beside = from_axis[:, 2] - along
+    allowed = min(floor, float(mesh.vertices[:, 2].min())) - float(axis.point[2])
+
+    def dips(value: float) -> bool:
+        return float((along + np.cos(value) * beside + np.sin(value) * ahead).min()) < allowed - _DIP
+
+    return _before_first(dips, reach, poses)
 
 
 def _blockers(body: SweptBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:

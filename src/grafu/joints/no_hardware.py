@@ -126,7 +126,7 @@ def door_without_hardware(search: DoorSearch) -> Placement | None:
 
 
 def _about(axis: Axis, search: DoorSearch) -> Placement | None:
-    upper = search.widest(axis, search.config.door_opening)
+    upper = search.widest(axis, search.most)
     in_way = search.bodies_in_the_way(axis, upper)
     if in_way or upper < search.config.restricted * search.wanted:
         return None

@@ -4,7 +4,8 @@ A front is a plate with a rectangular outline that little stands before and that
 as one body between two walls. It asks no names.
 
 Two parallel bars of one length with two bars across between their ends are a frame. With panels in it, that touch it or
-reach into it and are set back, they are one front; inset fronts leave a gap to their face frame.
+reach into it and are set back, and with the muntins that part these, they are one front; inset fronts leave a gap to
+their face frame.
 """
 
 from collections.abc import Iterator
@@ -177,7 +178,8 @@ def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config
     first, second = pair
     across: Final = 1 - along
     low, high, same = view.low, view.high, config.same * extent
-    groove = config.groove * view.size[first, across]
+    bar = float(view.size[first, across])
+    groove = config.groove * bar
     left, right = high[first, across], low[second, across]
     between = (low[:, across] >= left - groove - same) & (high[:, across] <= right + groove + same)
     inside = (low[:, along] >= low[first, along] - same) & (high[:, along] <= high[first, along] + same)
@@ -190,18 +192,20 @@ def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config
     if not ((low_ends & rails).any() and (high_ends & rails).any()):
         return ()
     opening = high[low_ends & rails, along].min(), low[high_ends & rails, along].max()
-    panels = within & ~rails
-    panels[[first, second]] = False
-    if not panels.any() or not _is_set_back(view, panels, first, config):
+    filling = within & ~rails
+    filling[[first, second]] = False
+    muntins = filling & ~_is_set_back(view, first, config) & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
+    panels = filling & ~muntins
+    if not panels.any() or not _is_set_back(view, first, config)[panels].all():
         return ()
-    if not _fits(view, panels, pair, along, opening, config.gap * extent, config.filled):
+    if not _fits(view, filling, pair, along, opening, config.gap * extent, config.filled):
         return ()
-    return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(panels).tolist())
+    return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(filling).tolist())
 
 
-def _is_set_back(view: View, panels: MaskOfShells, bar: int, config: FrameConfig) -> bool:
-    """Whether panels lie behind the face of a frame."""
-    return bool(view.high[panels, 2].max() < view.high[bar, 2] - config.set_back * view.size[bar, 2])
+def _is_set_back(view: View, bar: int, config: FrameConfig) -> MaskOfShells:
+    """Whether each shell lies behind the face of a frame."""
+    return np.asarray(view.high[:, 2] < view.high[bar, 2] - config.set_back * view.size[bar, 2])
 
 
 def _fits(

@@ -76,6 +76,8 @@ class FrameConfig:
     """How far others reach into a bar (of its width)."""
     filled: float = 0.5
     """What the panels of a frame cover (of its inside)."""
+    muntin: float = 1.5
+    """How wide a bar that parts panels is at most (of the width of the frame's bars)."""
     set_back: float = 0.02
     """How far behind the face of a frame its panels lie at least (of its thickness)."""
 
@@ -181,6 +183,24 @@ class DivisionConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
+class JoiningConfig:
+    """Which objects without a name are one front or handle.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    touch: float = 0.002
+    """As near as this, two objects touch (of the whole's largest side)."""
+    edging: float = 0.1
+    """How far behind a front the edging of what it closes ends at most (of the front's largest side)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class SegmentationConfig:
     """The thresholds of all steps."""
 
@@ -192,6 +212,8 @@ class SegmentationConfig:
     """Of whole fronts."""
     division: DivisionConfig = DivisionConfig()
     """Of objects that hide fronts."""
+    joining: JoiningConfig = JoiningConfig()
+    """Of objects that are one front."""
 
 
 @final

@@ -126,7 +126,7 @@ def _from_the_best_side(
     handled: dict[int, FrontShells] = {}
     most = 0.0
     for turn in range(4):
-        view = view_of(shells.mesh, shells.shell, shells.owner, _axes(turn))
+        view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(turn))
         found = _by_owner(view, may, whole, config)
         if turn == 0 and found.clear:
             return found
@@ -138,7 +138,7 @@ def _from_the_best_side(
     return chosen if chosen.hidden else _Found({}, handled)
 
 
-def _axes(turn: int) -> Mat3:
+def axes_from(turn: int) -> Mat3:
     """Returns a viewer's axes: from -Y, +X, +Y or -X."""
     toward = np.round([np.sin(turn * np.pi / 2), -np.cos(turn * np.pi / 2), 0.0])
     return np.stack([np.cross(_Z, toward), _Z, toward])

@@ -151,8 +151,14 @@ class _FrontFinder:
         view, near, config = self._view, float(self._near[plate]), self._config
         nothing = np.zeros(len(inside), dtype=bool)
         size, whole = view.size, view.size[plate]
-        behind = inside & (view.high[:, 2] <= view.high[plate, 2] + near) & (size[:, 2] > near)
-        upright = behind & (size[:, 0] <= config.side_width * whole[0]) & (size[:, 1] >= config.side_height * whole[1])
+        behind = inside & (view.high[:, 2] <= view.high[plate, 2] + near)
+        thick = size[:, 2] > near
+        upright = (
+            behind
+            & thick
+            & (size[:, 0] <= config.side_width * whole[0])
+            & (size[:, 1] >= config.side_height * whole[1])
+        )
         upright &= (size[:, 2] >= config.side_depth * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
         middle = (view.low[plate, 0] + view.high[plate, 0]) / 2
         left, right = upright & (view.high[:, 0] < middle), upright & (view.low[:, 0] > middle)
@@ -160,6 +166,8 @@ class _FrontFinder:
             return nothing
         ends = view.low[left, 0].min() - near, view.high[right, 0].max() + near
         box = behind & (view.low[:, 0] >= ends[0]) & (view.high[:, 0] <= ends[1])
+        sides_end = float(view.low[left | right, 2].min())
+        box &= thick | ((view.high[:, 2] < view.low[plate, 2] - near) & (view.low[:, 2] >= sides_end - near / 2))
         lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
         top = float(view.high[left | right, 1].max())
         lid = lies & (view.high[:, 1] >= top - near) & (size[:, 0] >= config.lid * whole[0])

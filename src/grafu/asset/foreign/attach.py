@@ -6,10 +6,10 @@ What the input itself states about its motions is not read. Realization cannot t
 from dataclasses import replace
 
 from grafu.articulation.motion_kind import motion_kind
-from grafu.asset.attached_parts import with_attached
 from grafu.asset.foreign.matching import Match, covered_parts, match_parts
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions
 from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.asset.pieces import with_attached
 from grafu.vocabulary import PartLabel
 
 

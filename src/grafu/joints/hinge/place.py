@@ -120,7 +120,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, coun
         size = hinge_size(model, search.frame, judged.pin, count, search.config.hinge, choice.scale)
         if size is None or not choice.takes(model.id):
             continue
-        upper = search.widest(judged.axis, min(model.build(size).range, search.config.door_opening))
+        upper = search.widest(judged.axis, min(model.build(size).range, search.most))
         if upper < search.config.least_opening * search.wanted:
             return
         attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
@@ -131,7 +131,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, coun
 
 def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     """Yields the placement on discs at the door's ends; none where neither end meets the static body."""
-    upper = search.widest(judged.axis, search.config.door_opening)
+    upper = search.widest(judged.axis, search.most)
     if upper < search.config.least_opening * search.wanted:
         return
     site = _site(judged, upper, search)

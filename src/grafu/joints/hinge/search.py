@@ -3,8 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import radians
+from math import atan2, pi, radians
 from typing import final
+
+import numpy as np
 
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -31,6 +33,7 @@ from grafu.joints.limits import (
     in_the_way,
     sweep,
     swept_box,
+    widest_above,
     widest_free,
 )
 from grafu.joints.plan import PIVOT, JointRequest
@@ -58,7 +61,7 @@ class JudgedPin:
 @final
 @dataclass(frozen=True, eq=False)
 class DoorSearch:
-    """What one door may hit, and how far it is wanted to open (radians)."""
+    """What one door may hit, how far it is wanted to open, and how far it opens at most (radians)."""
 
     request: JointRequest
     scene: Scene
@@ -68,6 +71,7 @@ class DoorSearch:
     obstacles: tuple[Obstacle, ...]
     neighbours: tuple[Obstacle, ...]
     wanted: float
+    most: float
 
     @property
     def depth(self) -> float:
@@ -215,10 +219,17 @@ class DoorSearch:
         return sweep(self.body, self.best().axis.rotation, 0.0, self.obstacles, 1).blockers
 
     def widest(self, axis: Axis, reach: float) -> float:
-        """Returns the widest opening about an axis, at most `reach`, that is free of the static body."""
-        motion = axis.rotation
+        """Returns the widest opening about an axis, at most `reach`, that is free of the static body and the floor."""
+        motion, reach = axis.rotation, self._above_floor(axis, reach)
         near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
         return widest_free(self.body, motion, reach, near, self.config.fine_poses)
+
+    def _above_floor(self, axis: Axis, reach: float) -> float:
+        """Returns the widest opening at which nothing of the door is below the floor; upright axes keep its height."""
+        if abs(float(axis.direction[2])) > self.config.level_axis:
+            return reach
+        mesh = self.scene.moving_mesh(self.request.moving)
+        return widest_above(mesh, axis, reach, self.scene.floor, self.config.coarse_poses)
 
     def bodies_in_the_way(self, axis: Axis, reach: float) -> tuple[str, ...]:
         """Returns the other moving bodies, at rest, that the door runs into about an axis."""
@@ -234,6 +245,7 @@ class DoorSearch:
         box = swept_box(self.box, motion, self.wanted)
         poses = self.config.coarse_poses
         free, ratio = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
+        free = self._above_floor(axis, free)
         neighbours = self.bodies_in_the_way(axis, self.wanted)
         shortfall = round(1.0 - free / self.wanted, 2) + round(ratio, 2)
         rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
@@ -246,14 +258,32 @@ def door_search(
 ) -> DoorSearch:
     """Returns the search for one request; what is `ignored` does not count as an obstacle."""
     part = scene.parts[request.moving]
-    wanted = min(request.reference or radians(90), config.door_opening)
+    frame = border_frame(part.mesh, request.axis)
+    most = config.door_opening if _is_stated(request) else _most_opening(frame, config)
+    wanted = min(request.reference or radians(90), most)
     return DoorSearch(
         request,
         scene,
         config,
-        border_frame(part.mesh, request.axis),
+        frame,
         scene.swept_body(request.moving, config.depth * scene.extent, part_axes(part.mesh)),
         tuple(o for o in scene.still_obstacles if o.id not in ignored),
         scene.other_bodies(request.moving),
         max(wanted, radians(30)),
+        most,
     )
+
+
+def _is_stated(request: JointRequest) -> bool:
+    """Whether the user chose how far the door opens, or a leader states it."""
+    return request.choice.opening is not None or request.coupling is not None
+
+
+def _most_opening(frame: BorderFrame, config: RealizationConfig) -> float:
+    """Returns how far what hangs so opens at most: a door to `door_opening`, a flap until level, a lid past upright."""
+    axis, leaf = frame.direction(0.0, 0.0, 1.0), frame.direction(1.0, 0.0, 0.0)
+    if abs(float(axis[2])) > config.level_axis:
+        return config.door_opening
+    if abs(float(leaf[2])) < config.upright:
+        return min(config.lid_opening, config.door_opening)
+    return atan2(float(leaf[2]), -float(np.cross(axis, leaf)[2])) % pi

@@ -1,0 +1,175 @@
+"""Which objects without a name are one door, drawer or handle: plate, panes, mouldings and boards, bar and posts.
+
+It asks geometry alone. A case stands behind its doors as a box behind a drawer's front; but its boards touch what lies
+above them, or hardly each other, and so are not joined. What hangs on a front and touches nothing else belongs to it.
+"""
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from jaxtyping import Bool, Int
+
+from grafu.geometry.arrays import Indices
+from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.touching import near_pairs, touching_pairs
+from grafu.segmentation.candidates import candidates, framed, merged
+from grafu.segmentation.config import JoiningConfig, SegmentationConfig
+from grafu.segmentation.division import Shells, axes_from
+from grafu.segmentation.fronts import fronts_among
+from grafu.segmentation.view import view_of
+
+MaskOfObjects = Bool[np.ndarray, " objects"]
+ObjectOfFaces = Int[np.ndarray, " _"]
+Group = tuple[int, ...]
+
+
+def joined_objects(
+    meshes: Sequence[TriangleMesh], open_to: Sequence[bool], config: SegmentationConfig = SegmentationConfig()
+) -> list[Group]:
+    """Returns the objects that are one front with what belongs to it, or one handle; two at least each.
+
+    The plate comes first. Only objects that belong to it whole are joined, and never all that `open_to` names.
+
+    Args:
+        meshes: the objects of an input, Z up, their front at -Y; any unit.
+        open_to: which of them may be joined.
+        config: the thresholds.
+    """
+    may = np.asarray(open_to, dtype=bool)
+    owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
+    whole, apart = merge_meshes(meshes), Shells.of(meshes).shell
+    contacts: Final = _Contacts(meshes, config.joining)
+    taken: set[int] = set()
+    found: list[Group] = []
+    for shell in (_across(whole, owner, apart, may), apart):
+        for front, handles in _front_objects(whole, shell, owner, may, config):
+            for group in (front, *handles):
+                kept = contacts.without_static(group, {*front}) if group else ()
+                kept = contacts.with_hanging(kept, may) if kept and group is front else kept
+                if len(kept) > 1 and not taken & {*kept}:
+                    found.append(kept)
+                    taken |= {*kept}
+    return [group for group in found if len(group) < int(may.sum())]
+
+
+class _Contacts:
+    """Which objects touch which; looked up for the members of groups alone."""
+
+    def __init__(self, meshes: Sequence[TriangleMesh], config: JoiningConfig) -> None:
+        size = float(Box.enclosing([mesh.box for mesh in meshes]).size.max())
+        self._meshes, self._reach, self._edging = meshes, config.touch * size, config.edging
+        reach = self._reach
+        self._near: dict[int, set[int]] = {k: set() for k in range(len(meshes))}
+        for a, b in near_pairs([mesh.box for mesh in meshes], reach):
+            self._near[a].add(b)
+            self._near[b].add(a)
+        self._touched: dict[int, set[int]] = {}
+
+    def without_static(self, group: Group, front: set[int]) -> Group:
+        """Returns a group without the objects that hang together with others rather than with it or its `front`.
+
+        The first stays. Of those that touch others, boards behind it stay if they touch three of the group or more and
+        nothing from above, and are no edging of what it closes; what lies beside or on it stays if it touches two.
+        """
+        kept = [*group]
+        while True:
+            lost = {k for k in kept[1:] if self._is_static(k, kept[0], {*kept} | front)}
+            if not lost:
+                return tuple(kept)
+            kept, front = [k for k in kept if k not in lost], front - lost
+
+    def _is_static(self, k: int, plate: int, inside: set[int]) -> bool:
+        touched = self._of(k)
+        others = touched - inside
+        if not others:
+            return False
+        box, ahead, reach = self._meshes[k].box, self._meshes[plate].box, self._reach
+        if float(box.low[1]) < float(ahead.high[1]) - reach:
+            return len(touched & inside) < 2
+        is_covered = any(float(self._meshes[other].box.low[2]) >= float(box.high[2]) - reach for other in others)
+        is_edging = float(box.high[1] - ahead.high[1]) <= self._edging * float(ahead.size.max())
+        return is_covered or is_edging or len(touched & inside) < 3
+
+    def with_hanging(self, front: Group, may: MaskOfObjects) -> Group:
+        """Returns a front with what hangs on nothing but it: a box of any form, in an outline and a rest around it."""
+        found = [*front]
+        for start in sorted(set().union(*(self._of(k) for k in front)) - {*front}):
+            if start not in found and may[start]:
+                found += self._hanging(start, {*found}, front, may)
+        return tuple(found)
+
+    def _hanging(self, start: int, known: set[int], front: Group, may: MaskOfObjects) -> list[int]:
+        """Returns an object and all that hangs together with it behind a front; none where something else holds it."""
+        ahead = Box.enclosing([self._meshes[k].box for k in front])
+        found, reached = [start], [start]
+        while reached:
+            k = reached.pop()
+            if not may[k] or not _is_behind(self._meshes[k].box, ahead, self._reach):
+                return []
+            new = sorted(self._of(k) - known - {*found})
+            found += new
+            reached += new
+        inner = Box.enclosing([self._meshes[k].box for k in found])
+        rest = [mesh.box for k, mesh in enumerate(self._meshes) if k not in known and k not in found]
+        return found if rest and _surrounds(Box.enclosing(rest), inner, self._reach) else []
+
+    def _of(self, k: int) -> set[int]:
+        if k not in self._touched:
+            pairs = [(k, other) for other in sorted(self._near[k])]
+            self._touched[k] = {other for _, other in touching_pairs(self._meshes, pairs, self._reach)}
+        return self._touched[k]
+
+
+def _is_behind(box: Box, front: Box, reach: float) -> bool:
+    """Whether a box lies in the outline of a front, and not before it."""
+    inside = (box.low[[0, 2]] >= front.low[[0, 2]] - reach) & (box.high[[0, 2]] <= front.high[[0, 2]] + reach)
+    return bool(inside.all() and box.low[1] >= front.low[1] - reach)
+
+
+def _surrounds(rest: Box, box: Box, reach: float) -> bool:
+    """Whether a box lies between the sides of what is left of the furniture, and ends before its back."""
+    between = (rest.low[[0, 2]] <= box.low[[0, 2]] + reach) & (rest.high[[0, 2]] >= box.high[[0, 2]] - reach)
+    return bool(between.all() and rest.high[1] >= box.high[1] - reach)
+
+
+def _across(whole: TriangleMesh, owner: ObjectOfFaces, apart: Indices, may: MaskOfObjects) -> Indices:
+    """Returns the shell of each face, where those of several objects that meet at corners are one shell."""
+    joint = shell_numbers(whole)
+    numbers = np.where(may[owner], joint, int(joint.max(initial=-1)) + 1 + apart)
+    return np.unique(numbers, return_inverse=True)[1].reshape(-1).astype(np.int64)
+
+
+def _front_objects(
+    whole: TriangleMesh, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
+) -> list[tuple[Group, list[Group]]]:
+    """Returns the objects of each front, the plate's first, and those of each of its handles."""
+    of = np.where(may, 0, np.arange(len(may)) + 1)
+    first = np.unique(shell, return_index=True)[1]
+    seen = view_of(whole, shell, of[owner[first]].astype(np.int64), axes_from(0))
+    view, members = merged(seen, framed(seen, config.frames))
+    plates = candidates(view, view.owner == 0, config.candidates)
+    fronts = [front.made_of(members) for front in fronts_among(view, plates, config)]
+    return [
+        (
+            _whole_objects(shell, owner, front.shells, len(may)),
+            [_whole_objects(shell, owner, handle, len(may)) for handle in front.handles],
+        )
+        for front in fronts
+    ]
+
+
+def _whole_objects(shell: Indices, owner: ObjectOfFaces, group: Group, count: int) -> Group:
+    """Returns the objects that lie whole in a group of shells, those of its first shell first.
+
+    There are none where one of these does not.
+    """
+    held = np.isin(shell, group)
+    inside = np.bincount(owner[held], minlength=count)
+    whole = (inside > 0) & (inside == np.bincount(owner, minlength=count))
+    plates = np.unique(owner[shell == group[0]])
+    if not whole[plates].all():
+        return ()
+    return (*plates.tolist(), *np.flatnonzero(whole & ~np.isin(np.arange(count), plates)).tolist())

@@ -1,0 +1,77 @@
+"""Objects without names are joined where they are one door, drawer or handle; what stands still stays out."""
+
+import numpy as np
+import pytest
+
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.segmentation.joining import joined_objects
+from small_assets import CABINET, DOOR, DRAWER, mesh_of
+
+CASE = [mesh_of(name) for name in CABINET if name not in (*DOOR, *DRAWER)]
+FRONT = ((-0.39, -0.20, 0.63), (0.39, -0.18, 0.97))
+BOARDS = {
+    "left": ((-0.37, -0.18, 0.65), (-0.36, 0.15, 0.90)),
+    "right": ((0.36, -0.18, 0.65), (0.37, 0.15, 0.90)),
+    "bottom": ((-0.37, -0.18, 0.64), (0.37, 0.15, 0.65)),
+    "back": ((-0.36, 0.14, 0.65), (0.36, 0.15, 0.90)),
+}
+BAR = ((-0.1, -0.25, 0.80), (0.1, -0.24, 0.81))
+POSTS = (((-0.09, -0.24, 0.80), (-0.08, -0.20, 0.81)), ((0.08, -0.24, 0.80), (0.09, -0.20, 0.81)))
+
+
+def board(low, high):
+    return TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+
+
+def groups(*fragments, case=CASE, may=None):
+    """The groups of fragments, by their numbers, that stand in a case."""
+    meshes = [*(board(*f) for f in fragments), *case]
+    found = joined_objects(meshes, may or [True] * len(meshes))
+    return sorted(tuple(sorted(group)) for group in found)
+
+
+def test_the_boards_of_a_drawer_and_the_pieces_of_its_handle_are_joined():
+    assert groups(FRONT, *BOARDS.values(), BAR, *POSTS) == [(0, 1, 2, 3, 4), (5, 6, 7)]
+
+
+def test_stiles_rails_and_panes_are_one_door_also_with_a_muntin_across():
+    stiles = [((x, -0.2, 0.0), (x + 0.08, -0.18, 0.98)) for x in (-0.38, 0.3)]
+    rails = [((-0.3, -0.2, z), (0.3, -0.18, z + 0.08)) for z in (0.0, 0.45, 0.9)]
+    panes = [((-0.31, -0.192, z), (0.31, -0.188, z + 0.39)) for z in (0.07, 0.52)]
+
+    assert groups(*stiles, rails[0], rails[2], ((-0.31, -0.192, 0.07), (0.31, -0.188, 0.91))) == [(0, 1, 2, 3, 4)]
+    assert groups(*stiles, *rails, *panes) == [(0, 1, 2, 3, 4, 5, 6)]
+
+
+@pytest.mark.parametrize(
+    "still",
+    [
+        [((-0.38, -0.18, 0.95), (0.38, -0.17, 0.97))],  # an edging behind the front, under the top
+        [((-0.38, 0.1, 0.92), (-0.30, 0.18, 0.96))],  # a corner plate behind the drawer
+        [((-0.38, -0.17, 0.70), (-0.37, 0.15, 0.72))],  # a runner between drawer and case
+    ],
+    ids=["edging", "corner plate", "runner"],
+)
+def test_what_hangs_on_the_case_is_not_joined_to_the_drawer_before_it(still):
+    found = groups(FRONT, *BOARDS.values(), *still)
+
+    assert found == [(0, 1, 2, 3, 4)]
+
+
+def test_a_case_without_a_back_is_no_box_behind_its_door():
+    """Sides, a shelf and a bottom behind one door lie as a drawer's boards do; the top lies on the sides."""
+    door = ((-0.40, -0.20, 0.0), (0.40, -0.18, 0.98))
+    case = [mesh_of(name) for name in CABINET if name not in (*DOOR, *DRAWER, "back_panel-5")]
+
+    assert groups(door, case=case) == []
+
+
+def test_objects_that_may_not_be_joined_are_not_and_never_all_are():
+    fragments = [FRONT, *BOARDS.values()]
+    closed = [True] * 5 + [False] * len(CASE)
+    without_left = [True, False, *[True] * 3, *[False] * len(CASE)]
+
+    assert groups(*fragments, case=[*CASE], may=[*closed[:-1], True]) == [(0, 1, 2, 3, 4)]
+    assert all(1 not in group for group in groups(*fragments, may=without_left))
+    assert groups(*fragments, case=[]) == []
