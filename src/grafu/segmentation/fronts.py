@@ -151,7 +151,9 @@ class _FrontFinder:
         view, near, config = self._view, float(self._near[plate]), self._config
         nothing = np.zeros(len(inside), dtype=bool)
         size, whole = view.size, view.size[plate]
-        behind = inside & (view.high[:, 2] <= view.high[plate, 2] + near)
+        middles = (view.low + view.high)[:, :2] / 2
+        amid = ((middles >= view.low[plate, :2]) & (middles <= view.high[plate, :2])).all(axis=1)
+        behind = inside & amid & (view.high[:, 2] <= view.high[plate, 2] + near)
         thick = size[:, 2] > near
         upright = (
             behind
@@ -170,7 +172,7 @@ class _FrontFinder:
         box &= thick | ((view.high[:, 2] < view.low[plate, 2] - near) & (view.low[:, 2] >= sides_end - near / 2))
         lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
         top = float(view.high[left | right, 1].max())
-        lid = lies & (view.high[:, 1] >= top - near) & (size[:, 0] >= config.lid * whole[0])
+        lid = lies & (np.abs(view.low[:, 1] - top) <= near + size[:, 1]) & (size[:, 0] >= config.lid * whole[0])
         return nothing if lid.any() else box
 
     def _grouped(self, shells: Indices) -> tuple[tuple[int, ...], ...]:

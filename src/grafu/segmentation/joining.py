@@ -71,8 +71,9 @@ class _Contacts:
     def without_static(self, group: Group, front: set[int]) -> Group:
         """Returns a group without the objects that hang together with others rather than with it or its `front`.
 
-        The first stays. Of those that touch others, boards behind it stay if they touch three of the group or more and
-        nothing from above, and are no edging of what it closes; what lies beside or on it stays if it touches two.
+        The first stays. Of those that touch others, boards behind it stay if they touch three of the group or more, at
+        most two others and none above them, and are no edging of what it closes; what lies beside or on it stays if it
+        touches two of the group.
         """
         kept = [*group]
         while True:
@@ -91,7 +92,7 @@ class _Contacts:
             return len(touched & inside) < 2
         is_covered = any(float(self._meshes[other].box.low[2]) >= float(box.high[2]) - reach for other in others)
         is_edging = float(box.high[1] - ahead.high[1]) <= self._edging * float(ahead.size.max())
-        return is_covered or is_edging or len(touched & inside) < 3
+        return is_covered or is_edging or len(touched & inside) < 3 or len(others) >= 3
 
     def with_hanging(self, front: Group, may: MaskOfObjects) -> Group:
         """Returns a front with what hangs on nothing but it: a box of any form, in an outline and a rest around it."""
