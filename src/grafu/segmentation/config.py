@@ -192,6 +192,8 @@ class JoiningConfig:
 
     touch: float = 0.002
     """As near as this, two objects touch (of the whole's largest side)."""
+    least: float = 0.025
+    """The shorter side of a front at least (of the whole's largest side): desks have drawers as low as this."""
     edging: float = 0.1
     """How far behind a front the edging of what it closes ends at most (of the front's largest side)."""
 

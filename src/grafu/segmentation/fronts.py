@@ -169,7 +169,7 @@ class _FrontFinder:
         ends = view.low[left, 0].min() - near, view.high[right, 0].max() + near
         box = behind & (view.low[:, 0] >= ends[0]) & (view.high[:, 0] <= ends[1])
         sides_end = float(view.low[left | right, 2].min())
-        box &= thick | ((view.high[:, 2] < view.low[plate, 2] - near) & (view.low[:, 2] >= sides_end - near / 2))
+        box &= (view.low[:, 2] >= sides_end - near) & (thick | (view.high[:, 2] < view.low[plate, 2] - near))
         lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
         top = float(view.high[left | right, 1].max())
         lid = lies & (np.abs(view.low[:, 1] - top) <= near + size[:, 1]) & (size[:, 0] >= config.lid * whole[0])

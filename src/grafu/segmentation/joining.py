@@ -5,6 +5,7 @@ above them, or hardly each other, and so are not joined. What hangs on a front a
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -71,9 +72,8 @@ class _Contacts:
     def without_static(self, group: Group, front: set[int]) -> Group:
         """Returns a group without the objects that hang together with others rather than with it or its `front`.
 
-        The first stays. Of those that touch others, boards behind it stay if they touch three of the group or more, at
-        most two others and none above them, and are no edging of what it closes; what lies beside or on it stays if it
-        touches two of the group.
+        The first stays. Of those that touch others, boards behind it stay if they touch three of the group or more and
+        nothing from above, and are no edging of what it closes; what lies beside or on it stays if it touches two.
         """
         kept = [*group]
         while True:
@@ -92,7 +92,7 @@ class _Contacts:
             return len(touched & inside) < 2
         is_covered = any(float(self._meshes[other].box.low[2]) >= float(box.high[2]) - reach for other in others)
         is_edging = float(box.high[1] - ahead.high[1]) <= self._edging * float(ahead.size.max())
-        return is_covered or is_edging or len(touched & inside) < 3 or len(others) >= 3
+        return is_covered or is_edging or len(touched & inside) < 3
 
     def with_hanging(self, front: Group, may: MaskOfObjects) -> Group:
         """Returns a front with what hangs on nothing but it: a box of any form, in an outline and a rest around it."""
@@ -151,7 +151,7 @@ def _front_objects(
     first = np.unique(shell, return_index=True)[1]
     seen = view_of(whole, shell, of[owner[first]].astype(np.int64), axes_from(0))
     view, members = merged(seen, framed(seen, config.frames))
-    plates = candidates(view, view.owner == 0, config.candidates)
+    plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
     fronts = [front.made_of(members) for front in fronts_among(view, plates, config)]
     return [
         (
