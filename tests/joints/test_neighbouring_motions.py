@@ -66,10 +66,20 @@ def test_an_overlay_flap_between_others_hangs_on_plates_beside_its_ends():
 
 
 def test_where_nothing_is_in_the_way_nothing_is_noted():
-    results = [realized_kind(kind) for kind in ("overlay pair", "drop-down flap", "half-overlay doors on one divider")]
+    results = [realized_kind(kind) for kind in ("overlay pair", "half-overlay doors on one divider")]
     outcomes = [outcome for result in results for outcome in result.report.installed]
     assert [outcome.notes for outcome in outcomes] == [()] * len(outcomes)
     assert {outcome.template for outcome in outcomes} == {"butt"}
+
+
+def test_no_hinge_of_a_flap_at_the_floor_reaches_below_it():
+    """Behind its lower edge a barrel would hang below the floor: it goes before it, and a note states why."""
+    result = realized_kind("drop-down flap")
+    (flap,) = result.report.installed
+    lowest = min(visual.mesh.box.low[2] for link in result.object.links for visual in link.visuals)
+
+    assert lowest >= -5e-4
+    assert any("would reach below the floor" in note for note in flap.notes)
 
 
 def test_the_hinges_of_a_short_door_keep_apart():

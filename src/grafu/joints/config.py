@@ -91,6 +91,8 @@ class RealizationConfig:
     """Largest vertical part of an axis's direction at which it counts as level."""
     upright: float = 0.7
     """Least vertical part of a leaf's direction, from its axis to its far side, at which it is a flap, and no lid."""
+    short: float = 0.01
+    """How far short of a collision a limit stays (fraction of the opening that was asked for)."""
     restricted: float = 0.7
     """An opening below this fraction of the reference is reported as restricted (design, section 5)."""
     trim: bool = True
@@ -151,6 +153,7 @@ class RealizationConfig:
             self,
             "level_axis",
             "upright",
+            "short",
             "restricted",
             "max_trim",
             "max_carve",

@@ -96,13 +96,15 @@ def is_free(body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequ
 
 
 def widest_free(
-    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int
+    body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int, short: float = 0.0
 ) -> float:
     """Returns the widest opening in [0, reach] before the first collision, the last step refined by bisection.
 
-    A collision at rest does not count: it cannot be avoided by opening less.
+    It stays `short` of the collision, a fraction of `reach`: at its limit a part touches nothing. A collision at rest
+    does not count: it cannot be avoided by opening less.
     """
-    return _before_first(lambda value: bool(_blockers(body, motion(value), obstacles)), reach, poses)
+    free = _before_first(lambda value: bool(_blockers(body, motion(value), obstacles)), reach, poses)
+    return free if free == reach else max(free - short * reach, 0.0)
 
 
 def _before_first(is_blocked: Callable[[float], bool], reach: float, poses: int) -> float:

@@ -75,6 +75,9 @@ def neighbours_of(moving_id: str, scene: Scene, depth: float) -> tuple[Neighbour
 
 _POSES = 11
 
+FLOOR = "the floor"
+"""What strikes a hinge that reaches below what the furniture stands on; no part has this name."""
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -136,13 +139,15 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
 
 
 def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
-    """Returns the hinge and the bodies that would hit it; None if an end cuts into the other side or a body at rest."""
+    """Returns the hinge and what would hit it; None if an end cuts into the other side or a body at rest."""
     static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
     if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
         return None
     struck_by = [n.id for n in site.neighbours if n.runs_into(*static) or _strikes_closed(n, dynamic, site)]
     if _blocks_itself(hinge, site):
         struck_by.append(site.moving)
+    if min(float(mesh.box.low[2]) for mesh in (*static, *dynamic)) < site.scene.floor - site.depth:
+        struck_by.append(FLOOR)
     return replace(hinge, struck_by=tuple(struck_by))
 
 

@@ -13,7 +13,7 @@ from typing import final
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.mesh import merge_meshes
 from grafu.joints.hinge.candidates import PinCandidate, fit_hinge, hinge_heights, hinge_size
-from grafu.joints.hinge.hardware import InstalledHinge, Site, install, judged_hinge
+from grafu.joints.hinge.hardware import FLOOR, InstalledHinge, Site, install, judged_hinge
 from grafu.joints.hinge.pivot import pivot_ends
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
 from grafu.joints.limits import in_the_way
@@ -97,8 +97,10 @@ def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> 
             templates[other.struck_by].append(name)
     notes = []
     for struck_by, which in templates.items():
-        others = ["its own door" if name == moving else name for name in struck_by]
-        notes.append(f"{' or '.join(which)} would stand in the way of {', '.join(others)}")
+        others = ["its own door" if name == moving else name for name in struck_by if name != FLOOR]
+        why = [f"stand in the way of {', '.join(others)}"] if others else []
+        why += ["reach below the floor"] if FLOOR in struck_by else []
+        notes.append(f"{' or '.join(which)} would {' and '.join(why)}")
     return replace(placement, notes=tuple(notes))
 
 
@@ -139,7 +141,7 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config.hinge.pivot)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
-    free = [hinge for hinge in held if not hinge.struck_by]
+    free = [hinge for hinge in held if not {*hinge.struck_by} - {FLOOR}]
     if held:
         placement = _placement(judged, PIVOT, upper, free or held, search)
         yield _Try(placement, lambda: placement)
@@ -215,7 +217,7 @@ def _first_unstruck(hinges: Iterator[tuple[float, InstalledHinge]]) -> tuple[flo
         few.append((level, hinge))
         if not hinge.struck_by:
             return level, hinge
-        if len(few) == _STRUCK:
+        if len(few) == _STRUCK or FLOOR in hinge.struck_by:
             break
     return few[0] if few else None
 

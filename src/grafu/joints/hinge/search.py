@@ -46,7 +46,8 @@ from grafu.scene.scene import Obstacle, Scene
 class JudgedPin:
     """A pin with what the sweep of the door without hardware states about it; lower ranks are better.
 
-    `free` is the opening before the door runs into the static body; `neighbours` are the moving bodies that it meets at
+    `free` is the opening before the door runs into the static body or the floor (which of two pins lets a handle come
+    a little lower decides nothing); `neighbours` are the moving bodies that it meets at
     rest; `is_clear` states that the door opens about it as wanted, or nearly so, past everything.
     """
 
@@ -222,7 +223,7 @@ class DoorSearch:
         """Returns the widest opening about an axis, at most `reach`, that is free of the static body and the floor."""
         motion, reach = axis.rotation, self._above_floor(axis, reach)
         near = in_the_way(self.obstacles, swept_box(self.box, motion, reach))
-        return widest_free(self.body, motion, reach, near, self.config.fine_poses)
+        return widest_free(self.body, motion, reach, near, self.config.fine_poses, self.config.short)
 
     def _above_floor(self, axis: Axis, reach: float) -> float:
         """Returns the widest opening at which nothing of the door is below the floor; upright axes keep its height."""
@@ -245,12 +246,13 @@ class DoorSearch:
         box = swept_box(self.box, motion, self.wanted)
         poses = self.config.coarse_poses
         free, ratio = free_opening(self.body, motion, self.wanted, in_the_way(self.obstacles, box), poses)
-        free = self._above_floor(axis, free)
+        above = self._above_floor(axis, self.wanted)
+        stopped = free if above >= self.config.restricted * self.wanted else min(free, above)
         neighbours = self.bodies_in_the_way(axis, self.wanted)
-        shortfall = round(1.0 - free / self.wanted, 2) + round(ratio, 2)
+        shortfall = round(1.0 - stopped / self.wanted, 2) + round(ratio, 2)
         rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
         is_clear = shortfall <= self.config.hinge.nearly and not neighbours
-        return JudgedPin(pin, axis, free, neighbours, rank, is_clear)
+        return JudgedPin(pin, axis, min(free, above), neighbours, rank, is_clear)
 
 
 def door_search(

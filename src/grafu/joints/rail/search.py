@@ -99,7 +99,7 @@ class DrawerSearch:
     def travel(self, reach: float) -> float:
         """Returns the widest travel, at most `reach`, that is free of the static body."""
         near = in_the_way(self.obstacles, swept_box(self.box, self.motion, reach))
-        return widest_free(self.body, self.motion, reach, near, self.config.fine_poses)
+        return widest_free(self.body, self.motion, reach, near, self.config.fine_poses, self.config.short)
 
     def free_ratio(self) -> float:
         """Returns how much of the wanted travel the drawer slides without hardware, 0..1; 0 if blocked at rest."""
