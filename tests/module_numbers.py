@@ -30,6 +30,30 @@ def floats_in_functions(source: str) -> Iterator[float]:
                 yield value
 
 
+def factors_in_functions(source: str) -> Iterator[int]:
+    """Yields the whole numbers above 2 in functions that multiply, that are compared, or that are angles in degrees.
+
+    Others above 4 as well: up to there they count the axes of space and the rows of a matrix.
+    """
+    functions = (node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.FunctionDef))
+    for function in functions:
+        for node in ast.walk(function):
+            for part in ast.iter_child_nodes(node):
+                if isinstance(part, ast.Constant) and type(part.value) is int:
+                    least = 2 if _is_measure(node) else 4
+                    if part.value > least:
+                        yield part.value
+
+
+def _is_measure(node: ast.AST) -> bool:
+    """Whether a node multiplies, divides, compares or converts degrees."""
+    if isinstance(node, ast.BinOp):
+        return isinstance(node.op, ast.Mult | ast.Div)
+    if isinstance(node, ast.Call):
+        return ast.unparse(node.func).split(".")[-1] == "radians"
+    return isinstance(node, ast.Compare)
+
+
 def modules_of(folder: Path, but: Collection[str] = ()) -> Mapping[str, str]:
     """Returns the sources of a folder by their paths in it, `/` between folders."""
     paths = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*.py"))}

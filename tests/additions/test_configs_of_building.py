@@ -20,14 +20,14 @@ from grafu.additions.top.config import (
     TopConfig,
 )
 from grafu.joints.config import RealizationConfig
-from grafu.joints.hinge_config import HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge_config import HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import BehindConfig, FlankConfig, RailConfig
 
 CONFIGS = (
     BehindConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig,
     FlankConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials,
-    HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PivotConfig, RailConfig, RealizationConfig, ReliefConfig,
-    RoomConfig, SupportConfig, SurveyConfig, TopConfig,
+    HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig, RailConfig, RealizationConfig,
+    ReliefConfig, RoomConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -49,6 +49,7 @@ POSITIVE = [
     (BehindConfig, "air"),
     (FlankConfig, "taller"),
     (HingeConfig, "tongue"),
+    (PinConfig, "widest_strip"),
     (PivotConfig, "plate"),
     (SurveyConfig, "even"),
     (InteriorConfig, "touch"),
@@ -79,6 +80,7 @@ RATIOS = [
     (BehindConfig, "span"),
     (FlankConfig, "margin"),
     (HingeConfig, "slim"),
+    (PinConfig, "edge_leaf"),
     (PivotConfig, "met"),
     (SurveyConfig, "ends"),
     (InteriorConfig, "carried"),

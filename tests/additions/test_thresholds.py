@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from module_numbers import floats_in_functions, modules_of, named_numbers, numbers_in
+from module_numbers import factors_in_functions, floats_in_functions, modules_of, named_numbers, numbers_in
 
 ADDITIONS = Path(__file__).parents[2] / "src" / "grafu" / "additions"
 
@@ -86,6 +86,20 @@ def test_a_number_of_a_function_is_found() -> None:
         "NEAR = 0.3\ndef f():\n    a = 0.5 * 0.25 + 1e-9\n    return max(a, 2)\nclass A:\n    def g(self): return 0.7"
     )
     assert list(floats_in_functions(source)) == [0.25, 0.7]
+
+
+@pytest.mark.parametrize(
+    ("line", "numbers"),
+    [
+        ("return 4 * gap", [4]),
+        ("return gap > 3", [3]),
+        ("return radians(3)", [3]),
+        ("return is_free(body, 12)", [12]),
+        ("return 2 * gap / 2 + T[:3, 3] @ np.eye(4)", []),
+    ],
+)
+def test_a_whole_number_of_a_function_is_found(line: str, numbers: list[int]) -> None:
+    assert list(factors_in_functions(f"POSES = 12\ndef f(gap):\n    {line}")) == numbers
 
 
 def test_no_threshold_stands_in_a_module() -> None:

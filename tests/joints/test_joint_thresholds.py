@@ -9,9 +9,9 @@ import pytest
 
 from grafu.joints.config import PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge_config import HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge_config import HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import BehindConfig, DrawerConfig, FlankConfig, RailConfig
-from module_numbers import explained_fields, floats_in_functions, modules_of, named_numbers
+from module_numbers import explained_fields, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
 
@@ -27,7 +27,7 @@ REASONS = {
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "coupled.py": {"_ALIKE": TOLERANCE},
-    "hinge/candidates.py": {"MAKESHIFT": NUMBERING},
+    "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
     "limits.py": {"_REST_DENSITY": SAMPLES, "_DIP": TOLERANCE},
@@ -38,19 +38,21 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, DrawerConfig, FlankConfig, HingeConfig, PivotConfig, PlanConfig, RailConfig, RealizationConfig,
-    SurveyConfig, TimeConfig,
+    BehindConfig, DrawerConfig, FlankConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig,
+    RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
-MEASURING = ("hinge/pivot.py", "hinge/survey.py", "rail/spots.py")
+WITHOUT_NUMBERS = ("hinge/candidates.py", "hinge/pivot.py", "hinge/survey.py", "rail/spots.py")
 
 
 def test_no_threshold_stands_in_a_module() -> None:
     assert named_numbers(JOINTS) == {name: set(reasons) for name, reasons in REASONS.items()}
 
 
-@pytest.mark.parametrize("name", MEASURING)
-def test_no_threshold_stands_in_a_function_that_measures(name: str) -> None:
-    assert list(floats_in_functions(modules_of(JOINTS)[name])) == []
+@pytest.mark.parametrize("name", WITHOUT_NUMBERS)
+def test_no_threshold_stands_in_a_function(name: str) -> None:
+    source = modules_of(JOINTS)[name]
+
+    assert [*floats_in_functions(source), *factors_in_functions(source)] == []
 
 
 @pytest.mark.parametrize("kind", CONFIGS, ids=lambda kind: kind.__name__)

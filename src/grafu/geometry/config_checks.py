@@ -1,6 +1,6 @@
 """Checks of the numbers in a config. Configs use them when they are made."""
 
-from math import inf
+from math import inf, isfinite
 
 
 def require_positive(config: object, *names: str) -> None:
@@ -9,6 +9,13 @@ def require_positive(config: object, *names: str) -> None:
         value = getattr(config, name)
         if not all(0 < number < inf for number in (value if isinstance(value, tuple) else (value,))):
             raise ValueError(f"`{type(config).__name__}.{name}` must be above 0: got {value}")
+
+
+def require_finite(config: object, *names: str) -> None:
+    """Raises ValueError unless all numbers of these fields of a config, which are tuples, are finite."""
+    for name in names:
+        if not all(isfinite(number) for number in getattr(config, name)):
+            raise ValueError(f"`{type(config).__name__}.{name}` must be finite: got {getattr(config, name)}")
 
 
 def require_not_negative(config: object, *names: str) -> None:

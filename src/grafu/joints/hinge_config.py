@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
-from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.geometry.config_checks import require_finite, require_positive, require_ratios
 
 
 @final
@@ -110,6 +110,50 @@ class PivotConfig:
 
 @final
 @dataclass(frozen=True)
+class PinConfig:
+    """Which surroundings of a border allow which pin, and how wide the leaves are there.
+
+    A radius is the barrel's, a width the door's. A board is as in `SurveyConfig`.
+
+    Raises:
+        ValueError: if a number is not above 0, a fraction not between 0 and 1, or a place not finite.
+    """
+
+    proud: float = 0.6
+    """How far what is beside an inset door may stand out before it, with the leaves in the seam (in radii)."""
+    edge_leaf: float = 0.95
+    """Width of a leaf that lies on an edge or in a seam (fraction of their depth)."""
+    front_leaf: float = 0.3
+    """Largest width of a leaf that lies on a door's front (fraction of the width)."""
+    widest_strip: float = 3.0
+    """Widest strip of the frame beside an overlay door that has its leaves behind it (in widest seams)."""
+    corner_strip: float = 3.0
+    """Narrowest such strip that has room for a hinge in the corner between door and frame (in radii)."""
+    pivot: float = 0.06
+    """Radius of a pivot, where that is more than a barrel's (fraction of the door's thickness or width)."""
+    pivot_inset: float = 1.2
+    """How far inside the border's corner a pivot lies (in its own radii)."""
+    step: float = 0.25
+    """Step between makeshift pins, where that is more than a radius (in boards)."""
+    inwards: tuple[float, ...] = (0.0, 1.0, -1.0, 2.0, 4.0, -2.0)
+    """How far inwards from the border they are tried in turn (in steps)."""
+    before: tuple[float, ...] = (0.0, 1.0, 2.0)
+    """How far before the front, besides a radius (in steps)."""
+    makeshift_leaf: float = 0.1
+    """Largest width of their leaves (fraction of the width)."""
+    narrowest: float = 4.0
+    """The same at least, of narrow doors (in radii)."""
+    widest: float = 8.0
+    """The same at most, of wide doors (in radii)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *(set(self.__dataclass_fields__) - {"inwards", "before"}))
+        require_finite(self, "inwards", "before")
+        require_ratios(self, "edge_leaf", "front_leaf", "pivot", "makeshift_leaf")
+
+
+@final
+@dataclass(frozen=True)
 class HingeConfig:
     """Sizes of hinges that are not templates, what is tried where usual ones do not fit, and where it is measured.
 
@@ -133,6 +177,14 @@ class HingeConfig:
     """Barrel radius of a common 60 mm butt hinge (metres): none is larger."""
     smallest: float = 0.001
     """Smallest barrel radius (metres)."""
+    spacing: float = 0.8
+    """Longest hinge of several, a fraction of the distance from one to the next."""
+    leaf_thickness: float = 0.6
+    """Thickest leaf, a fraction of the barrel's radius."""
+    narrowest_leaf: float = 1.5
+    """How far a leaf reaches from the pin at least, over the barrel's radius (ratio)."""
+    leaf_margin: float = 2e-4
+    """How far beyond that it reaches at least (metres)."""
     tongue: float = 0.02
     """How deep the tongue of an inset leaf reaches into what stands behind the door (metres)."""
     lap: float = 0.002
@@ -156,9 +208,12 @@ class HingeConfig:
 
     survey: SurveyConfig = SurveyConfig()
     """Of what lies around a border."""
+    pin: PinConfig = PinConfig()
+    """Of what pins need."""
     pivot: PivotConfig = PivotConfig()
     """Of discs at a door's ends."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "pivot"}))
+        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "pin", "pivot"}))
         require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")
+        require_ratios(self, "spacing", "leaf_thickness")

@@ -21,12 +21,12 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.joints.hinge.survey import BorderSurvey
-from grafu.joints.hinge_config import HingeConfig
+from grafu.joints.hinge_config import HingeConfig, PinConfig
 from grafu.scene.border import BorderFrame
 from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel
 
-MAKESHIFT = 5  # the preference of makeshift mounts: after C, F, P, inset leaves, and pivots
+PIVOTS, MAKESHIFT = 4, 5  # preferences: of pivots after C, F, P and inset leaves, of makeshift mounts after all
 
 
 @final
@@ -62,68 +62,70 @@ class Tolerances:
     radius: float
 
 
-_Rule = Callable[[BorderFrame, BorderSurvey, Tolerances], PinCandidate | None]
+_Rule = Callable[[BorderFrame, BorderSurvey, Tolerances, PinConfig], PinCandidate | None]
 
 
-def _contact_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _contact_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """C beside an inset door: the leaves lie in the seam, the barrel in front of it."""
-    if not (s.side_gap <= tol.contact and s.side_top <= 0.6 * tol.radius):
+    if not (s.side_gap <= tol.contact and s.side_top <= config.proud * tol.radius):
         return None
     depth = min(frame.board, s.side_depth) if s.side_depth > 0 else frame.board
-    room = tol.radius + 0.95 * depth
+    room = tol.radius + config.edge_leaf * depth
     return PinCandidate(MechanismClass.C, 0.0, -max(s.side_gap, 0.0) / 2, tol.radius, room, tol.radius, 0)
 
 
-def _contact_behind(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _contact_behind(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """C behind an overlay door: the leaves lie between its back and the carcass, the barrel beside both."""
     strip = max(0.0, -s.side_face)
-    if not (s.back_gap <= tol.contact and strip <= 3 * tol.contact):
+    if not (s.back_gap <= tol.contact and strip <= config.widest_strip * tol.contact):
         return None
-    room = tol.radius + strip + max(0.95 * s.back_width, 2 * tol.radius)
+    room = tol.radius + strip + max(config.edge_leaf * s.back_width, 2 * tol.radius)
     y = -frame.thickness - max(s.back_gap, 0.0) / 2
     return PinCandidate(MechanismClass.C, pi / 2, -strip - tol.radius, y, room, tol.radius, 0)
 
 
-def _flush_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _flush_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """F across the seam of an inset door: both leaves on the fronts."""
     if not (s.side_gap <= tol.contact and abs(s.side_top) <= tol.flush):
         return None
     y = max(0.0, s.side_top) + tol.radius
-    return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, 0.3 * frame.width, tol.radius, 1)
+    room = config.front_leaf * frame.width
+    return PinCandidate(MechanismClass.F, 0.0, -max(s.side_gap, 0.0) / 2, y, room, tol.radius, 1)
 
 
-def _flush_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _flush_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """F across the seam behind an overlay door: both leaves on the outer sides."""
     if not (s.back_gap <= tol.contact and abs(s.side_face) <= tol.flush):
         return None
     x = min(0.0, s.side_face) - tol.radius
     y = -frame.thickness - max(s.back_gap, 0.0) / 2
-    return PinCandidate(MechanismClass.F, pi / 2, x, y, max(0.95 * frame.board, 2 * tol.radius), tol.radius, 1)
+    room = max(config.edge_leaf * frame.board, 2 * tol.radius)
+    return PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, 1)
 
 
-def _corner_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _corner_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """P in the corner between an inset door's front and a side that stands out beyond it."""
     if not (s.side_gap <= tol.contact and s.side_top >= 2 * tol.radius):
         return None
-    room = min(s.side_top, 0.3 * frame.width)
+    room = min(s.side_top, config.front_leaf * frame.width)
     return PinCandidate(MechanismClass.P, 0.0, tol.radius - max(s.side_gap, 0.0), tol.radius, room, tol.radius, 2)
 
 
-def _corner_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _corner_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """P in the corner between an overlay door's edge and the frame that it lies on."""
     strip = -s.side_face
-    if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= 3 * tol.radius):
+    if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= config.corner_strip * tol.radius):
         return None
     y = -frame.thickness - max(s.back_gap, 0.0) + tol.radius
     room = min(strip - tol.radius, frame.board)
     return PinCandidate(MechanismClass.P, pi / 2, -tol.radius, y, max(room, 2 * tol.radius), tol.radius, 2)
 
 
-def _inset_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> PinCandidate | None:
+def _inset_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """C at a door's front edge, its static leaf inset in what stands behind: for doors that meet over one divider."""
     if not np.isfinite(s.back_gap):
         return None
-    room = tol.radius + 0.95 * frame.board
+    room = tol.radius + config.edge_leaf * frame.board
     return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, 3, inset=True)
 
 
@@ -138,9 +140,9 @@ _RULES: tuple[_Rule, ...] = (
 )
 
 
-def ruled_pins(frame: BorderFrame, s: BorderSurvey, tol: Tolerances) -> list[PinCandidate]:
+def ruled_pins(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> list[PinCandidate]:
     """Returns a pin for every hinge class that the surroundings allow."""
-    return [candidate for rule in _RULES if (candidate := rule(frame, s, tol)) is not None]
+    return [candidate for rule in _RULES if (candidate := rule(frame, s, tol, config)) is not None]
 
 
 def turns_about_itself(frame: BorderFrame, axis: Axis, config: HingeConfig) -> bool:
@@ -154,20 +156,20 @@ def turns_about_itself(frame: BorderFrame, axis: Axis, config: HingeConfig) -> b
 
 def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances, config: HingeConfig) -> list[PinCandidate]:
     """Returns the pins that discs at the door's ends could carry: the initial axis itself, then the border's corner."""
-    radius = max(tol.radius, 0.06 * min(frame.thickness, frame.width))
+    radius = max(tol.radius, config.pin.pivot * min(frame.thickness, frame.width))
     x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
     spots = [(float(x), float(y))]
     if not turns_about_itself(frame, axis, config):
-        spots.append((1.2 * radius, -1.2 * radius))
-    return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, 4, is_pivot=True) for x, y in spots]
+        spots.append((config.pin.pivot_inset * radius, -config.pin.pivot_inset * radius))
+    return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, PIVOTS, is_pivot=True) for x, y in spots]
 
 
-def makeshift_pins(frame: BorderFrame, tol: Tolerances) -> Iterator[PinCandidate]:
+def makeshift_pins(frame: BorderFrame, tol: Tolerances, config: PinConfig) -> Iterator[PinCandidate]:
     """Yields pins at the corners of the border and around them; support blocks will have to reach the body."""
-    step = max(tol.radius, 0.25 * frame.board)
-    room = max(4 * tol.radius, min(0.1 * frame.width, 8 * tol.radius))
-    for x in (0.0, step, -step, 2 * step, 4 * step, -2 * step):
-        for y in (tol.radius, step + tol.radius, 2 * step + tol.radius):
+    step = max(tol.radius, config.step * frame.board)
+    room = max(config.narrowest * tol.radius, min(config.makeshift_leaf * frame.width, config.widest * tol.radius))
+    for x in (steps * step for steps in config.inwards):
+        for y in (steps * step + tol.radius for steps in config.before):
             yield PinCandidate(MechanismClass.F, 0.0, x, y, room, tol.radius, MAKESHIFT)
     for x in (-tol.radius, -step - tol.radius):
         for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
@@ -209,10 +211,10 @@ def hinge_size(
     """
     radius = pin.radius
     wanted = scale * min(model.natural.length, config.length_ratio * frame.length)
-    length = min(wanted, 0.8 * frame.length / (count + 1))
+    length = min(wanted, config.spacing * frame.length / (count + 1))
     leaf = min(scale * model.natural.leaf, pin.leaf_room)
-    thickness = min(scale * model.natural.thickness, 0.6 * radius)
-    if leaf < 1.5 * radius + 2e-4 or length < 2 * radius:
+    thickness = min(scale * model.natural.thickness, config.leaf_thickness * radius)
+    if leaf < config.narrowest_leaf * radius + config.leaf_margin or length < 2 * radius:
         return None
     return HingeSize(length, leaf, thickness, radius)
 

@@ -12,7 +12,7 @@ from typing import final
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.mesh import merge_meshes
-from grafu.joints.hinge.candidates import PinCandidate, fit_hinge, hinge_heights, hinge_size
+from grafu.joints.hinge.candidates import PIVOTS, PinCandidate, fit_hinge, hinge_heights, hinge_size
 from grafu.joints.hinge.hardware import FLOOR, InstalledHinge, Site, install, judged_hinge
 from grafu.joints.hinge.pivot import pivot_ends
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
@@ -110,7 +110,7 @@ def _tries(search: DoorSearch, gallery: Gallery, count: int) -> Iterator[_Try]:
     for judged in search.in_order():
         if judged.free < search.config.least_opening * search.wanted or tried > _ENOUGH:
             return
-        tried += judged.pin.preference > 3
+        tried += judged.pin.preference >= PIVOTS
         pivots = judged.pin.is_pivot
         yield from _with_pivots(judged, search) if pivots else _with_hardware(judged, search, gallery, count)
 

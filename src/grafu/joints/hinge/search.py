@@ -115,9 +115,9 @@ class DoorSearch:
     @cached_property
     def others(self) -> list[JudgedPin]:
         """Pivots and makeshift pins, best first."""
-        tol = self._tolerances
+        tol, config = self._tolerances, self.config.hinge
         return self._judged(
-            [*pivot_pins(self.frame, self.request.axis, tol, self.config.hinge), *makeshift_pins(self.frame, tol)]
+            [*pivot_pins(self.frame, self.request.axis, tol, config), *makeshift_pins(self.frame, tol, config.pin)]
         )
 
     @cached_property
@@ -159,13 +159,13 @@ class DoorSearch:
     def _ruled_pins(self, tol: Tolerances) -> list[PinCandidate]:
         """Returns the pins of the classes that the surroundings allow; of a forced class, over wider seams at need."""
         forced = self.request.choice.mechanism
-        pins = ruled_pins(self.frame, self._survey(tol), tol)
+        pins = ruled_pins(self.frame, self._survey(tol), tol, self.config.hinge.pin)
         if forced is None:
             return pins
         looser = self.config.hinge.looser
         wider = replace(tol, contact=looser * tol.contact, flush=looser * tol.flush)
         of_class = [pin for pin in pins if pin.mechanism is forced]
-        more = ruled_pins(self.frame, self._survey(wider), wider)
+        more = ruled_pins(self.frame, self._survey(wider), wider, self.config.hinge.pin)
         return of_class or [pin for pin in more if pin.mechanism is forced]
 
     def _survey(self, tol: Tolerances) -> BorderSurvey:
