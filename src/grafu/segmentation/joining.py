@@ -5,8 +5,8 @@ above them, or hardly each other, and so are not joined. What hangs on a front a
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Final, final
 
 import numpy as np
 from jaxtyping import Bool, Int
@@ -43,17 +43,39 @@ def joined_objects(
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
     whole, apart = merge_meshes(meshes), Shells.of(meshes).shell
     contacts: Final = _Contacts(meshes, config.joining)
+    fronts = [
+        front
+        for shell in (_across(whole, owner, apart, may), apart)
+        for front in _front_objects(whole, shell, owner, may, config)
+    ]
+    single = [front for front in fronts if sum(other.is_pulled_in(front.objects) for other in fronts) < 2]
     taken: set[int] = set()
     found: list[Group] = []
-    for shell in (_across(whole, owner, apart, may), apart):
-        for front, handles in _front_objects(whole, shell, owner, may, config):
-            for group in (front, *handles):
-                kept = contacts.without_static(group, {*front}) if group else ()
-                kept = contacts.with_hanging(kept, may) if kept and group is front else kept
-                if len(kept) > 1 and not taken & {*kept}:
-                    found.append(kept)
-                    taken |= {*kept}
+    for front in single:
+        for group in (contacts.hanging_together(front, may), *(contacts.handle_of(h, front) for h in front.handles)):
+            if len(group) > 1 and not taken & {*group}:
+                found.append(group)
+                taken |= {*group}
     return [group for group in found if len(group) < int(may.sum())]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Front:
+    """The objects of a front: those of its plate, which may be several that share corners, and what belongs to it."""
+
+    plates: Group
+    members: Group
+    handles: tuple[Group, ...]
+
+    @property
+    def objects(self) -> frozenset[int]:
+        """All but the handles."""
+        return frozenset((*self.plates, *self.members))
+
+    def is_pulled_in(self, objects: frozenset[int]) -> bool:
+        """Whether it has a handle and lies in a larger set of objects: what holds two such is a face frame."""
+        return bool(self.handles and self.plates) and self.objects < objects
 
 
 class _Contacts:
@@ -69,42 +91,53 @@ class _Contacts:
             self._near[b].add(a)
         self._touched: dict[int, set[int]] = {}
 
-    def without_static(self, group: Group, front: set[int]) -> Group:
-        """Returns a group without the objects that hang together with others rather than with it or its `front`.
+    def hanging_together(self, front: _Front, may: MaskOfObjects) -> Group:
+        """Returns the objects of a front, those left out that hang together with others; with what hangs on it alone.
 
-        The first stays. Of those that touch others, boards behind it stay if they touch three of the group or more and
-        nothing from above, and are no edging of what it closes; what lies beside or on it stays if it touches two.
+        Its plates stay. Of the others that touch something else, boards behind them stay if they touch three of the
+        group or more and nothing from above, and are no edging of what it closes; what lies beside or on them stays if
+        it touches two.
         """
-        kept = [*group]
-        while True:
-            lost = {k for k in kept[1:] if self._is_static(k, kept[0], {*kept} | front)}
-            if not lost:
-                return tuple(kept)
-            kept, front = [k for k in kept if k not in lost], front - lost
+        if not front.plates:
+            return ()
+        ahead = Box.enclosing([self._meshes[k].box for k in front.plates])
+        kept = self._without_static(front.plates, front.members, ahead, front.objects)
+        return self._with_hanging(kept, ahead, may)
 
-    def _is_static(self, k: int, plate: int, inside: set[int]) -> bool:
+    def handle_of(self, handle: Group, front: _Front) -> Group:
+        """Returns the objects of a handle, those left out that hang together with something else than the front."""
+        if not handle:
+            return ()
+        return self._without_static(handle[:1], handle[1:], self._meshes[handle[0]].box, front.objects | {*handle})
+
+    def _without_static(self, fixed: Group, others: Group, ahead: Box, inside: frozenset[int]) -> Group:
+        kept, within = list(others), set(inside)
+        while lost := {k for k in kept if self._is_static(k, ahead, within)}:
+            kept, within = [k for k in kept if k not in lost], within - lost
+        return (*fixed, *kept)
+
+    def _is_static(self, k: int, ahead: Box, inside: set[int]) -> bool:
         touched = self._of(k)
         others = touched - inside
         if not others:
             return False
-        box, ahead, reach = self._meshes[k].box, self._meshes[plate].box, self._reach
+        box, reach = self._meshes[k].box, self._reach
         if float(box.low[1]) < float(ahead.high[1]) - reach:
             return len(touched & inside) < 2
         is_covered = any(float(self._meshes[other].box.low[2]) >= float(box.high[2]) - reach for other in others)
         is_edging = float(box.high[1] - ahead.high[1]) <= self._edging * float(ahead.size.max())
         return is_covered or is_edging or len(touched & inside) < 3
 
-    def with_hanging(self, front: Group, may: MaskOfObjects) -> Group:
+    def _with_hanging(self, front: Group, ahead: Box, may: MaskOfObjects) -> Group:
         """Returns a front with what hangs on nothing but it: a box of any form, in an outline and a rest around it."""
         found = [*front]
         for start in sorted(set().union(*(self._of(k) for k in front)) - {*front}):
             if start not in found and may[start]:
-                found += self._hanging(start, {*found}, front, may)
+                found += self._hanging(start, {*found}, ahead, may)
         return tuple(found)
 
-    def _hanging(self, start: int, known: set[int], front: Group, may: MaskOfObjects) -> list[int]:
+    def _hanging(self, start: int, known: set[int], ahead: Box, may: MaskOfObjects) -> list[int]:
         """Returns an object and all that hangs together with it behind a front; none where something else holds it."""
-        ahead = Box.enclosing([self._meshes[k].box for k in front])
         found, reached = [start], [start]
         while reached:
             k = reached.pop()
@@ -145,32 +178,32 @@ def _across(whole: TriangleMesh, owner: ObjectOfFaces, apart: Indices, may: Mask
 
 def _front_objects(
     whole: TriangleMesh, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
-) -> list[tuple[Group, list[Group]]]:
-    """Returns the objects of each front, the plate's first, and those of each of its handles."""
+) -> list[_Front]:
+    """Returns the objects of each front and of its handles."""
     of = np.where(may, 0, np.arange(len(may)) + 1)
     first = np.unique(shell, return_index=True)[1]
     seen = view_of(whole, shell, of[owner[first]].astype(np.int64), axes_from(0))
     view, members = merged(seen, framed(seen, config.frames))
     plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
-    fronts = [front.made_of(members) for front in fronts_among(view, plates, config)]
+    found = [front.made_of(members) for front in fronts_among(view, plates, config)]
     return [
-        (
-            _whole_objects(shell, owner, front.shells, len(may)),
-            [_whole_objects(shell, owner, handle, len(may)) for handle in front.handles],
+        _Front(
+            *_whole_objects(shell, owner, front.shells, len(may)),
+            tuple(sum(_whole_objects(shell, owner, handle, len(may)), ()) for handle in front.handles),
         )
-        for front in fronts
+        for front in found
     ]
 
 
-def _whole_objects(shell: Indices, owner: ObjectOfFaces, group: Group, count: int) -> Group:
-    """Returns the objects that lie whole in a group of shells, those of its first shell first.
+def _whole_objects(shell: Indices, owner: ObjectOfFaces, group: Group, count: int) -> tuple[Group, Group]:
+    """Returns the objects of the first shell of a group, and the others that lie whole in it.
 
-    There are none where one of these does not.
+    There are none where an object of the first shell does not.
     """
-    held = np.isin(shell, group)
-    inside = np.bincount(owner[held], minlength=count)
+    inside = np.bincount(owner[np.isin(shell, group)], minlength=count)
     whole = (inside > 0) & (inside == np.bincount(owner, minlength=count))
     plates = np.unique(owner[shell == group[0]])
     if not whole[plates].all():
-        return ()
-    return (*plates.tolist(), *np.flatnonzero(whole & ~np.isin(np.arange(count), plates)).tolist())
+        return (), ()
+    whole[plates] = False
+    return tuple(plates.tolist()), tuple(np.flatnonzero(whole).tolist())
