@@ -35,6 +35,15 @@ def test_the_boards_of_a_drawer_and_the_pieces_of_its_handle_are_joined():
     assert groups(FRONT, *BOARDS.values(), BAR, *POSTS) == [(0, 1, 2, 3, 4), (5, 6, 7)]
 
 
+def test_a_face_frame_with_two_fronts_in_it_is_none():
+    """Welded at their corners, frame and drawers are one plate; each drawer has a handle."""
+    drawers = [((x, -0.2, 0.02), (x + 0.38, -0.18, 0.96)) for x in (-0.38, 0.0)]
+    rails = [((x, -0.2, z), (x + 0.38, -0.18, z + 0.02)) for x in (-0.38, 0.0) for z in (0.0, 0.96)]
+    bars = [((x, -0.23, 0.5), (x + 0.1, -0.2, 0.52)) for x in (-0.24, 0.14)]
+
+    assert groups(*drawers, *rails, *bars) == []
+
+
 def test_stiles_rails_and_panes_are_one_door_also_with_a_muntin_across():
     stiles = [((x, -0.2, 0.0), (x + 0.08, -0.18, 0.98)) for x in (-0.38, 0.3)]
     rails = [((-0.3, -0.2, z), (0.3, -0.18, z + 0.08)) for z in (0.0, 0.45, 0.9)]

@@ -48,7 +48,7 @@ def joined_objects(
         for shell in (_across(whole, owner, apart, may), apart)
         for front in _front_objects(whole, shell, owner, may, config)
     ]
-    single = [front for front in fronts if sum(other.is_pulled_in(front.objects) for other in fronts) < 2]
+    single = [front for front in fronts if contacts.count_apart(front.handles_within(fronts)) < 2]
     taken: set[int] = set()
     found: list[Group] = []
     for front in single:
@@ -73,9 +73,10 @@ class _Front:
         """All but the handles."""
         return frozenset((*self.plates, *self.members))
 
-    def is_pulled_in(self, objects: frozenset[int]) -> bool:
-        """Whether it has a handle and lies in a larger set of objects: what holds two such is a face frame."""
-        return bool(self.handles and self.plates) and self.objects < objects
+    def handles_within(self, fronts: "Sequence[_Front]") -> list[Group]:
+        """Returns the objects of the handles of each smaller front in it; a face frame holds several such."""
+        inner = (front for front in fronts if front.plates and front.objects < self.objects)
+        return [tuple(k for handle in front.handles for k in handle) for front in inner if any(front.handles)]
 
 
 class _Contacts:
@@ -103,6 +104,15 @@ class _Contacts:
         ahead = Box.enclosing([self._meshes[k].box for k in front.plates])
         kept = self._without_static(front.plates, front.members, ahead, front.objects)
         return self._with_hanging(kept, ahead, may)
+
+    def count_apart(self, groups: Sequence[Group]) -> int:
+        """Returns how many groups there are where those that touch are one: the bar and the posts of one handle."""
+        parted: list[set[int]] = []
+        for group in groups:
+            reached = {*group}.union(*(self._of(k) for k in group))
+            near = [other for other in parted if other & reached]
+            parted = [other for other in parted if other not in near] + [{*group}.union(*near)]
+        return len(parted)
 
     def handle_of(self, handle: Group, front: _Front) -> Group:
         """Returns the objects of a handle, those left out that hang together with something else than the front."""
