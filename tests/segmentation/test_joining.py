@@ -37,9 +37,9 @@ def test_the_boards_of_a_drawer_and_the_pieces_of_its_handle_are_joined():
 
 def test_a_face_frame_with_two_fronts_in_it_is_none():
     """Welded at their corners, frame and drawers are one plate; each drawer has a handle."""
-    drawers = [((x, -0.2, 0.02), (x + 0.38, -0.18, 0.96)) for x in (-0.38, 0.0)]
-    rails = [((x, -0.2, z), (x + 0.38, -0.18, z + 0.02)) for x in (-0.38, 0.0) for z in (0.0, 0.96)]
-    bars = [((x, -0.23, 0.5), (x + 0.1, -0.2, 0.52)) for x in (-0.24, 0.14)]
+    drawers = [((x, -0.21, 0.02), (x + 0.38, -0.19, 0.96)) for x in (-0.38, 0.0)]
+    rails = [((x, -0.21, z), (x + 0.38, -0.19, z + 0.02)) for x in (-0.38, 0.0) for z in (0.0, 0.96)]
+    bars = [((x, -0.24, 0.5), (x + 0.1, -0.21, 0.52)) for x in (-0.24, 0.14)]
 
     assert groups(*drawers, *rails, *bars) == []
 
