@@ -35,13 +35,21 @@ def test_the_boards_of_a_drawer_and_the_pieces_of_its_handle_are_joined():
     assert groups(FRONT, *BOARDS.values(), BAR, *POSTS) == [(0, 1, 2, 3, 4), (5, 6, 7)]
 
 
-def test_a_face_frame_with_two_fronts_in_it_is_none():
-    """Welded at their corners, frame and drawers are one plate; each drawer has a handle."""
-    drawers = [((x, -0.21, 0.02), (x + 0.38, -0.19, 0.96)) for x in (-0.38, 0.0)]
-    rails = [((x, -0.21, z), (x + 0.38, -0.19, z + 0.02)) for x in (-0.38, 0.0) for z in (0.0, 0.96)]
-    bars = [((x, -0.24, 0.5), (x + 0.1, -0.21, 0.52)) for x in (-0.24, 0.14)]
+def quad(x, z):
+    """A sheet without thickness, as faces drawn one beside the other are."""
+    corners = [[x[a], -0.21, z[b]] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    return TriangleMesh(np.array(corners), np.array([[0, 1, 2], [0, 2, 3]]))
 
-    assert groups(*drawers, *rails, *bars) == []
+
+def test_a_face_frame_with_two_fronts_in_it_is_none():
+    """Sheets that share their edges are one plate, two drawers and the rails around them; each drawer has a handle."""
+    heights = (0.0, 0.02, 0.96, 0.98)
+    sheets = [quad((x, x + 0.38), heights[k : k + 2]) for x in (-0.38, 0.0) for k in range(3)]
+    bars = [board((x, -0.24, 0.5), (x + 0.1, -0.21, 0.52)) for x in (-0.24, 0.14)]
+    with_one_handle = joined_objects([*sheets, bars[0], *CASE], [True] * (7 + len(CASE)))
+
+    assert [set(group) for group in with_one_handle] == [set(range(6))]
+    assert joined_objects([*sheets, *bars, *CASE], [True] * (8 + len(CASE))) == []
 
 
 def test_stiles_rails_and_panes_are_one_door_also_with_a_muntin_across():
