@@ -20,14 +20,14 @@ from grafu.additions.top.config import (
     TopConfig,
 )
 from grafu.joints.config import RealizationConfig
-from grafu.joints.hinge_config import HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import BehindConfig, FlankConfig, RailConfig
 
 CONFIGS = (
     BehindConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig,
-    FlankConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig, HandleTrials,
-    HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig, RailConfig, RealizationConfig,
-    ReliefConfig, RoomConfig, SupportConfig, SurveyConfig, TopConfig,
+    FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig,
+    HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig, RailConfig,
+    RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -48,6 +48,7 @@ POSITIVE = [
     (HandleConfig, "least"),
     (BehindConfig, "air"),
     (FlankConfig, "taller"),
+    (FootingConfig, "thinnest"),
     (HingeConfig, "tongue"),
     (PinConfig, "widest_strip"),
     (PivotConfig, "plate"),
@@ -79,6 +80,7 @@ RATIOS = [
     (HandleConfig, "from_top_ratio"),
     (BehindConfig, "span"),
     (FlankConfig, "margin"),
+    (FootingConfig, "snap"),
     (HingeConfig, "slim"),
     (PinConfig, "edge_leaf"),
     (PivotConfig, "met"),

@@ -1,6 +1,7 @@
 """Sizes of hinges and pivots, and the places around a door's border at which its surroundings are measured."""
 
 from dataclasses import dataclass
+from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_finite, require_positive, require_ratios
@@ -51,6 +52,8 @@ class SurveyConfig:
     """Distances behind the door at which a panel that stands edge-on is sought (in boards)."""
     edge_inwards: float = 3.0
     """How far from the border inwards the edge of such a panel lies at most (in boards)."""
+    reach: float = 4.0
+    """How wide a gap around the door is looked across (in widest seams)."""
     outside: tuple[float, ...] = (0.25, 0.6, 1.0)
     """Depths in what stands behind the door at which its outer side is measured (in boards)."""
 
@@ -154,6 +157,31 @@ class PinConfig:
 
 @final
 @dataclass(frozen=True)
+class FootingConfig:
+    """Sizes of the blocks between a hinge and what carries it, and how far they reach.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    snap: float = 0.9
+    """Side of a block that stands on the back of a leaf (fraction of the leaf's)."""
+    side: float = 0.8
+    """Side of a block that stands on another side of the leaf (fraction of that side's)."""
+    thinnest: float = 5e-4
+    """Half the side of a block at least, on the edge of a leaf (metres)."""
+    door_reach: float = 0.5
+    """Longest block between a hinge and its door (fraction of the door's width)."""
+    tongue: float = 0.4
+    """Half the height of an inset leaf's tongue, and half its thickness (fraction of the leaf's)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "thinnest")
+        require_ratios(self, "snap", "side", "door_reach", "tongue")
+
+
+@final
+@dataclass(frozen=True)
 class HingeConfig:
     """Sizes of hinges that are not templates, what is tried where usual ones do not fit, and where it is measured.
 
@@ -208,12 +236,23 @@ class HingeConfig:
 
     survey: SurveyConfig = SurveyConfig()
     """Of what lies around a border."""
+    carriers: float = 0.25
+    """How far from a door what may carry it stands at most (fraction of the door's largest side)."""
+    around: float = 0.2
+    """How far from a door what may be in its hinges' way stands at most (extent)."""
+    usual_opening: float = radians(90)
+    """How far a door is to open where nothing states it (radians)."""
+    least_opening: float = radians(30)
+    """How far a door is to open at least, whatever is stated (radians)."""
+
+    footing: FootingConfig = FootingConfig()
+    """Of what holds hinges."""
     pin: PinConfig = PinConfig()
     """Of what pins need."""
     pivot: PivotConfig = PivotConfig()
     """Of discs at a door's ends."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "pin", "pivot"}))
+        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "footing", "pin", "pivot"}))
         require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")
-        require_ratios(self, "spacing", "leaf_thickness")
+        require_ratios(self, "spacing", "leaf_thickness", "carriers", "around")

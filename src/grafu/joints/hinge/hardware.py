@@ -13,13 +13,13 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual
-from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
-from grafu.joints.hinge_config import HingeConfig
+from grafu.joints.hinge_config import FootingConfig, HingeConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
 from grafu.scene.border import BorderFrame, part_axes
@@ -212,35 +212,33 @@ def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | No
     """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
     if MeshCollider(hinge.dynamic.mesh).is_within(site.anchor, MeshCollider(site.door)):
         return (hinge.dynamic,)
+    reach = min(site.config.footing.door_reach * site.frame.width, site.reach)
     snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
-    return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=min(0.5 * site.frame.width, site.reach)))
+    return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=reach))
 
 
 def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:
     """Returns an end with the shortest support block that reaches the target."""
-    bridge = shortest_bridge(_footings(end, snap, site.frame), target, site.reach)
+    bridge = shortest_bridge(_footings(end, snap, site.frame, site.config.footing), target, site.reach)
     if bridge is None:
         return None
     footing, length = bridge
     return (end, block("support_hinge", footing, length, METAL))
 
 
-def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame) -> Iterator[Footing]:
+def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame, config: FootingConfig) -> Iterator[Footing]:
     """Yields the snap rectangle looking along its normal, then the leaf's own sides looking inwards and sideways."""
-    yield Footing(np.asarray(snap.center), np.asarray(snap.normal), 0.9 * snap.u, 0.9 * snap.v)
+    yield Footing(np.asarray(snap.center), np.asarray(snap.normal), config.snap * snap.u, config.snap * snap.v)
     local = frame.to_border(end.mesh.vertices)
     low, high = local.min(axis=0), local.max(axis=0)
-    half = (high - low) / 2 * 0.8
+    half = (high - low) / 2 * config.side
     center = (low + high) / 2
     for direction in (vec3(0.0, -1.0, 0.0), vec3(-1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -1.0)):
         k = int(np.argmax(np.abs(direction)))
         i, j = [a for a in range(3) if a != k]
         start = frame.to_object((center + direction * half[k])[None])[0]
-        yield Footing(start, frame.rotation @ direction, _extent(frame, i, half), _extent(frame, j, half))
-
-
-def _extent(frame: BorderFrame, axis: int, half: np.ndarray) -> Vec3:
-    return frame.rotation[:, axis] * max(float(half[axis]), 5e-4)
+        u, v = (frame.rotation[:, axis] * max(float(half[axis]), config.thinnest) for axis in (i, j))
+        yield Footing(start, frame.rotation @ direction, u, v)
 
 
 def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame, config: HingeConfig) -> Visual:
@@ -249,8 +247,8 @@ def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame, config: H
     leaf = frame.to_border(hinge.static.mesh.vertices)
     start, end = float(leaf[:, 1].min()) + config.lap, -frame.thickness - config.tongue
     z = float(leaf[:, 2].min() + leaf[:, 2].max()) / 2
-    u = frame.direction(0.0, 0.0, 0.4 * size.length)
-    v = frame.direction(0.4 * size.thickness, 0.0, 0.0)
+    u = frame.direction(0.0, 0.0, config.footing.tongue * size.length)
+    v = frame.direction(config.footing.tongue * size.thickness, 0.0, 0.0)
     center = frame.to_object(vec3(pin.x - size.thickness / 2, start, z)[None])[0]
     foot = Footing(center, frame.direction(0.0, -1.0, 0.0), u, v)
     return block("support_hinge", foot, max(start - end, config.lap), METAL)

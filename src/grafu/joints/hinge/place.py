@@ -164,7 +164,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         scene=search.scene,
         static_rays=search.static_rays,
         door_rays=search.door_rays,
-        obstacles=tuple(in_the_way(search.obstacles, box.grown(0.2 * extent))),
+        obstacles=tuple(in_the_way(search.obstacles, box.grown(search.config.hinge.around * extent))),
         neighbours=search.bodies_around,
         motion=cache(judged.axis.rotation),
         upper=upper,

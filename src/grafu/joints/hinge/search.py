@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan2, pi, radians
+from math import atan2, pi
 from typing import final
 
 import numpy as np
@@ -93,7 +93,8 @@ class DoorSearch:
     def carriers(self) -> TriangleMesh:
         """The static body around the door that may carry it: all of it, or the parts that alone may hold it."""
         box = self.scene.parts[self.request.moving].box
-        return self.scene.static_mesh_near(box, 0.25 * float(box.size.max()), self.request.holders)
+        reach = self.config.hinge.carriers * float(box.size.max())
+        return self.scene.static_mesh_near(box, reach, self.request.holders)
 
     @cached_property
     def door_rays(self) -> RayCaster:
@@ -169,7 +170,8 @@ class DoorSearch:
         return of_class or [pin for pin in more if pin.mechanism is forced]
 
     def _survey(self, tol: Tolerances) -> BorderSurvey:
-        return survey(self.frame, self.static_rays, 4 * tol.contact, self.config.hinge.survey)
+        config = self.config.hinge.survey
+        return survey(self.frame, self.static_rays, config.reach * tol.contact, config)
 
     @property
     def _tolerances(self) -> Tolerances:
@@ -262,7 +264,7 @@ def door_search(
     part = scene.parts[request.moving]
     frame = border_frame(part.mesh, request.axis)
     most = config.door_opening if _is_stated(request) else _most_opening(frame, config)
-    wanted = min(request.reference or radians(90), most)
+    wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(
         request,
         scene,
@@ -271,7 +273,7 @@ def door_search(
         scene.swept_body(request.moving, config.depth * scene.extent, part_axes(part.mesh)),
         tuple(o for o in scene.still_obstacles if o.id not in ignored),
         scene.other_bodies(request.moving),
-        max(wanted, radians(30)),
+        max(wanted, config.hinge.least_opening),
         most,
     )
 
