@@ -21,13 +21,13 @@ from grafu.additions.top.config import (
 )
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail_config import BehindConfig, FlankConfig, RailConfig
+from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig
 
 CONFIGS = (
-    BehindConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig, FingerRoomConfig,
-    FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig, HandleConfig,
-    HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig, RailConfig,
-    RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, SurveyConfig, TopConfig,
+    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig,
+    FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig,
+    HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig,
+    RailConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -47,6 +47,7 @@ POSITIVE = [
     (HandleConfig, "from_top"),
     (HandleConfig, "least"),
     (BehindConfig, "air"),
+    (BodyConfig, "even"),
     (FlankConfig, "taller"),
     (FootingConfig, "thinnest"),
     (HingeConfig, "tongue"),
@@ -79,6 +80,7 @@ RATIOS = [
     (HandleConfig, "central"),
     (HandleConfig, "from_top_ratio"),
     (BehindConfig, "span"),
+    (BodyConfig, "long"),
     (FlankConfig, "margin"),
     (FootingConfig, "snap"),
     (HingeConfig, "slim"),

@@ -8,6 +8,31 @@ from grafu.geometry.config_checks import require_positive, require_ratios
 
 @final
 @dataclass(frozen=True)
+class BodyConfig:
+    """What of a drawer, where it is met by rays from both sides, belongs to its container.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    outside: float = 0.01
+    """How far beside the drawer rays start (metres)."""
+    even: float = 2e-3
+    """How far a flank may be from its median, where the tolerance for the width is less (metres)."""
+    met: float = 2.0
+    """How many rays of a column must meet the body, where `met_ratio` asks for fewer."""
+    met_ratio: float = 0.2
+    """The same as a fraction of what the rays of the best column meet."""
+    long: float = 0.6
+    """Fraction of the body's length over which a height of the flanks belongs to it."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "met_ratio", "long")
+
+
+@final
+@dataclass(frozen=True)
 class DrawerConfig:
     """What counts as a drawer, as a front without a container, and as a sliding door.
 
@@ -27,10 +52,14 @@ class DrawerConfig:
     """A sliding door is thinner than this fraction of its smaller side, and slides nearly along its plane."""
     stands_out: float = 1e-3
     """How far an attached part may stand out and still count as behind a drawer's front side (metres)."""
+    level: float = 0.5
+    """Largest vertical part of a direction along which a drawer slides; more is up or down."""
+    body: BodyConfig = BodyConfig()
+    """Of its container."""
 
     def __post_init__(self) -> None:
         require_positive(self, "thickest_board", "stands_out")
-        require_ratios(self, "shallow", "slat", "shortest", "flat")
+        require_ratios(self, "shallow", "slat", "shortest", "flat", "level")
 
 
 @final

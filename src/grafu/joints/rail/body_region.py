@@ -16,7 +16,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, transform_points
-from grafu.joints.rail_config import DrawerConfig
+from grafu.joints.rail_config import BodyConfig, DrawerConfig
 from grafu.scene.border import SNAP, part_axes
 
 _SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
@@ -52,13 +52,15 @@ class DrawerFrame(ArrayValue):
         return transform_points(self.T_object_drawer, points)
 
 
-def drawer_frame(mesh: TriangleMesh, direction: Vec3, lying: bool = False) -> DrawerFrame | None:
+def drawer_frame(
+    mesh: TriangleMesh, direction: Vec3, lying: bool = False, config: DrawerConfig = DrawerConfig()
+) -> DrawerFrame | None:
     """Returns the frame of a part that slides along a unit direction; None where it slides up or down.
 
     The direction is snapped to the nearest level axis of the part's own box within 8 degrees, else kept. `lying` frames
     a sliding door.
     """
-    if abs(float(direction[2])) > 0.5:
+    if abs(float(direction[2])) > config.level:
         return None
     axes = part_axes(mesh)
     nearest = int(np.argmax(np.abs(axes.T @ direction)))
@@ -118,27 +120,27 @@ def body_region(
     """
     if is_board(frame, config):
         return None
-    caster = RayCaster(mesh)
+    caster, body = RayCaster(mesh), config.body
     y, z = _grid(frame)
-    flanks = _flanks(caster, frame, y, z)
+    flanks = _flanks(caster, frame, y, z, body)
     columns = np.array([[_median(column) for column in flank] for flank in flanks])
     if min(np.isfinite(columns).sum(axis=1)) < config.shortest * _SLIDE:
         return None
-    band = max(tolerance * frame.width, 2e-3)
+    band = max(tolerance * frame.width, body.even)
     medians = np.nanmedian(columns, axis=1)
     in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
-    enough = max(2.0, 0.2 * float(in_body.sum(axis=1).max()))
+    enough = max(body.met, body.met_ratio * float(in_body.sum(axis=1).max()))
     run = _longest_run(in_body.sum(axis=1) >= enough)
     if run[1] - run[0] + 1 < config.shortest * _SLIDE:
         return None
-    rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > 0.6)
+    rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > body.long)
     if rows[1] < rows[0]:
         return None
     left, right = (float(np.median(flank[in_body])) for flank in flanks)
     lift = frame.height / _HEIGHT / 2
 
     def belongs(at: np.ndarray) -> np.ndarray:
-        near = np.abs(_flanks(caster, frame, at, z) - medians[:, None, None]) < band
+        near = np.abs(_flanks(caster, frame, at, z, body) - medians[:, None, None]) < band
         return np.asarray(near.all(axis=0).sum(axis=1) >= enough)
 
     front, back = _ends(y[run[0]], y[run[1]], frame.depth, belongs)
@@ -178,10 +180,10 @@ def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
     return y, z
 
 
-def _flanks(caster: RayCaster, frame: DrawerFrame, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+def _flanks(caster: RayCaster, frame: DrawerFrame, y: np.ndarray, z: np.ndarray, config: BodyConfig) -> np.ndarray:
     """Returns the x of the left and the right outside at each (y, z); NaN where there is none."""
     grid_y, grid_z = (a.ravel() for a in np.meshgrid(y, z, indexing="ij"))
-    outside = frame.width / 2 + 0.01
+    outside = frame.width / 2 + config.outside
     sides = []
     for sign in (-1.0, 1.0):
         origins = frame.to_object(np.column_stack([np.full_like(grid_y, sign * outside), grid_y, grid_z]))

@@ -144,7 +144,9 @@ def drawer_search(
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
     lying = slides_in_its_plane(mesh, direction, config.drawer)
-    frame = drawer_frame(mesh if lying else carried_mesh(request, scene, config.drawer), direction, lying)
+    frame = drawer_frame(
+        mesh if lying else carried_mesh(request, scene, config.drawer), direction, lying, config.drawer
+    )
     if frame is None:
         return None
     body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))
