@@ -21,13 +21,14 @@ from grafu.additions.top.config import (
 )
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig
+from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig, RailFootingConfig
 
 CONFIGS = (
     BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig,
     FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig,
     HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig,
-    RailConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, SurveyConfig, TopConfig,
+    RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, SurveyConfig,
+    TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -91,6 +92,7 @@ RATIOS = [
     (OpeningConfig, "least"),
     (OutlineConfig, "carries"),
     (RailConfig, "most_inset"),
+    (RailFootingConfig, "wall"),
     (RealizationConfig, "least_opening"),
     (RealizationConfig, "max_carve"),
     (RealizationConfig, "max_carve_hidden"),

@@ -71,6 +71,8 @@ class FlankConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    reach: float = 0.25
+    """How far beside a flank a wall stands at most (extent)."""
     along: int = 12
     """Number of rays along a flank."""
     up: int = 5
@@ -118,6 +120,8 @@ class BehindConfig:
 
     inset: float = 0.02
     """How far inside the front's sides the rails stay (fraction of its width)."""
+    reach: float = 1.5
+    """How far around the front the walls of the space stand at most (extent)."""
     start: float = 1e-3
     """How far behind the front rays start (metres)."""
     shallow: float = 0.5
@@ -150,6 +154,26 @@ class BehindConfig:
 
 @final
 @dataclass(frozen=True)
+class RailFootingConfig:
+    """Sizes of the blocks between a rail and what carries it, and how far they reach.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    wall: float = 0.98
+    """Side of a block or divider between a rail and the wall (fraction of the rail's)."""
+    side: float = 0.9
+    """Side of a block towards the drawer, or on a rail's other sides (fraction of that side's)."""
+    drawer_reach: float = 0.2
+    """Longest block between a rail and its drawer (fraction of the drawer's width)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True)
 class RailConfig:
     """Sizes of rails and of the dividers that carry them.
 
@@ -177,11 +201,19 @@ class RailConfig:
     """A shallow drawer before a space so many times as deep is a front with its pull, not a container (ratio)."""
     travel: float = 0.77
     """Fraction of the depth that a drawer travels: what rails over 0.9 of a body travel with a lap of 15 %."""
+    least_travel: float = 1e-3
+    """How far a drawer is to travel at least, whatever is stated (metres)."""
+    around: float = 0.5
+    """How far from a drawer what may carry its rails stands at most (fraction of the drawer's largest side)."""
+    poses: int = 12
+    """Number of poses along the travel in which rails are checked against what they could cut into."""
+    footing: RailFootingConfig = RailFootingConfig()
+    """Of what holds rails."""
     flank: FlankConfig = FlankConfig()
     """Of the walls beside a drawer, and of places on its flanks."""
     behind: BehindConfig = BehindConfig()
     """Of the space behind a front without a container."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"flank", "behind"}))
-        require_ratios(self, "dynamic_reach", "most_inset", "travel")
+        require_positive(self, *(set(self.__dataclass_fields__) - {"footing", "flank", "behind"}))
+        require_ratios(self, "dynamic_reach", "most_inset", "travel", "around")

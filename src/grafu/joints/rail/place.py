@@ -26,7 +26,7 @@ from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
-from grafu.joints.rail_config import RailConfig
+from grafu.joints.rail_config import RailConfig, RailFootingConfig
 from grafu.joints.report import Placement
 from grafu.joints.support_block import Footing, block, nearest_part, shortest_bridge
 from grafu.scene.scene import Obstacle
@@ -74,7 +74,7 @@ def _fixed(
     if search.request.choice.supports is Supports.DIVIDER:
         found = _divider(end, T, walls, reach, search.config.rail)
     else:
-        footings = _footings(end, T)
+        footings = _footings(end, T, search.config.rail.footing)
         found = shortest_bridge([next(footings)] if _is_slab(search) else footings, walls, reach)
     return None if found is None else (rail, block(f"support_{name}", *found))
 
@@ -100,7 +100,9 @@ def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tupl
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
-    bridge = shortest_bridge(_dynamic_footings(end, T), RayCaster(search.mesh), 0.2 * search.frame.width)
+    config = search.config.rail.footing
+    reach = config.drawer_reach * search.frame.width
+    bridge = shortest_bridge(_dynamic_footings(end, T, config), RayCaster(search.mesh), reach)
     return None if bridge is None else (rail, block(f"support_{name}", *bridge))
 
 
@@ -120,7 +122,8 @@ def _divider(
     Where one of the two is out of reach it ends with the rail there; None where both are, or a wall leaves no room.
     """
     snap = end.snap
-    room = Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v).gap(walls, reach)
+    side = config.footing.wall
+    room = Footing(snap.center, snap.normal, side * snap.u, side * snap.v).gap(walls, reach)
     thickness = min(config.divider, room - config.divider_air)
     if thickness < config.thinnest_divider:
         return None
@@ -128,7 +131,7 @@ def _divider(
     outward = np.asarray(snap.normal)
     heights, lengths = end.mesh.vertices @ up, end.mesh.vertices @ back
     half = float(np.ptp(heights)) / 2
-    v = 0.98 * back * float(np.ptp(lengths)) / 2
+    v = side * back * float(np.ptp(lengths)) / 2
     middle = snap.center + outward * thickness / 2
     middle = middle + up * (float(heights.min() + half) - float(middle @ up))
     middle = middle + back * (float(lengths.min() + np.ptp(lengths) / 2) - float(middle @ back))
@@ -139,23 +142,28 @@ def _divider(
     return Footing(middle - below * up, up, outward * thickness / 2, v), below + above
 
 
-def _footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
+def _footings(end: TemplateEnd, T: Mat4, config: RailFootingConfig) -> Iterator[Footing]:
     """Yields the static snap plane looking at the wall, then the rail looking up, down and to the back."""
     snap = end.snap
-    yield Footing(snap.center, snap.normal, 0.98 * snap.u, 0.98 * snap.v)
-    yield from _looking(end, T, (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward")))
-    yield from _looking(end, T, (("back", 1.0, "up", "outward"),))
+    yield Footing(snap.center, snap.normal, config.wall * snap.u, config.wall * snap.v)
+    looks = (("up", 1.0, "back", "outward"), ("up", -1.0, "back", "outward"), ("back", 1.0, "up", "outward"))
+    yield from _looking(end, T, looks, config.side)
 
 
-def _dynamic_footings(end: TemplateEnd, T: Mat4) -> Iterator[Footing]:
+def _dynamic_footings(end: TemplateEnd, T: Mat4, config: RailFootingConfig) -> Iterator[Footing]:
     """Yields the dynamic snap plane looking at the drawer, then the rail's front end looking at the front's back."""
     snap = end.snap
-    yield Footing(snap.center, snap.normal, 0.9 * snap.u, 0.9 * snap.v)
-    yield from _looking(end, T, (("back", -1.0, "up", "outward"),))
+    yield Footing(snap.center, snap.normal, config.side * snap.u, config.side * snap.v)
+    yield from _looking(end, T, (("back", -1.0, "up", "outward"),), config.side)
 
 
-def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str], ...]) -> Iterator[Footing]:
-    """Yields rectangles on a rail's sides, measured along its own axes: direction, its sense, and their two sides."""
+def _looking(
+    end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str], ...], ratio: float
+) -> Iterator[Footing]:
+    """Yields rectangles on a rail's sides, measured along its own axes: direction, its sense, and their two sides.
+
+    They take a fraction of the sides, `ratio`.
+    """
     middle, reach = np.zeros(3), {}
     for name, axis in (("outward", end.snap.normal), ("back", T[:3, 1]), ("up", T[:3, 2])):
         along = end.mesh.vertices @ axis
@@ -164,7 +172,7 @@ def _looking(end: TemplateEnd, T: Mat4, looks: tuple[tuple[str, float, str, str]
     for name, sign, first, second in looks:
         towards = sign * reach[name]
         direction = towards / np.linalg.norm(towards)
-        yield Footing(middle + towards, direction, 0.9 * reach[first], 0.9 * reach[second])
+        yield Footing(middle + towards, direction, ratio * reach[first], ratio * reach[second])
 
 
 def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
@@ -172,7 +180,8 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     region = search.region
     if region is None:
         return None
-    gaps = flank_gaps(search.frame, region, search.static_rays, 0.25 * search.scene.extent, search.config.rail.flank)
+    flank = search.config.rail.flank
+    gaps = flank_gaps(search.frame, region, search.static_rays, flank.reach * search.scene.extent, flank)
     choice = search.request.choice
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
@@ -225,14 +234,14 @@ def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4
 
 def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, search: DrawerSearch) -> bool:
     """Whether rails or blocks cut into the other side's parts along the path, or into other moving bodies at rest."""
-    depth = search.config.depth * search.scene.extent
+    depth, poses = search.config.depth * search.scene.extent, search.config.rail.poses
     motion = search.motion
     fixed = merge_meshes([v.mesh for v in static])
-    if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], 12):
+    if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], poses):
         return True
     moving = merge_meshes([v.mesh for v in dynamic])
     body = SweptBody(moving, depth, np.asarray(search.frame.rotation))
-    if not is_free(body, motion, upper, in_the_way(search.obstacles, swept_box(moving.box, motion, upper)), 12):
+    if not is_free(body, motion, upper, in_the_way(search.obstacles, swept_box(moving.box, motion, upper)), poses):
         return True
     return _cuts_neighbours(fixed, depth, search) or _cuts_neighbours(moving, depth, search)
 

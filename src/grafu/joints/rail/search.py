@@ -71,7 +71,7 @@ class DrawerSearch:
 
     def walls_of(self, parts: tuple[str, ...]) -> RayCaster:
         """Returns the static body around the drawer and behind it (or some parts of it alone), prepared for rays."""
-        near = 0.5 * float(self.mesh.box.size.max())
+        near = self.config.rail.around * float(self.mesh.box.size.max())
         margin = self.scene.extent if is_shallow(self.frame, self.config.drawer) else near
         return RayCaster(self.scene.static_mesh_near(self.mesh.box, margin, parts))
 
@@ -81,7 +81,8 @@ class DrawerSearch:
         container = body_region(self.mesh, self.frame, self.config.body_tolerance, self.config.drawer)
         if container is not None and not is_shallow(self.frame, self.config.drawer):
             return container
-        behind = front_only_region(self.frame, self.static_rays, 1.5 * self.scene.extent, self.config.rail)
+        reach = self.config.rail.behind.reach * self.scene.extent
+        behind = front_only_region(self.frame, self.static_rays, reach, self.config.rail)
         if container is None or (behind is not None and behind.length > self.config.rail.deeper * container.length):
             return behind
         return container
@@ -94,7 +95,7 @@ class DrawerSearch:
     @property
     def wanted(self) -> float:
         """The travel that is asked for, as far as rails could give it, metres."""
-        return max(min(self.request.reference or self.reach, self.reach), 1e-3)
+        return max(min(self.request.reference or self.reach, self.reach), self.config.rail.least_travel)
 
     def travel(self, reach: float) -> float:
         """Returns the widest travel, at most `reach`, that is free of the static body."""
