@@ -19,22 +19,23 @@ from grafu.additions.top.config import (
     SupportConfig,
     TopConfig,
 )
-from grafu.joints.config import RealizationConfig
+from grafu.joints.config import ClearanceConfig, RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig, RailFootingConfig
 
 CONFIGS = (
-    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, CutoutConfig, DrawerBoxConfig, EvidenceConfig,
-    FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig, GripSizes, GroundConfig,
-    HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig, PinConfig, PivotConfig,
-    RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig, SupportConfig, SurveyConfig,
-    TopConfig,
+    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, ClearanceConfig, CutoutConfig, DrawerBoxConfig,
+    EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
+    GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,
+    PinConfig, PivotConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
+    SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
 POSITIVE = [
     (BoxProbeConfig, "touch"),
     (CarcassConfig, "back"),
+    (ClearanceConfig, "play"),
     (CutoutConfig, "opening"),
     (DrawerBoxConfig, "wall"),
     (EvidenceConfig, "flange"),
@@ -66,6 +67,7 @@ POSITIVE = [
     (TopConfig, "thickness"),
 ]
 RATIOS = [
+    (ClearanceConfig, "touching"),
     (CutoutConfig, "left"),
     (EvidenceConfig, "plate"),
     (GraspConfig, "inside"),

@@ -7,10 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from grafu.joints.config import PlanConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail_config import BehindConfig, BodyConfig, DrawerConfig, FlankConfig, RailConfig, RailFootingConfig
+from grafu.joints.rail_config import (
+    BehindConfig,
+    BodyConfig,
+    DrawerConfig,
+    FlankConfig,
+    RailConfig,
+    RailFootingConfig,
+)
 from module_numbers import explained_fields, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -38,12 +45,13 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BodyConfig, DrawerConfig, FlankConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig,
-    PlanConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
+    BehindConfig, BodyConfig, ClearanceConfig, DrawerConfig, FlankConfig, FootingConfig, HingeConfig, PinConfig,
+    PivotConfig, PlanConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 WITHOUT_NUMBERS = (
-    "hinge/candidates.py", "hinge/hardware.py", "hinge/pivot.py", "hinge/place.py", "hinge/search.py",
-    "hinge/survey.py", "rail/body_region.py", "rail/place.py", "rail/search.py", "rail/spots.py",
+    "clearance/carve.py", "clearance/make.py", "clearance/trim.py", "hinge/candidates.py", "hinge/hardware.py",
+    "hinge/pivot.py", "hinge/place.py", "hinge/search.py", "hinge/survey.py", "rail/body_region.py",
+    "rail/place.py", "rail/search.py", "rail/spots.py",
 )  # fmt: skip
 
 

@@ -64,6 +64,27 @@ class TimeConfig:
 
 @final
 @dataclass(frozen=True)
+class ClearanceConfig:
+    """How much play is given where material is taken away.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    play: float = 2.5
+    """Distance to what a path is freed from (in tolerated penetrations)."""
+    touching: float = 0.9
+    """What is nearer than this touches, where what touches is pressed back as well (fraction of `play`)."""
+    enclosed: float = 2.0
+    """How far what lies enclosed in a moving part may stand out of it (in tolerated penetrations)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "play", "enclosed")
+        require_ratios(self, "touching")
+
+
+@final
+@dataclass(frozen=True)
 class RealizationConfig:
     """What realization may do, and how exact it is.
 
@@ -140,6 +161,8 @@ class RealizationConfig:
     """Of what counts as a drawer."""
     plan: PlanConfig = PlanConfig()
     """Of requests."""
+    clearance: ClearanceConfig = ClearanceConfig()
+    """Of the play of what is trimmed and carved."""
     time: TimeConfig = TimeConfig()
     """Of the time that steps may take."""
 

@@ -121,7 +121,7 @@ class BehindConfig:
     inset: float = 0.02
     """How far inside the front's sides the rails stay (fraction of its width)."""
     reach: float = 1.5
-    """How far around the front the walls of the space stand at most (extent)."""
+    """How far behind the front, and to its sides, walls are looked for (extent)."""
     start: float = 1e-3
     """How far behind the front rays start (metres)."""
     shallow: float = 0.5

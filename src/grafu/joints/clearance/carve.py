@@ -126,7 +126,7 @@ _MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is co
 def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Returns the scene with the path cut out of those blockers that lose less than the limit."""
     ids = [name for name in ids if len(scene.parts[name].mesh.faces) <= config.carved_faces]
-    play = 2.5 * config.depth * scene.extent
+    play = config.clearance.play * config.depth * scene.extent
     solids = list(_swept_solids(scene, path, ids, play, config))
     carved: list[Part] = []
     done: list[Clearance] = []

@@ -59,7 +59,7 @@ def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
 
 def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Lets static parts that lie enclosed in the moving part move with it: the drawer's own half of its old rails."""
-    box = scene.parts[path.moving].box.grown(2 * config.depth * scene.extent)
+    box = scene.parts[path.moving].box.grown(config.clearance.enclosed * config.depth * scene.extent)
     inside = [name for name in ids if bool(box.contains(scene.parts[name].box.corners()).all())]
     if not inside:
         return scene, []

@@ -162,13 +162,14 @@ def trim(
     front = _front_of(part.mesh.vertices @ path.axes, path, thinnest)
     back = _back_of(part, path) if at_back else None
     limits = _Limits(most, hidden, front, back, config.max_back_trim * metre, thinnest, config.kept)
-    play = 2.5 * config.depth * scene.extent
+    play = config.clearance.play * config.depth * scene.extent
     boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
     theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])
+    near = config.clearance.touching * play if touching else 0.0
     depth = 0.0
     surfaces = []
     for surface in part.surfaces:
-        pressed, deepest = _pressed(surface, theirs, path, limits, (play, 0.9 * play if touching else 0.0))
+        pressed, deepest = _pressed(surface, theirs, path, limits, (play, near))
         surfaces.append(pressed)
         depth = max(depth, deepest)
     if depth == 0.0:
