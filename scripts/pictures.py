@@ -2,6 +2,7 @@
 
 python scripts/pictures.py                              all of them
 python scripts/pictures.py before_after --sample FILE   one, from a sample of one's own
+python scripts/pictures.py sheets INPUT ... --out DIR   contact sheets of any models (pictures_sheets.py)
 """
 
 import argparse
@@ -11,6 +12,7 @@ from pathlib import Path
 import pictures_additions
 import pictures_pages
 import pictures_prepare
+import pictures_sheets
 from PIL import Image
 
 from grafu.asset.edit import as_static_object
@@ -29,6 +31,8 @@ SHEETS = {**pictures_additions.SHEETS, **pictures_pages.SHEETS, **pictures_prepa
 
 def main() -> int:
     """Writes the pictures; returns the exit code."""
+    if sys.argv[1:2] == ["sheets"]:
+        return pictures_sheets.main(sys.argv[2:])
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("pictures", nargs="*", metavar="PICTURE", help=f"of {', '.join((BEFORE_AFTER, *SHEETS))}")
     parser.add_argument("--sample", type=Path, default=ROOT / "samples" / "kitchen_base.glb")

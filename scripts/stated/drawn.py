@@ -160,6 +160,15 @@ SCRIPTS = """
 * What is no figure but looks like one (a definition, an example): `<!-- no figure: why -->` in the same
   paragraph, or in the line above a table.
 
+## To look at many models
+
+    python scripts/pictures.py sheets samples/*.glb models/pnm/* --out sheets --motion auto
+
+writes one contact sheet for each model: as drawn, closed, half open, open (each joint as far as the others leave room,
+in the order in which they can open), closed from behind, open from below, the text of the report, and each hinge and
+rail close up, its joint open, from where it is seen best. Red is hardware on what is fixed, blue on what moves, yellow
+a support; what hides hardware from all sides is drawn faint. Close-ups that do not fit go to a second sheet.
+
 ## Scripts
 
 """
