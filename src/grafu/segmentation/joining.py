@@ -196,24 +196,32 @@ def _front_objects(
     view, members = merged(seen, framed(seen, config.frames))
     plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
     found = [front.made_of(members) for front in fronts_among(view, plates, config)]
+    objects: Final = _ObjectsOfShells(shell, owner)
     return [
-        _Front(
-            *_whole_objects(shell, owner, front.shells, len(may)),
-            tuple(sum(_whole_objects(shell, owner, handle, len(may)), ()) for handle in front.handles),
-        )
+        _Front(*objects.whole_in(front.shells), tuple(sum(objects.whole_in(handle), ()) for handle in front.handles))
         for front in found
     ]
 
 
-def _whole_objects(shell: Indices, owner: ObjectOfFaces, group: Group, count: int) -> tuple[Group, Group]:
-    """Returns the objects of the first shell of a group, and the others that lie whole in it.
+class _ObjectsOfShells:
+    """How many faces of each object each shell has."""
 
-    There are none where an object of the first shell does not.
-    """
-    inside = np.bincount(owner[np.isin(shell, group)], minlength=count)
-    whole = (inside > 0) & (inside == np.bincount(owner, minlength=count))
-    plates = np.unique(owner[shell == group[0]])
-    if not whole[plates].all():
-        return (), ()
-    whole[plates] = False
-    return tuple(plates.tolist()), tuple(np.flatnonzero(whole).tolist())
+    def __init__(self, shell: Indices, owner: ObjectOfFaces) -> None:
+        pairs, self._faces = np.unique(np.column_stack([shell, owner]), axis=0, return_counts=True)
+        self._object = pairs[:, 1]
+        self._starts = np.searchsorted(pairs[:, 0], np.arange(int(shell.max(initial=-1)) + 2))
+        self._all = np.bincount(owner)
+
+    def whole_in(self, group: Group) -> tuple[Group, Group]:
+        """Returns the objects of the first shell of a group, and the others that lie whole in it.
+
+        There are none where an object of the first shell does not.
+        """
+        rows = np.concatenate([np.arange(self._starts[k], self._starts[k + 1]) for k in group])
+        objects, place = np.unique(self._object[rows], return_inverse=True)
+        inside = np.bincount(place.reshape(-1), weights=self._faces[rows])
+        whole = {*objects[inside == self._all[objects]].tolist()}
+        plates = self._object[self._starts[group[0]] : self._starts[group[0] + 1]].tolist()
+        if not whole >= {*plates}:
+            return (), ()
+        return tuple(plates), tuple(sorted(whole - {*plates}))
