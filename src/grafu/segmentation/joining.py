@@ -15,7 +15,7 @@ from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.touching import near_pairs, touching_pairs
+from grafu.geometry.touching import touching_pairs
 from grafu.segmentation.candidates import candidates, framed, merged
 from grafu.segmentation.config import JoiningConfig, SegmentationConfig
 from grafu.segmentation.division import Shells, axes_from
@@ -43,11 +43,9 @@ def joined_objects(
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
     whole, apart = merge_meshes(meshes), Shells.of(meshes).shell
     contacts: Final = _Contacts(meshes, config.joining)
-    fronts = [
-        front
-        for shell in (_across(whole, owner, apart, may), apart)
-        for front in _front_objects(whole, shell, owner, may, config)
-    ]
+    across = _across(whole, owner, apart, may)
+    numberings = (apart,) if across.max(initial=0) == apart.max(initial=0) else (across, apart)
+    fronts = [front for shell in numberings for front in _front_objects(whole, shell, owner, may, config)]
     single = [front for front in fronts if contacts.count_apart(front.handles_within(fronts)) < 2]
     taken: set[int] = set()
     found: list[Group] = []
@@ -85,11 +83,8 @@ class _Contacts:
     def __init__(self, meshes: Sequence[TriangleMesh], config: JoiningConfig) -> None:
         size = float(Box.enclosing([mesh.box for mesh in meshes]).size.max())
         self._meshes, self._reach, self._edging = meshes, config.touch * size, config.edging
-        reach = self._reach
-        self._near: dict[int, set[int]] = {k: set() for k in range(len(meshes))}
-        for a, b in near_pairs([mesh.box for mesh in meshes], reach):
-            self._near[a].add(b)
-            self._near[b].add(a)
+        self._low = np.array([mesh.box.low for mesh in meshes])
+        self._high = np.array([mesh.box.high for mesh in meshes])
         self._touched: dict[int, set[int]] = {}
 
     def hanging_together(self, front: _Front, may: MaskOfObjects) -> Group:
@@ -162,7 +157,8 @@ class _Contacts:
 
     def _of(self, k: int) -> set[int]:
         if k not in self._touched:
-            pairs = [(k, other) for other in sorted(self._near[k])]
+            gaps = np.maximum(self._low - self._high[k], self._low[k] - self._high).max(axis=1)
+            pairs = [(k, other) for other in np.flatnonzero(gaps <= self._reach).tolist() if other != k]
             self._touched[k] = {other for _, other in touching_pairs(self._meshes, pairs, self._reach)}
         return self._touched[k]
 
@@ -207,10 +203,10 @@ class _ObjectsOfShells:
     """How many faces of each object each shell has."""
 
     def __init__(self, shell: Indices, owner: ObjectOfFaces) -> None:
-        pairs, self._faces = np.unique(np.column_stack([shell, owner]), axis=0, return_counts=True)
-        self._object = pairs[:, 1]
-        self._starts = np.searchsorted(pairs[:, 0], np.arange(int(shell.max(initial=-1)) + 2))
         self._all = np.bincount(owner)
+        pairs, self._faces = np.unique(shell * len(self._all) + owner, return_counts=True)
+        shells, self._object = np.divmod(pairs, len(self._all))
+        self._starts = np.searchsorted(shells, np.arange(int(shell.max(initial=-1)) + 2))
 
     def whole_in(self, group: Group) -> tuple[Group, Group]:
         """Returns the objects of the first shell of a group, and the others that lie whole in it.
