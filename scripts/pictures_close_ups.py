@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import cos, radians
+from math import cos, radians, sin
 
 import numpy as np
 from PIL import Image
@@ -53,7 +53,11 @@ class CloseUpConfig:
     faint: float = 0.2
     """How much of what hides hardware remains in the picture."""
     from_front: float = 0.25
-    """How much more a view from the front counts than one from behind: people know furniture from there."""
+    """How much more a view from the front counts than one from behind: people know furniture from there ..."""
+    from_above: float = 0.25
+    """... and one from above than one from below, where it is dark, too."""
+    brightness: float = 1.1
+    """The exponent by which a close-up is made lighter: insides of furniture are dark."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +103,8 @@ class View:
     def score(self, counts: np.ndarray, config: CloseUpConfig) -> float:
         """Returns how good a view is by what it sees of each visual: all of them count more than one large one."""
         balanced = float(counts.sum()) + len(counts) * float(counts.min(initial=counts.sum()))
-        return balanced * (1 + config.from_front * cos(self.azimuth) * cos(self.elevation))
+        front = config.from_front * cos(self.azimuth) * cos(self.elevation)
+        return balanced * (1 + front + config.from_above * sin(self.elevation))
 
     def shows(self, config: CloseUpConfig) -> bool:
         """Whether enough of the device is visible, and something of each of its visuals."""
@@ -247,4 +252,5 @@ def _directions(config: CloseUpConfig) -> Iterator[tuple[float, float]]:
 def _rendered(visuals: Sequence[Visual], camera: Camera, size: tuple[int, int], config: CloseUpConfig) -> Picture:
     drawn = max(round(config.detail * size[0]), 1), max(round(config.detail * size[1]), 1)
     picture = render(visuals, camera, drawn, PictureStyle(shadow=False))
+    picture = np.round(255 * (picture / 255.0) ** (1 / config.brightness)).astype(np.uint8)
     return np.array(Image.fromarray(picture).resize(size, Image.Resampling.LANCZOS))

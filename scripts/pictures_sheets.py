@@ -34,6 +34,7 @@ from grafu.render.picture import Picture, box_of, encode_png, posed_visuals, ren
 
 Line = tuple[str, str]  # a text and its colour
 
+KEY = "close up, "
 INK, GREY = "#262628", "#6a6a6e"
 MARKS = {Colour.GREEN: "#1b7f3b", Colour.YELLOW: "#a66a00", Colour.RED: "#c0221b"}
 
@@ -44,6 +45,8 @@ class SheetConfig:
 
     tile: tuple[int, int] = (400, 300)
     columns: int = 4
+    rows_of_text: int = 4
+    """Below a close-up; its verdict is wrapped into what the first two leave."""
     close_ups: int = 12
     font: int = 14
     azimuth: float = radians(30)
@@ -178,9 +181,9 @@ def report_lines(result: grafu.Result, title: str) -> list[Line]:
         lines += [(f"{f.part or 'the whole'}: {f.kind}, {f.why}", MARKS[f.colour]) for f in verdict.lines]
     lines += [(f"added: {added.part} ({added.style})", GREY) for added in result.added]
     lines += [
-        ("close up, on what is fixed", _hex(ON_FIXED)),
-        ("close up, on what moves", _hex(ON_MOVING)),
-        ("close up, supports", _hex(SUPPORT)),
+        (f"{KEY}on what is fixed", _hex(ON_FIXED)),
+        (f"{KEY}on what moves", _hex(ON_MOVING)),
+        (f"{KEY}supports", _hex(SUPPORT)),
     ]
     return lines
 
@@ -189,33 +192,52 @@ def panel(lines: Sequence[Line], size: tuple[int, int], config: SheetConfig) -> 
     """Returns lines of text on white; those that do not fit are counted in the last line."""
     sheet = Image.new("RGBA", size, "white")
     draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(size=config.font)
-    room = max(size[1] // config.line - 1, 1)
-    key = [line for line in lines if line[0].startswith("close up, ")]
-    rest = [line for line in lines if line not in key]
-    if len(lines) > room:
+    room, width = max(size[1] // config.line - 1, 1), size[0] - 2 * config.font
+    key = [line for line in lines if line[0].startswith(KEY)]
+    rest = [(row, colour) for text, colour in lines if (text, colour) not in key for row in _wrapped(text, width, font)]
+    if len(rest) + len(key) > room:
         kept = max(room - len(key) - 1, 1)
         rest = [*rest[:kept], (f"and {len(rest) - kept} more lines in the report", GREY)]
     for k, (text, colour) in enumerate([*rest, *key]):
-        fitted = _fitted(text, size[0] - 2 * config.font, font)
-        draw.text((config.font, config.line * (k + 0.5)), fitted, fill=colour, font=font)
+        draw.text((config.font, config.line * (k + 0.5)), text, fill=colour, font=font)
     return np.array(sheet)
 
 
 def _rows(tiles: Sequence[Tile], config: SheetConfig, columns: int = 0) -> Picture:
-    """Returns tiles in rows from the left, their lines of text below each."""
+    """Returns tiles in rows from the left, their lines of text below each; the last is wrapped if there is room."""
     columns = columns or config.columns
-    (width, height), strip = config.tile, config.line * max(len(tile.lines) for tile in tiles)
-    rows = -(-len(tiles) // columns)
-    sheet = Image.new("RGBA", (columns * width, rows * (height + strip)), "white")
+    (width, height), most = config.tile, 1 if max(len(tile.lines) for tile in tiles) == 1 else config.rows_of_text
+    step, rows = height + most * config.line, -(-len(tiles) // columns)
+    sheet = Image.new("RGBA", (columns * width, rows * step), "white")
     draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(size=config.font)
     for k, tile in enumerate(tiles):
-        x, y = (k % columns) * width, (k // columns) * (height + strip)
+        x, y = (k % columns) * width, (k // columns) * step
         sheet.alpha_composite(Image.fromarray(tile.picture), (x, y))
         draw.rectangle((x, y, x + width - 1, y + height - 1), outline="#d0d0d4")
-        for row, (text, colour) in enumerate(tile.lines):
-            place = (x + config.font // 2, y + height + row * config.line)
-            draw.text(place, _fitted(text, width - config.font, font), fill=colour, font=font)
+        for row, (text, colour) in enumerate(_text_below(tile, width - config.font, most, font)):
+            draw.text((x + config.font // 2, y + height + row * config.line), text, fill=colour, font=font)
     return np.array(sheet)
+
+
+def _text_below(tile: Tile, width: float, most: int, font: ImageFont.FreeTypeFont) -> list[Line]:
+    """Returns at most so many lines: each in one row, but the last is wrapped into the rows that are left."""
+    *first, (text, colour) = tile.lines
+    fitted = [(_fitted(line, width, font), ink) for line, ink in first]
+    wrapped, room = _wrapped(text, width, font), most - len(first)
+    if len(wrapped) > room:
+        wrapped = [*wrapped[: room - 1], _fitted(" ".join(wrapped[room - 1 :]), width, font)]
+    return [*fitted, *((row, colour) for row in wrapped)]
+
+
+def _wrapped(text: str, width: float, font: ImageFont.FreeTypeFont) -> list[str]:
+    """Returns a text in rows that fit; a word that is wider than a row is cut."""
+    rows: list[str] = []
+    for word in text.split():
+        if rows and font.getlength(f"{rows[-1]} {word}") <= width:
+            rows[-1] += f" {word}"
+        else:
+            rows.append(_fitted(word, width, font))
+    return rows
 
 
 def _fitted(text: str, width: float, font: ImageFont.FreeTypeFont) -> str:

@@ -128,7 +128,7 @@ def test_close_ups_that_one_sheet_does_not_hold_go_to_the_next(result, devices):
     sheets = pictures_sheets.sheets_of(result, config)
     assert len(sheets) == -(-len(devices) // 4) == 2
     assert {sheet.shape[1] for sheet in sheets} == {4 * 96}
-    row = 72 + 3 * config.line
+    row = 72 + config.rows_of_text * config.line
     assert sheets[0].shape[0] == 2 * (72 + config.line) + row
     assert sheets[1].shape[0] == 2 * config.line + row
 
@@ -139,6 +139,14 @@ def test_text_that_does_not_fit_is_cut_or_counted():
     assert cut.endswith(" ...")
     assert font.getlength(cut) <= 100
     assert pictures_sheets._fitted("short", 100, font) == "short"
+    rows = pictures_sheets._wrapped("many words in rows " * 9, 100, font)
+    assert len(rows) > 3
+    assert " ".join(rows) == ("many words in rows " * 9).strip()
+    assert max(map(font.getlength, rows)) <= 100
+    tile = pictures_sheets.Tile(np.zeros((2, 2, 4), np.uint8), (("name", "red"), ("many words in rows " * 9, "blue")))
+    below = pictures_sheets._text_below(tile, 100, 3, font)
+    assert [colour for _, colour in below] == ["red", "blue", "blue"]
+    assert below[-1][0].endswith(" ...")
     many = [("x", "#000000")] * 100
     assert pictures_sheets.panel(many, (200, 60), SMALL).shape == (60, 200, 4)
 
