@@ -50,6 +50,10 @@ class CloseUpConfig:
     """Where less of the hardware is seen than this fraction of its whole outline, what hides it becomes faint ..."""
     least_end: float = 0.15
     """... and where less than this is seen of the end on what is fixed, or of that on what moves."""
+    least_share: float = 0.4
+    """A view is good where it shows at least this fraction of what the best view would without anything that hides."""
+    least_hiding: float = 0.08
+    """What hides a smaller fraction of the hardware's outline is left as it is."""
     faint: float = 0.2
     """How much of what hides hardware remains in the picture."""
     from_front: float = 0.25
@@ -149,9 +153,9 @@ def close_up(
     visuals = painted_visuals(articulated, device, open_pose(articulated, device.joint))
     shown = (device.fixed | device.moving) or _names_below(articulated, device.joint)
     aspect = size[0] / size[1]
-    view = best_view(visuals, shown, aspect, config)
+    view, is_through = best_view(visuals, shown, aspect, config)
     picture = _rendered(visuals, view.camera, size, config)
-    if view.shows(config):
+    if not is_through:
         return CloseUp(picture, False)
     hidden = hiding(visuals, shown, view.camera, aspect, config)
     bared = _rendered([v for v in visuals if v.name not in hidden], view.camera, size, config)
@@ -175,20 +179,25 @@ def painted_visuals(articulated: ArticulatedObject, device: Device, values: Mapp
     ]
 
 
-def best_view(visuals: Sequence[Visual], shown: frozenset[str], aspect: float, config: CloseUpConfig) -> View:
-    """Returns the view that shows most of some visuals; where all hide them, that from which they look largest."""
+def best_view(
+    visuals: Sequence[Visual], shown: frozenset[str], aspect: float, config: CloseUpConfig
+) -> tuple[View, bool]:
+    """Returns the view that shows most of some visuals, and whether what hides them must become faint even so."""
     eye = Eye(visuals, shown, aspect, config)
     views = [eye.view(*angles) for angles in _directions(config)]
     best = max(views, key=lambda view: view.score(view.visible, config))
-    if not best.shows(config):
-        best = max(views, key=lambda view: view.score(view.visible, config) + view.score(view.whole, config))
-    return eye.view(best.azimuth, best.elevation, near=True)
+    largest = max(int(view.whole.sum()) for view in views)
+    near = eye.view(best.azimuth, best.elevation, near=True)
+    if best.visible.sum() >= config.least_share * largest and near.shows(config):
+        return near, False
+    best = max(views, key=lambda view: view.score(view.visible, config) + view.score(view.whole, config))
+    return eye.view(best.azimuth, best.elevation, near=True), True
 
 
 def hiding(
     visuals: Sequence[Visual], shown: frozenset[str], camera: Camera, aspect: float, config: CloseUpConfig
 ) -> frozenset[str]:
-    """Returns the names of the visuals between a camera and those that are to be shown."""
+    """Returns the names of the visuals that stand between a camera and those that are to be shown."""
     alone = RayScene([v for v in visuals if v.name in shown])
     directions = camera.rays(config.grid, round(config.grid / aspect))
     origins = np.tile(camera.eye.astype(np.float32), (len(directions), 1))
@@ -197,7 +206,9 @@ def hiding(
     while True:
         left = [v for v in visuals if v.name not in found]
         met = RayScene(left).cast(origins[: len(directions)], directions).visual
-        blockers = {left[k].name for k in np.unique(met)} - shown
+        found_now, counts = np.unique(met, return_counts=True)
+        least = config.least_hiding * len(directions)
+        blockers = {left[k].name for k, count in zip(found_now, counts, strict=True) if count > least} - shown
         if not blockers:
             return frozenset(found)
         found |= blockers

@@ -165,7 +165,7 @@ def close_up_tile(result: grafu.Result, device: Device, config: SheetConfig = Sh
     joint = result.joint(device.joint)
     hardware = hardware_in_words(joint.count, joint.template, joint.mechanism).replace("×", "x")  # the font has no ×
     opening = motion_kind(joint.type).worded(joint.opening)
-    title = f"{joint.part}: {device.title}" + (" (seen through what hides it)" if found.is_through else "")
+    title = f"{joint.part}: {device.title}" + (" (see-through)" if found.is_through else "")
     return Tile(
         found.picture,
         ((title, INK), (f"{joint.type}, {hardware}, opens {opening}", GREY), _verdict_line(result, joint.part)),
