@@ -50,7 +50,7 @@ class CloseUpConfig:
     """Where less of the hardware is seen than this fraction of its whole outline, what hides it becomes faint ..."""
     least_end: float = 0.15
     """... and where less than this is seen of the end on what is fixed, or of that on what moves."""
-    least_share: float = 0.4
+    least_seen: float = 0.4
     """A view is good where it shows at least this fraction of what the best view would without anything that hides."""
     least_hiding: float = 0.08
     """What hides a smaller fraction of the hardware's outline is left as it is."""
@@ -188,7 +188,7 @@ def best_view(
     best = max(views, key=lambda view: view.score(view.visible, config))
     largest = max(int(view.whole.sum()) for view in views)
     near = eye.view(best.azimuth, best.elevation, near=True)
-    if best.visible.sum() >= config.least_share * largest and near.shows(config):
+    if best.visible.sum() >= config.least_seen * largest and near.shows(config):
         return near, False
     best = max(views, key=lambda view: view.score(view.visible, config) + view.score(view.whole, config))
     return eye.view(best.azimuth, best.elevation, near=True), True
