@@ -132,7 +132,7 @@ def test_an_object_of_two_pieces_is_divided(tmp_path: Path) -> None:
     for one in found:
         (held,) = [p for p in one.parts if p.source.name == "handles"]
         assert len(held.mesh.faces) == 24
-        assert len(one.parts) == len(CABINET) - 2  # one object has both handles, and the drawer's bottom joins its front
+        assert len(one.parts) == len(CABINET) - 2  # both handles are one object; the drawer's bottom joins its front
 
 
 def test_joints_go_with_their_piece(tmp_path: Path) -> None:
