@@ -194,6 +194,10 @@ class JoiningConfig:
     """As near as this, two objects touch (of the whole's largest side)."""
     least: float = 0.025
     """The shorter side of a front at least (of the whole's largest side): desks have drawers as low as this."""
+    boards: int = 3
+    """How many of a front's objects a board behind it touches at least, where it touches others too ..."""
+    beside: int = 2
+    """... and what lies beside or on the front."""
     edging: float = 0.1
     """How far behind a front the edging of what it closes ends at most (of the front's largest side)."""
 

@@ -82,7 +82,7 @@ class _Contacts:
 
     def __init__(self, meshes: Sequence[TriangleMesh], config: JoiningConfig) -> None:
         size = float(Box.enclosing([mesh.box for mesh in meshes]).size.max())
-        self._meshes, self._reach, self._edging = meshes, config.touch * size, config.edging
+        self._meshes, self._reach, self._config = meshes, config.touch * size, config
         self._low = np.array([mesh.box.low for mesh in meshes])
         self._high = np.array([mesh.box.high for mesh in meshes])
         self._touched: dict[int, set[int]] = {}
@@ -90,9 +90,9 @@ class _Contacts:
     def hanging_together(self, front: _Front, may: MaskOfObjects) -> Group:
         """Returns the objects of a front, those left out that hang together with others; with what hangs on it alone.
 
-        Its plates stay. Of the others that touch something else, boards behind them stay if they touch three of the
-        group or more and nothing from above, and are no edging of what it closes; what lies beside or on them stays if
-        it touches two.
+        Its plates stay. Of the others that touch something else, boards behind them stay if they touch enough of the
+        group and nothing from above, and are no edging of what it closes; what lies beside or on them stays if it
+        touches enough. How many that is, `JoiningConfig` states.
         """
         if not front.plates:
             return ()
@@ -128,10 +128,10 @@ class _Contacts:
             return False
         box, reach = self._meshes[k].box, self._reach
         if float(box.low[1]) < float(ahead.high[1]) - reach:
-            return len(touched & inside) < 2
+            return len(touched & inside) < self._config.beside
         is_covered = any(float(self._meshes[other].box.low[2]) >= float(box.high[2]) - reach for other in others)
-        is_edging = float(box.high[1] - ahead.high[1]) <= self._edging * float(ahead.size.max())
-        return is_covered or is_edging or len(touched & inside) < 3
+        is_edging = float(box.high[1] - ahead.high[1]) <= self._config.edging * float(ahead.size.max())
+        return is_covered or is_edging or len(touched & inside) < self._config.boards
 
     def _with_hanging(self, front: Group, ahead: Box, may: MaskOfObjects) -> Group:
         """Returns a front with what hangs on nothing but it: a box of any form, in an outline and a rest around it."""

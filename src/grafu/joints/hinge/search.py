@@ -46,9 +46,9 @@ from grafu.scene.scene import Obstacle, Scene
 class JudgedPin:
     """A pin with what the sweep of the door without hardware states about it; lower ranks are better.
 
-    `free` is the opening before the door runs into the static body or the floor (which of two pins lets a handle come
-    a little lower decides nothing); `neighbours` are the moving bodies that it meets at
-    rest; `is_clear` states that the door opens about it as wanted, or nearly so, past everything.
+    `free` is the opening before the door runs into the static body or the floor; `neighbours` are the moving bodies
+    that it meets at rest; `is_clear` states that the door opens about it as wanted, or nearly so, past everything. The
+    floor counts in `rank` and `is_clear` only where it leaves the opening restricted.
     """
 
     pin: PinCandidate
