@@ -76,7 +76,7 @@ def time_stages(count: int) -> dict[str, float]:
         faults_of(tidy)
         clock.stop("check")
         whole, _ = apply_noise(tidy, draw_noise(rng, tidy))
-        clock.stop("untidy")
+        clock.stop("noise")
         true_graph(whole, 0)
         clock.stop("contacts and mounts")
         sample_surfaces([part.mesh for part in whole.parts], POINTS)

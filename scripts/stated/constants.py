@@ -109,8 +109,8 @@ def learning() -> Iterator[Sentence]:
             millions(BASE.network),
         ),
     )
-    yield "training.md", "for {} steps of {} graphs", (SMALL.steps, SMALL.deal.models * SMALL.deal.copies)
-    yield "training.md", "`base` is {} models with {} copies each", (BASE.deal.models, BASE.deal.copies)
+    yield "training.md", "for {} steps of {} graphs", (SMALL.steps, SMALL.sampling.models * SMALL.sampling.copies)
+    yield "training.md", "`base` is {} models with {} copies each", (BASE.sampling.models, BASE.sampling.copies)
     yield "training.md", "on the first {} models of seed 1", (FOLD_MODELS,)
     yield "training.md", "{} points on each part", (SMALL.features.points,)
     yield "training.md", "{} models of a seed that no training may use ({})", (BASE.validation.models, VALIDATION_SEED)

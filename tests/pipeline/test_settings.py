@@ -243,3 +243,10 @@ def test_a_chosen_opening_is_no_wider_than_what_is_free(asset):
     made = run(asset, BASE.with_joint(door, JointChoice(opening=radians(170), mechanism=MechanismClass.F)))
     joint = made.object.joint_of.get(door)
     assert joint is None or joint.limits.upper <= radians(170)
+
+
+def test_what_is_shown_of_settings_is_what_was_changed() -> None:
+    assert repr(Settings()) == "Settings()"
+    assert repr(Settings(trim=False)) == "Settings(trim=False)"
+    long = Settings(trim=False).with_addition("top_panel", accepted=False)
+    assert repr(long) == "Settings(trim=False, additions=...)"

@@ -63,8 +63,8 @@ def test_copies_are_counted() -> None:
     rows = experiments("folds", SMALL)
     assert [row.config.mix.folds for row in rows] == [*FOLDS_TRIED, None]
     assert [row.config.mix.natural for row in rows[:2]] == [1.0, 1 / 6]
-    assert {row.config.deal.models * row.config.deal.copies for row in rows} == {8}
-    assert {row.config.deal.copies for row in rows} == {1}
+    assert {row.config.sampling.models * row.config.sampling.copies for row in rows} == {8}
+    assert {row.config.sampling.copies for row in rows} == {1}
 
 
 def test_copies_are_of_few_models_that_are_made_once() -> None:

@@ -1,5 +1,6 @@
 """A damaged checkpoint is refused in one line, and no code of it runs."""
 
+import json
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +11,7 @@ import torch
 from little_runs import FewModels, little
 
 from grafu.errors import UnreadableAsset
-from grafu.training.checkpoint import BEST, LAST, load_best
+from grafu.training.checkpoint import BEST, LAST, load_best, read_config
 from grafu.training.loop import RunOptions, train
 from grafu.training.workers import Workers
 
@@ -142,3 +143,11 @@ def test_no_code_of_a_file_runs(folder: Path, name: str, is_zipped: bool) -> Non
     )
     assert "cannot be read" in refusal(folder, name)
     assert not made.exists()
+
+
+def test_a_config_with_the_name_that_a_field_had_is_read(folder: Path) -> None:
+    stated = json.loads((folder / "config.json").read_text(encoding="utf-8"))
+    old = {"deal" if name == "sampling" else name: value for name, value in stated.items()}
+
+    assert read_config(old, folder) == read_config(stated, folder)
+    assert "deal" in old

@@ -1,4 +1,4 @@
-"""JSON from anybody to plain and typed values: no names that stand twice, no nesting without end, no half characters.
+"""JSON from any source to plain and typed values: no repeated names, no endless nesting, no half characters.
 
 What should be an object, a list or a number is, or one line states that not; NaN is refused for a number.
 

@@ -1,8 +1,8 @@
 """The files of one model: what is named in it is sought and read here, by every reader, and nowhere else.
 
-A model comes from anybody, so the names in it lead only to regular files in the model's own folder, links followed. It
-counts the bytes that are read. Images are checked once when they are read, so that no later stage meets a broken one;
-their bytes stay as they are.
+A model may come from any source, so the names in it lead only to regular files in the model's own folder, links
+followed. It counts the bytes that are read. Images are checked once when they are read, so that no later stage meets a
+broken one; their bytes stay as they are.
 """
 
 import os

@@ -195,7 +195,7 @@ def _title(options: argparse.Namespace, config: "TrainingConfig", runs: "Sequenc
     trained = runs[0].source.name + (" and so on" if len(seeds) > 1 else "")
     return (
         f"Ablation of {options.kind}: config `{options.config}`, {config.steps} steps of "
-        f"{config.deal.models * config.deal.copies} graphs, {'seed' if len(seeds) == 1 else 'seeds'} "
+        f"{config.sampling.models * config.sampling.copies} graphs, {'seed' if len(seeds) == 1 else 'seeds'} "
         f"{', '.join(map(str, seeds))}, trained on {trained}; figures are means over what validation shows "
         f"({', '.join(VARIANTS)})."
     )

@@ -202,7 +202,7 @@ def _config(options: argparse.Namespace) -> "TrainingConfig":
 def _begun(
     options: argparse.Namespace, config: "TrainingConfig", source: "Source", workers: "Workers", first: "StepReport"
 ) -> str:
-    graphs = config.deal.models * config.deal.copies * workers.count
+    graphs = config.sampling.models * config.sampling.copies * workers.count
     before = f"from step {first.step} on, " if first.step else ""
     return (
         f"training `{options.config}` on {source.name}: {before}{config.steps} steps of {graphs} graphs, {workers.name}"

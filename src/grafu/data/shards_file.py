@@ -1,7 +1,7 @@
 """A table of named arrays as one file that numpy opens too (`.npz`, uncompressed), its largest array left on disk.
 
 The same arrays always give the same bytes. A file appears whole, by one rename. The columns of a shard are checked, for
-anybody may have written one; nothing is decoded.
+they may come from any source; nothing is decoded.
 """
 
 import json
@@ -177,7 +177,7 @@ def _member(name: str, compression: int) -> ZipInfo:
 
 
 def _require_own(path: Path) -> None:
-    """Refuses what is no regular file, and a link that leads out of the folder: a data set may be anybody's."""
+    """Refuses what is no regular file, and a link that leads out of the folder: a data set may come from any source."""
     if os.path.lexists(path) and not path.is_file():
         raise UnreadableAsset(f"cannot read `{path}`: it is no regular file")
     if os.path.dirname(os.path.realpath(path)) != os.path.realpath(path.parent):

@@ -1,4 +1,4 @@
-"""Untidy triangles sorted into connected patches: doubled faces once, closed or open, turned one way. No materials.
+"""Triangles sorted into connected patches: doubled faces once, closed or open, turned one way. No materials.
 
 Real furniture is modelled with vertices split at seams, every face drawn twice, and normals at random; what bounds a
 solid must be found from positions alone. One mesh of many bodies is sorted into shells in the same way: boards that

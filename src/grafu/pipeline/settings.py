@@ -5,7 +5,7 @@ nothing.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, final
@@ -30,7 +30,7 @@ SCHEMA = "grafu.settings/1"
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Settings:
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
@@ -51,6 +51,13 @@ class Settings:
     def __post_init__(self) -> None:
         if self.motion.is_foreign:
             raise ValueError(f"the motion source {self.motion} reads a file, which settings do not name")
+
+    def __repr__(self) -> str:
+        """What differs from the defaults; long values by their names alone, `to_json` has them."""
+        usual = {field.name: getattr(_USUAL, field.name) for field in fields(self)}
+        changed = {name: repr(getattr(self, name)) for name in usual if getattr(self, name) != usual[name]}
+        shown = (f"{name}={value if len(value) <= _SHORT else '...'}" for name, value in changed.items())
+        return f"Settings({', '.join(shown)})"
 
     def pipeline(self, own_handles: Mapping[str, HandleTemplate] | None = None) -> PipelineConfig:
         """Returns the configuration of `functionalize` that these settings stand for."""
@@ -102,6 +109,10 @@ class Settings:
     def to_json(self) -> dict[str, Any]:
         """Returns plain JSON values, every setting written out: what later versions do by default changes nothing."""
         return {"schema": SCHEMA, **_adapter().dump_python(self, mode="json")}
+
+
+_USUAL = Settings()
+_SHORT = 60  # letters of a value that `repr` shows
 
 
 def settings_from_bytes(data: bytes, where: object) -> Settings:

@@ -36,7 +36,7 @@ def descendants(process: int) -> list[int]:
 def refuse_beyond(memory: int) -> None:
     """Has the system refuse this process what goes far beyond so many bytes, before it is touched.
 
-    One request for more than the machine has would else be granted, and fill it faster than anybody looks.
+    One request for more than the machine has would else be granted, and fill it before it can be stopped.
     """
     if sys.platform == "linux":
         import resource

@@ -47,7 +47,7 @@ def _box(box: DrawerBox) -> Maker:
 
 
 def _mixed(edit: Callable[[Asset], Asset]) -> Maker:
-    return lambda: edit(make_cabinet(Cabinet("untidy", layout=MIXED)))
+    return lambda: edit(make_cabinet(Cabinet("noisy", layout=MIXED)))
 
 
 TIDY: dict[str, Maker] = {

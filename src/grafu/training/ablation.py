@@ -138,8 +138,8 @@ def _folds(config: TrainingConfig) -> tuple[Experiment, ...]:
 
     Every graph of a batch is of another model: without copies those of one model would all be the same.
     """
-    graphs = config.deal.models * config.deal.copies
-    even = replace(config, deal=replace(config.deal, models=graphs, copies=1))
+    graphs = config.sampling.models * config.sampling.copies
+    even = replace(config, sampling=replace(config.sampling, models=graphs, copies=1))
     rows = [
         Experiment(f"folds_{count}", f"{count} corrupted copies of each model", replace(even, mix=_mix(config, count)))
         for count in FOLDS_TRIED

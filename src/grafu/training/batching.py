@@ -120,7 +120,7 @@ def stream_batches(
 ) -> Generator[TrainingBatch, None, None]:
     """Yields batches from number `start` on, endlessly; `jobs` as in `stream_samples`, `part` as in Sampler."""
     sampler = Sampler(source, config.mix, config.features, config.seed, part)
-    with closing(stream_samples(sampler, config.deal, start, jobs)) as batches:
+    with closing(stream_samples(sampler, config.sampling, start, jobs)) as batches:
         for number, batch in enumerate(batches, start=start):
             rng = np.random.default_rng([config.seed, number, *part])
             yield stack_showings(_shown(batch, config, rng), config.network.points_frame == "part")
@@ -128,7 +128,7 @@ def stream_batches(
 
 def _shown(batch: SampleBatch, config: TrainingConfig, rng: np.random.Generator) -> list[Showing]:
     """Returns what is shown of each model this time: the copies of this visit, perhaps mirrored."""
-    count = config.deal.copies
+    count = config.sampling.copies
     showings = []
     for sample, visit in batch:
         across = int(rng.choice(config.mirror_axes)) if rng.random() < config.mirror else None

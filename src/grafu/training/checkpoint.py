@@ -196,12 +196,18 @@ def read_config(stated: Any, path: Path) -> TrainingConfig:
         UnreadableAsset: if it is none that this version knows.
     """
     try:
-        return _CONFIG.validate_python(stated)
+        return _CONFIG.validate_python(_renamed(stated))
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
         problem = f"`{where}`: {first['msg']}"
         raise UnreadableAsset(f"`{path}` was written by another version: {problem}; train again") from error
+
+
+def _renamed(stated: Any) -> Any:
+    """Returns a config with today's names: earlier versions called one field otherwise."""
+    is_old = isinstance(stated, dict) and "deal" in stated and "sampling" not in stated
+    return {"sampling" if name == "deal" else name: value for name, value in stated.items()} if is_old else stated
 
 
 def _require_same(stated: TrainingConfig, asked: TrainingConfig, folder: Path) -> None:

@@ -86,7 +86,7 @@ class TrainingConfig:
     network: GraFuConfig
     loss: LossConfig
     mix: CopyMix
-    deal: SamplerConfig
+    sampling: SamplerConfig
     optimiser: OptimiserConfig = OptimiserConfig()
     features: FeatureConfig = field(default_factory=FeatureConfig)
     validation: ValidationConfig = ValidationConfig()
@@ -134,14 +134,14 @@ BASE = TrainingConfig(
             }
         ),
     ),
-    deal=SamplerConfig(),
+    sampling=SamplerConfig(),
 )
 
 PAPER = TrainingConfig(
     network=GraFuConfig(),
     loss=PAPER_LOSS,
     mix=CopyMix(natural=1 / 18, masked=0.0, corruption=_UNMIRRORED, folds=17),
-    deal=SamplerConfig(models=16, copies=1, reuse=1, spread=16),
+    sampling=SamplerConfig(models=16, copies=1, reuse=1, spread=16),
     optimiser=OptimiserConfig(
         rate=3e-4,
         weight_decay=1e-4,
@@ -162,7 +162,7 @@ SMALL = replace(
     network=GraFuConfig(
         hidden=128, heads=4, encoder_layers=2, decoder_layers=2, edge=64, category=64, points=32, geometry=16
     ),
-    deal=SamplerConfig(models=2, copies=4),
+    sampling=SamplerConfig(models=2, copies=4),
     optimiser=replace(BASE.optimiser, rate=2e-3, warmup=200, average=0.995),  # for a few thousand steps
     features=FeatureConfig(points=256, anchors=16, neighbours=16),
     validation=replace(BASE.validation, every=1000),
@@ -176,7 +176,7 @@ TINY = replace(
     network=GraFuConfig(
         hidden=32, heads=2, encoder_layers=1, decoder_layers=1, edge=16, category=16, points=16, geometry=16
     ),
-    deal=SamplerConfig(models=2, copies=2, reuse=2, spread=4),
+    sampling=SamplerConfig(models=2, copies=2, reuse=2, spread=4),
     optimiser=replace(BASE.optimiser, rate=2e-3, warmup=10),
     features=FeatureConfig(points=64, anchors=8, neighbours=8),
     validation=ValidationConfig(models=6, every=50),

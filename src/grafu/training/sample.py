@@ -217,41 +217,41 @@ class Sampler:
 
 
 def stream_samples(
-    sampler: Sampler, deal: SamplerConfig, start: int = 0, jobs: int = 1
+    sampler: Sampler, sampling: SamplerConfig, start: int = 0, jobs: int = 1
 ) -> Generator[SampleBatch, None, None]:
     """Yields the batches from number `start` on, without end.
 
     The samples are made by `jobs` processes (1: by this one), as in `ordered_map`.
     """
-    make = partial(sampler.sample, deal.copies * deal.reuse)
-    turn, skipped = deal.round_of(start)
-    first = max(0, turn - deal.reuse + 1)
-    with closing(ordered_map(make, first * deal.fresh, None, jobs)) as samples:
-        yield from islice(_streamed(samples, deal, (sampler.seed, *sampler.part), first, turn), skipped, None)
+    make = partial(sampler.sample, sampling.copies * sampling.reuse)
+    turn, skipped = sampling.round_of(start)
+    first = max(0, turn - sampling.reuse + 1)
+    with closing(ordered_map(make, first * sampling.fresh, None, jobs)) as samples:
+        yield from islice(_streamed(samples, sampling, (sampler.seed, *sampler.part), first, turn), skipped, None)
 
 
 def _streamed(
-    samples: Iterator[Sample], deal: SamplerConfig, seed: Sequence[int], first: int, turn: int
+    samples: Iterator[Sample], sampling: SamplerConfig, seed: Sequence[int], first: int, turn: int
 ) -> Iterator[SampleBatch]:
     """Yields the batches of round `turn` and all later ones; the samples begin with those of round `first`.
 
     While a round is streamed the samples of the next are taken in, some after each batch, so that no step waits for
     all.
     """
-    kept: list[list[Sample]] = [list(islice(samples, deal.fresh)) for _ in range(first, turn + 1)]
+    kept: list[list[Sample]] = [list(islice(samples, sampling.fresh)) for _ in range(first, turn + 1)]
     for now in count(turn):
-        batches = _batches(kept, deal, np.random.default_rng([*seed, now]))
+        batches = _batches(kept, sampling, np.random.default_rng([*seed, now]))
         coming: list[Sample] = []
         for number, batch in enumerate(batches, start=1):
             yield batch
-            coming.extend(islice(samples, number * deal.fresh // len(batches) - len(coming)))
-        kept = [*kept[-deal.reuse + 1 :], coming] if deal.reuse > 1 else [coming]
+            coming.extend(islice(samples, number * sampling.fresh // len(batches) - len(coming)))
+        kept = [*kept[-sampling.reuse + 1 :], coming] if sampling.reuse > 1 else [coming]
 
 
-def _batches(kept: Sequence[Sequence[Sample]], deal: SamplerConfig, rng: np.random.Generator) -> list[SampleBatch]:
+def _batches(kept: Sequence[Sequence[Sample]], sampling: SamplerConfig, rng: np.random.Generator) -> list[SampleBatch]:
     """Returns all kept samples as batches of similar sizes in a drawn order; the newest get their first visit."""
-    deck = [(sample, visit) for visit, samples in enumerate(reversed(kept)) for sample in samples]
-    deck = [deck[int(k)] for k in rng.permutation(len(deck))]
-    deck.sort(key=lambda one: len(one[0].anchors))
-    batches = [deck[k : k + deal.models] for k in range(0, len(deck), deal.models)]
+    visits = [(sample, visit) for visit, samples in enumerate(reversed(kept)) for sample in samples]
+    visits = [visits[int(k)] for k in rng.permutation(len(visits))]
+    visits.sort(key=lambda one: len(one[0].anchors))
+    batches = [visits[k : k + sampling.models] for k in range(0, len(visits), sampling.models)]
     return [batches[int(k)] for k in rng.permutation(len(batches))]

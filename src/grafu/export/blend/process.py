@@ -33,7 +33,7 @@ def packed(articulated: ArticulatedObject) -> bytes:
 
 
 def unpacked(data: bytes) -> ArticulatedObject:
-    """Returns the object that `packed` was given; bytes of anybody else's must not be given, for they may run code."""
+    """Returns the object that `packed` was given; bytes of another source must not be given, for they may run code."""
     articulated: ArticulatedObject = pickle.loads(data)
     return articulated
 

@@ -59,7 +59,7 @@ LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))
 # 46896; 32052 and 49182 have grips of other kinds), some of which are pushed to open; single ones are rarely forgotten.
 # One blueprint in four is drawn without handles already, so that the rate here is small.
 NO_TOP: Final[dict[str, float]] = {
-    # below a worktop, or above what anybody sees: most are modelled without
+    # below a worktop, or above what can be seen: most are modelled without
     "base cabinet": 0.75,
     "sink cabinet": 0.8,
     "washstand": 0.35,
