@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from grafu.asset.frame import FrontEvidenceConfig
+from grafu.asset.scale import ScaleConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.pipeline.verdict import VerdictConfig
 from grafu.segmentation.config import (
@@ -20,7 +22,7 @@ from grafu.segmentation.config import (
     MemberConfig,
     SegmentationConfig,
 )
-from module_numbers import explained_fields, floats_in_functions, modules_of, named_numbers
+from module_numbers import explained_fields, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 SOURCES = Path(__file__).parents[1] / "src" / "grafu"
 
@@ -30,9 +32,11 @@ NUMBERING = "numbers of directions or of groups, or a direction"
 VOTES = "the weight of a vote: weights were set together, against each other, and one alone means nothing"
 FRAME = "it settles the frame of a front or of a border, which joints and additions share: each must see the same"
 SHARED = "one answer for all: joints, additions and pages must not differ in it"
+SOLD = "a table of sizes of furniture as sold, or of units of length"
 WORDS = "how many names a sentence has"
 
 OF_MODULES = {
+    "asset": {"frame.py": {}, "scale.py": {"STORAGE": SOLD, "TABLE": SOLD, "UNITS": SOLD}},
     "scene": {
         "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
@@ -57,28 +61,32 @@ OF_MODULES = {
     "pipeline": {"verdict.py": {"_NAMED": WORDS}, "triage.py": {}},
 }
 IN_FUNCTIONS = {
+    "asset": {"frame.py": {}, "scale.py": {}},
     "scene": {"border.py": {}, "front.py": {}, "scale.py": {}},
     "segmentation": {
         "candidates.py": {},
         "division.py": {},
-        "fronts.py": {},
+        "fronts.py": {6: TOLERANCE},
         "furniture_pieces.py": {},
         "view.py": {0.4871: SAMPLES, 0.5113: SAMPLES},
     },
     "completion": {
-        "doors.py": dict.fromkeys((0.1, 0.2, 0.7, 0.8, 0.9, 1.5, 2.5, 3.0, 4.0, 5.0, 6.0), VOTES),
-        "drawers.py": dict.fromkeys((0.05, 0.25, 0.3, 0.6, 0.8, 1.5, 3.0, 4.0, 5.0), VOTES),
+        "doors.py": {
+            **dict.fromkeys((0.1, 0.2, 0.7, 0.8, 0.9, 1.5, 2.5, 3.0, 4.0, 6.0), VOTES),
+            5: NUMBERING,  # upwards; also a weight
+        },
+        "drawers.py": dict.fromkeys((0.3, 0.6, 1.5, 3.0, 4.0, 5.0), VOTES),
         "handles.py": dict.fromkeys((0.002, 0.01), VOTES),
         "rows.py": {},
         "rule.py": {},
         "rule_scene.py": {},
         "votes.py": {},
     },
-    "pipeline": {"verdict.py": {}, "triage.py": {}},
+    "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    CandidateConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig, FurnitureConfig, GuessConfig,
-    MemberConfig, RowConfig, RuleConfig, SegmentationConfig, VerdictConfig,
+    CandidateConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig, FrontEvidenceConfig,
+    FurnitureConfig, GuessConfig, MemberConfig, RowConfig, RuleConfig, ScaleConfig, SegmentationConfig, VerdictConfig,
 )  # fmt: skip
 NUMBERS = [(kind, f.name) for kind in CONFIGS for f in fields(kind) if not is_dataclass(f.default)]
 
@@ -100,7 +108,10 @@ def test_all_modules_of_a_folder_are_looked_at(folder: str) -> None:
 @pytest.mark.parametrize("folder", IN_FUNCTIONS)
 def test_no_threshold_stands_in_a_function(folder: str) -> None:
     sources = modules_of(SOURCES / folder)
-    found = {name: set(floats_in_functions(sources[name])) for name in IN_FUNCTIONS[folder]}
+    found = {
+        name: {*floats_in_functions(sources[name]), *factors_in_functions(sources[name])}
+        for name in IN_FUNCTIONS[folder]
+    }
 
     assert found == {name: set(reasons) for name, reasons in IN_FUNCTIONS[folder].items()}
 

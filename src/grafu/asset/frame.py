@@ -12,22 +12,50 @@ import numpy as np
 from grafu.asset.options import DIRECTIONS, LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Reading
-from grafu.asset.scale import Estimate, estimate_scale, is_normalised, likely_unit
+from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive
 from grafu.geometry.transform import from_rotation
 from grafu.vocabulary import PartLabel
 
 _LYING = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)
 _STANDING = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.DOOR, PartLabel.DIVIDER)
 
-# Moving bodies smaller than this fraction of the object (a tap, a lever) do not tell where its front is.
-_TELLING = 0.2
-# Nor does a bulky part that ends farther inside than this fraction of the object's largest side.
-_REACHES = 0.05
-# Evidence overrules a convention only where it is nearly unanimous.
-_UNANIMOUS, _NEGLIGIBLE = 0.7, 0.1
+
+@final
+@dataclass(frozen=True, slots=True)
+class FrontEvidenceConfig:
+    """Which parts show where the front is, and when they overrule what the format or data set states.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    telling: float = 0.2
+    """Largest side of a door or drawer that shows it, over that of the object: a tap or a lever is smaller."""
+    reaches: float = 0.05
+    """How far inside the object a bulky part may end and still show it (fraction of the object's largest side) ..."""
+    clearly: float = 0.01
+    """... where it is farther by this from every other side (fraction of the object's largest side)."""
+    bulky: float = 0.4
+    """Thinner level side over the longer one from which on a part is bulky (ratio)."""
+    aside: float = 0.1
+    """How far from the object's middle a thin part lies at least to show it (fraction of the object's half side)."""
+    handle: float = 0.5
+    """Vote of a handle; that of a door or drawer is 1."""
+    back: float = 0.75
+    """Vote of a back panel, for the opposite side."""
+    least: float = 0.9
+    """Sum of votes below which they overrule nothing."""
+    unanimous: float = 0.7
+    """Fraction of the votes that one side must have to overrule what is stated ..."""
+    negligible: float = 0.1
+    """... and that the stated side may have at most."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
 
 
 def vector(direction: str) -> Vec3:
@@ -63,7 +91,9 @@ def up_from_parts(parts: tuple[Part, ...], whole: Box) -> str | None:
     return spelled(axis, bool(sense[axis] >= 0))
 
 
-def front_votes(parts: tuple[Part, ...], whole: Box, up: str) -> dict[str, float]:
+def front_votes(
+    parts: tuple[Part, ...], whole: Box, up: str, config: FrontEvidenceConfig = FrontEvidenceConfig()
+) -> dict[str, float]:
     """Returns how much speaks for each horizontal direction as the front.
 
     Doors and drawers vote for the side that they face, handles for the side that they stick out of, back panels for
@@ -72,22 +102,25 @@ def front_votes(parts: tuple[Part, ...], whole: Box, up: str) -> dict[str, float
     votes = {d: 0.0 for d in DIRECTIONS if d[1] != up[1]}
     for part in parts:
         if part.label in (PartLabel.DOOR, PartLabel.DRAWER):
-            if part.box.size.max() >= _TELLING * whole.size.max():
-                _add(votes, _side(part, whole, votes), 1.0)
+            if part.box.size.max() >= config.telling * whole.size.max():
+                _add(votes, _side(part, whole, votes, config), 1.0)
         elif part.label is PartLabel.HANDLE:
-            _add(votes, _nearest_side(part.box, whole, votes), 0.5)
+            _add(votes, _nearest_side(part.box, whole, votes, config), config.handle)
         elif part.label is PartLabel.BACK_PANEL:
-            side = _side(part, whole, votes)
-            _add(votes, side and spelled("XYZ".index(side[1]), side[0] == "-"), 0.75)
+            side = _side(part, whole, votes, config)
+            _add(votes, side and spelled("XYZ".index(side[1]), side[0] == "-"), config.back)
     return votes
 
 
-def decide_front(votes: dict[str, float], stated: str | None, usual: str) -> tuple[str, str]:
+def decide_front(
+    votes: dict[str, float], stated: str | None, usual: str, config: FrontEvidenceConfig = FrontEvidenceConfig()
+) -> tuple[str, str]:
     """Returns the front and, in words, what it rests on: the convention unless nearly everything speaks against it."""
     total = sum(votes.values())
     best = max(votes, key=lambda d: (votes[d], d == usual))
     if stated is not None:
-        against = total > 0.9 and votes[best] >= _UNANIMOUS * total and votes.get(stated, 0.0) <= _NEGLIGIBLE * total
+        for_another = votes[best] >= config.unanimous * total
+        against = total > config.least and for_another and votes.get(stated, 0.0) <= config.negligible * total
         return (best, "geometry") if against else (stated, "convention")
     clear = total > 0 and sum(v >= votes[best] - 1e-9 for v in votes.values()) == 1
     return (best, "geometry") if clear else (usual, "habit")
@@ -98,18 +131,18 @@ def _add(votes: dict[str, float], direction: str | None, weight: float) -> None:
         votes[direction] += weight
 
 
-def _side(part: Part, whole: Box, votes: dict[str, float]) -> str | None:
+def _side(part: Part, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
     """Returns the side of the object that a part's thin axis faces, or for a bulky part the side nearest to it."""
     horizontal = sorted({"XYZ".index(d[1]) for d in votes})
     size = part.box.size[horizontal]
     thin = horizontal[int(np.argmin(size))]
-    if size.min() > 0.4 * size.max():
-        return _nearest_side(part.box, whole, votes)
+    if size.min() > config.bulky * size.max():
+        return _nearest_side(part.box, whole, votes, config)
     offset = part.box.center[thin] - whole.center[thin]
-    return spelled(thin, bool(offset > 0)) if abs(offset) > 0.1 * whole.half[thin] else None
+    return spelled(thin, bool(offset > 0)) if abs(offset) > config.aside * whole.half[thin] else None
 
 
-def _nearest_side(box: Box, whole: Box, votes: dict[str, float]) -> str | None:
+def _nearest_side(box: Box, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
     """Returns the side of the object that a part reaches most nearly, or None where it reaches two or none."""
     gaps = {}
     for direction in votes:
@@ -117,7 +150,7 @@ def _nearest_side(box: Box, whole: Box, votes: dict[str, float]) -> str | None:
         outward = whole.high[axis] - box.high[axis] if direction[0] == "+" else box.low[axis] - whole.low[axis]
         gaps[direction] = float(outward) / max(float(whole.size.max()), 1e-12)
     first, second = sorted(gaps.values())[:2]
-    return min(gaps, key=lambda d: gaps[d]) if second - first > 0.01 and first <= _REACHES else None
+    return min(gaps, key=lambda d: gaps[d]) if second - first > config.clearly and first <= config.reaches else None
 
 
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
@@ -210,8 +243,8 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
         return options.scale, f"scale {options.scale:.6g} m per unit: stated by the user"
     estimate = estimate_scale(reading.parts, whole, up, reading.furniture)
     unit = reading.convention.unit
-    size = float(whole.size.max())
-    if unit is not None and 0.1 <= size * unit <= 8.0:
+    size, believed = float(whole.size.max()), ScaleConfig()
+    if unit is not None and believed.smallest <= size * unit <= believed.largest_stated:
         return unit, f"scale {unit:g} m per unit: stated by {reading.convention.origin}"
     if not reading.convention.normalised and not is_normalised(reading.parts, whole):
         common = likely_unit(size, estimate)

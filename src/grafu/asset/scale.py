@@ -13,6 +13,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.asset.reading import Furniture
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive
 from grafu.vocabulary import PartLabel
 
 
@@ -52,6 +53,36 @@ _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, Pa
 
 
 @final
+@dataclass(frozen=True, slots=True)
+class ScaleConfig:
+    """When a size is believed, and when an object was scaled by a data set.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    spread: float = 2.5
+    """Largest factor between a unit in common use and the estimate (ratio)."""
+    smallest: float = 0.1
+    """Least largest side of furniture (metres) ..."""
+    largest: float = 6.0
+    """... its greatest, where the unit is one in common use (metres) ..."""
+    largest_stated: float = 8.0
+    """... and where the format states the unit (metres)."""
+    sides: tuple[float, ...] = (1.0, 2.0)
+    """Largest side or diagonal of what was scaled by a data set (in units) ..."""
+    exact: float = 1e-3
+    """... to this fraction of it."""
+    off_floor: float = 0.85
+    """Distance of the middle of what hangs about the origin from it (fraction of half the sides)."""
+    radii: tuple[float, float] = (0.99, 1.08)
+    """Least and greatest radius of the sphere about the origin in which it lies (in units)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
 @dataclass(frozen=True)
 class Estimate:
     """Metres per input unit, and the measures that it rests on, the weightiest first."""
@@ -79,33 +110,33 @@ def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furn
     return Estimate(float(np.exp(weights @ logs / weights.sum())), kind, tuple(known))
 
 
-def likely_unit(size: float, estimate: Estimate, spread: float = 2.5) -> tuple[str, float] | None:
+def likely_unit(size: float, estimate: Estimate, config: ScaleConfig = ScaleConfig()) -> tuple[str, float] | None:
     """Returns the unit in common use that makes the object plausible, or None.
 
     Args:
-        size: the largest side in input units; it must come out between 10 cm and 6 m.
+        size: the largest side in input units.
         estimate: the scale that shape and labels suggest.
-        spread: the largest factor between a unit and the estimate.
+        config: the sizes that are believed.
     """
     best = min(UNITS, key=lambda name: abs(math.log(UNITS[name] / estimate.scale)))
     unit = UNITS[best]
-    plausible = abs(math.log(unit / estimate.scale)) < math.log(spread) and 0.1 <= size * unit <= 6.0
-    return (best, unit) if plausible else None
+    is_near = abs(math.log(unit / estimate.scale)) < math.log(config.spread)
+    return (best, unit) if is_near and config.smallest <= size * unit <= config.largest else None
 
 
-def is_normalised(parts: tuple[Part, ...], whole: Box) -> bool:
+def is_normalised(parts: tuple[Part, ...], whole: Box, config: ScaleConfig = ScaleConfig()) -> bool:
     """Whether an object looks scaled by a data set, so that its unit means nothing.
 
-    That is: its largest side or diagonal is 1 or 2 units to a thousandth, or it hangs about the origin within a sphere
-    of radius 1 (ShapeNet and PartNet: 0.99 to 1.08), where real furniture stands on a floor.
+    That is: its largest side or diagonal is 1 or 2 units, or it hangs about the origin within a sphere of radius 1
+    (ShapeNet and PartNet), where real furniture stands on a floor.
     """
     lengths = (float(whole.size.max()), float(whole.diagonal))
-    if any(abs(length - unit) < 1e-3 * unit for length in lengths for unit in (1.0, 2.0)):
+    if any(abs(length - unit) < config.exact * unit for length in lengths for unit in config.sides):
         return True
-    if not np.all(np.abs(whole.center) < 0.85 * whole.half):
+    if not np.all(np.abs(whole.center) < config.off_floor * whole.half):
         return False
     radius = max(float(np.linalg.norm(p.mesh.vertices, axis=1).max()) for p in parts)
-    return 0.99 < radius < 1.08
+    return config.radii[0] < radius < config.radii[1]
 
 
 def _kind(parts: tuple[Part, ...], whole: Box, up: int) -> Furniture:

@@ -55,6 +55,9 @@ class DecodeConfig:
     second_rail: float = 0.3
     """The rail on a drawer's other flank is taken from this probability on."""
 
+    flank: float = 0.25
+    """How far within a drawer's box a carrier may lie and still be on its flank (fraction of the drawer's width)."""
+
     outward: float = 0.5
     """Power of a rule's score of where the front of a door or drawer is, in the choice of its direction of opening;
     the reported scores stay the network's. 0 leaves it out."""
@@ -72,7 +75,15 @@ class DecodeConfig:
     """
 
     def __post_init__(self) -> None:
-        ratios = (self.fires, self.addable, self.overlap, self.least_edge, self.second_rail, self.edge_for_label)
+        ratios = (
+            self.fires,
+            self.addable,
+            self.overlap,
+            self.least_edge,
+            self.second_rail,
+            self.edge_for_label,
+            self.flank,
+        )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
         if min(self.rounds, self.reach, self.grasp, self.outward) < 0:
@@ -169,6 +180,10 @@ class DoorRuleConfig:
     """The same as `wide` for doors of a row, which often have their handles there."""
     very_wide: float = 2.2
     """Width over height from which on a door without a handle is a flap."""
+    stands_out: float = 0.1
+    """A handle that stands out farther on one side, by this fraction of its own depth, shows where the front is."""
+    nearer_end: float = 0.1
+    """A door nearer to one end of the body, by this fraction of its width, hangs there."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -189,6 +204,12 @@ class DrawerRuleConfig:
     """Distance at which a carrier's nearness has fallen to 1 / e."""
     least_flank: float = 0.05
     """Fraction of a drawer's flank beside which a carrier stands at least, and its least score."""
+    inside: float = 0.05
+    """Depth in the body at which a face's vote for being the front has fallen to 1 / e."""
+    face: float = 0.8
+    """Fraction of the drawer's half side: a part between that and its face blocks it by half."""
+    behind_front: float = 0.25
+    """Fraction of the drawer's width by which a carrier may lie within it: overlaid fronts are wider than the box."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -212,7 +233,9 @@ class RowConfig:
     panel_height: float = 0.6
     """Height along which a panel behind their seam stands at least (fraction of the door's height) ..."""
     panel_width: float = 0.3
-    """... and its width at most (fraction of the door's width)."""
+    """... and its width at most (fraction of the door's width) ..."""
+    panel_near: float = 0.1
+    """... and how far from the seam its middle lies at most (fraction of the mean width)."""
     lap_height: float = 0.9
     """Height that doors share at least that slide past each other (fraction of each height)."""
     lap: tuple[float, float] = (0.02, 0.6)

@@ -72,7 +72,7 @@ def vote_front(door: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     for handle in scene.handles_of(door):
         above = max(float(handle.box.high[thin] - box.high[thin]), 0.0)
         below = max(float(box.low[thin] - handle.box.low[thin]), 0.0)
-        if abs(above - below) > 0.1 * float(handle.box.size[thin]):
+        if abs(above - below) > scene.config.doors.stands_out * float(handle.box.size[thin]):
             votes.add(high if above > below else low, 4.0)
     place = offset_ratio(scene.body, box.center, thin)
     votes.add(high if place > 0 else low, 3.0 * min(abs(place), 1.0))
@@ -176,7 +176,7 @@ def _vote_outer_side(door: PartNode, scene: RuleScene, votes: Votes[HingeBorder]
     across = across_axis(door)
     to_low = abs(float(door.box.low[across] - scene.body.low[across]))
     to_high = abs(float(door.box.high[across] - scene.body.high[across]))
-    if abs(to_low - to_high) > 0.1 * float(door.box.size[across]):
+    if abs(to_low - to_high) > scene.config.doors.nearer_end * float(door.box.size[across]):
         votes.add(_border(door, across, to_high < to_low), 1.5)
     else:
         # Nothing decides: hung on the right as one stands before it, so that turning the object changes nothing.

@@ -41,7 +41,7 @@ def vote_direction(drawer: PartNode, scene: RuleScene) -> Ranking[SignedAxis]:
     blocked = _blocked_ratios(drawer, scene)
     for direction in _DIRECTIONS:
         inside = max(_depth_inside(drawer.box, scene.body, direction) / scene.extent, 0.0)
-        votes.add(direction, 1.5 * float(np.exp(-inside / 0.05)))
+        votes.add(direction, 1.5 * float(np.exp(-inside / scene.config.drawers.inside)))
         votes.add(direction, -4.0 * blocked[direction])
     return votes.ranking()
 
@@ -71,7 +71,7 @@ def _blocked_ratios(drawer: PartNode, scene: RuleScene) -> dict[SignedAxis, floa
     found: dict[SignedAxis, float] = {}
     for direction in _DIRECTIONS:
         place = places[:, direction // 2] * code_to_direction(direction)[direction // 2]
-        weight = np.where(place > 1.0, 1.0, np.where(place > 0.8, 0.5, 0.0))
+        weight = np.where(place > 1.0, 1.0, np.where(place > scene.config.drawers.face, 0.5, 0.0))
         section = np.delete(ratios, direction // 2, axis=1).prod(axis=1)
         found[direction] = min(float((weight * section).sum()), 1.0)
     return found
@@ -104,7 +104,7 @@ def _nearness(drawer: PartNode, node: PartNode, side: SignedAxis, scene: RuleSce
     inner = float((node.box.face_center(opposite(side)) - flank) @ outward)
     outer = float((node.box.face_center(side) - flank) @ outward)
     width = float(drawer.box.size[side // 2])
-    if outer < -0.25 * width or inner > config.reach * scene.extent:
+    if outer < -config.behind_front * width or inner > config.reach * scene.extent:
         return 0.0
     surrounds = outer > 0 and inner < -0.5 * width
     away = inner if inner > 0 else -0.3 * inner

@@ -106,7 +106,7 @@ def _split_at_panels(row: Sequence[PartNode], scene: RuleScene) -> list[list[Par
 def panel_behind(left: PartNode, right: PartNode, axis: int, scene: RuleScene) -> bool:
     """Whether an upright panel stands behind the seam of two doors."""
     config, seam = scene.config.rows, (left.box.high[axis] + right.box.low[axis]) / 2
-    reach = float(left.box.size[axis] + right.box.size[axis]) / 20
+    reach = config.panel_near * float(left.box.size[axis] + right.box.size[axis]) / 2
     return any(
         abs(float(node.box.center[axis]) - seam) <= reach
         and overlap_ratio(left.box, node.box, 2) > config.panel_height

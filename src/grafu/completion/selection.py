@@ -206,7 +206,7 @@ def _flanks(drawer: PartNode, axis: SignedAxis, slots: Indices, view: View) -> I
     """Returns for each slot the side of the drawer that it stands on: -1 low, 1 high, 0 on both or on neither."""
     across = 0 if axis // 2 == 1 else 1
     box = drawer.box
-    slack = 0.25 * float(box.size[across])  # an overlaid front is wider than the drawer's own box
+    slack = view.config.flank * float(box.size[across])
     middle = float(box.center[across])
     low, high = view.low[slots, across], view.high[slots, across]
     is_low = (high <= middle) & (low <= float(box.low[across]) + slack)
