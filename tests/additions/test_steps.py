@@ -20,7 +20,7 @@ OLD = box("old", (1.0, 0.0, 0.0), (1.2, 0.2, 0.2))
 
 def planned(asset) -> tuple[Scene, Request]:
     plan = plan_from_annotation(asset)
-    return planned_scene(asset, plan), Request(plan, ("made",))
+    return planned_scene(asset, plan), Request(plan, names=("made",))
 
 
 def adding(name: str, rides_on: str | None = None, removed: frozenset[str] = frozenset(), is_chosen=False) -> Step:

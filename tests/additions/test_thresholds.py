@@ -10,45 +10,76 @@ ADDITIONS = Path(__file__).parents[2] / "src" / "grafu" / "additions"
 
 SAMPLES = "how many rays, cells, poses or pieces an algorithm takes, or where in a face they lie"
 TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
+SHAPE = "how exactly an outline is drawn, and when it is taken as a simpler one; relative to the outline itself"
+WORDS = "how many names a sentence has"
 NUMBERING = "numbers of axes, of faces and of steps between cells"
 LIMIT = "the most that an input may ask for, or that is computed in a reasonable time"
 GLASS = "what counts as glass, and textures of unknown size: of materials, not of furniture, and the same for all steps"
 
 REASONS = {
     "carcass/bays.py": {"FRONT_HEIGHTS": SAMPLES, "DEPTHS": SAMPLES, "FINE_DEPTHS": SAMPLES},
-    "carcass/complete.py": {"RAY_SPREAD": SAMPLES},
-    "carcass/missing_panels.py": {"RAY_GRID": SAMPLES},
-    "drawer_box/boards.py": {"RAYS_PER_SIDE": SAMPLES},
-    "drawer_box/room.py": {"COLUMNS": SAMPLES, "SLICES": SAMPLES, "DEPTH_QUANTILES": SAMPLES},
+    "carcass/complete.py": {
+        "RAY_SPREAD": SAMPLES,
+        "PIECES": SAMPLES,
+        "FINE_PIECES": SAMPLES,
+        "WITHIN": TOLERANCE,
+    },
+    "carcass/missing_panels.py": {"RAY_GRID": SAMPLES, "NAMED": WORDS},
+    "drawer_box/boards.py": {
+        "RAYS_PER_SIDE": SAMPLES,
+        "SPREAD": SAMPLES,
+        "WHOLE_SPREAD": SAMPLES,
+        "WALL_HEIGHTS": SAMPLES,
+    },
+    "drawer_box/room.py": {
+        "COLUMNS": SAMPLES,
+        "SLICES": SAMPLES,
+        "DEPTH_QUANTILES": SAMPLES,
+        "SAME_DEPTH": TOLERANCE,
+    },
     "drawer_box/verdict.py": {"COLUMNS": SAMPLES, "FACE_RAYS": SAMPLES, "LEVELS": SAMPLES, "RAY_START": TOLERANCE},
     "grip/carve.py": {"BOX_TOLERANCE": TOLERANCE},
     "grip/ground.py": {"ASIDE": TOLERANCE, "OUTERMOST_LINES": SAMPLES},
     "grip/place.py": {"LINES": SAMPLES},
     "grip/shape.py": {
         "QUARTER_EDGES": SAMPLES,
+        "TURN_EDGES": SAMPLES,
+        "RIM_TRACE": TOLERANCE,
+        "DIGITS": TOLERANCE,
         "BOTTOM_LEVELS": SAMPLES,
         "RIM_SLICES": SAMPLES,
         "LEVEL_TOLERANCE": TOLERANCE,
     },
+    "handle/config.py": {"MOST_HANDLES": LIMIT},
     "handle/finger_room.py": {"OPPOSITE_STEPS": NUMBERING, "STEPS": NUMBERING, "EDGE_CELLS": SAMPLES},
     "handle/fit.py": {"SAME_SURFACE": TOLERANCE, "MOST_FOOT_POINTS": SAMPLES},
     "handle/grips.py": {"CLUSTER_CELLS": SAMPLES},
-    "handle/relief.py": {"MOST_CELLS": SAMPLES, "UNSEEN": TOLERANCE},
+    "handle/relief.py": {"MOST_CELLS": SAMPLES, "ALL_CELLS": SAMPLES, "UNSEEN": TOLERANCE},
     "handle/spots.py": {"TURNS": NUMBERING},
+    "interior/arrangement.py": {"FLAT": TOLERANCE},
     "interior/compartments.py": {
+        "RIM_STEPS": SAMPLES,
+        "RIM_LEVELS": SAMPLES,
+        "RIM_REACH": SAMPLES,
         "RAYS_PER_SIDE": SAMPLES,
         "RAY_SPAN": SAMPLES,
         "FACE_CELLS": SAMPLES,
         "PART_CELLS": TOLERANCE,
     },
     "interior/occupied.py": {"POINT_SPACING": SAMPLES},
-    "interior/panels.py": {"RAYS_ALONG_EDGE": SAMPLES, "EDGE_LEVELS": SAMPLES},
+    "interior/panels.py": {"RAYS_ALONG_EDGE": SAMPLES, "EDGE_MARGIN": SAMPLES, "EDGE_LEVELS": SAMPLES},
     "interior/request.py": {"MOST_PANELS": LIMIT},
     "interior/rooms.py": {"FRONTS": NUMBERING, "LID": NUMBERING, "SIDE_AXES": NUMBERING, "FRONT_FACES": NUMBERING},
     "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
-    "top/cutouts.py": {"SWEEP_POSES": SAMPLES},
+    "top/complete.py": {"NARROWEST_GROOVE": SHAPE, "GROOVE_DETAIL": SHAPE, "RECTANGLE": SHAPE},
+    "top/cutouts.py": {"SWEEP_POSES": SAMPLES, "ROUNDED_UP": TOLERANCE},
     "top/height_map.py": {"LEAST_UPRIGHT_PART": TOLERANCE, "BORDER_TOLERANCE": TOLERANCE, "CELLS_AT_ONCE": LIMIT},
+    "top/outline.py": {"ALONG_AXES": SHAPE, "SPECK": SAMPLES},
     "top/section.py": {
+        "LEAST_SPREAD": TOLERANCE,
+        "SMALL": SHAPE,
+        "MOST_CORNER": SHAPE,
+        "SIDES": NUMBERING,
         "SHORTEST_LINE": TOLERANCE,
         "MOST_LINES": LIMIT,
         "MITRE_LIMIT": TOLERANCE,
@@ -56,13 +87,21 @@ REASONS = {
         "SHORTEST_EDGE": TOLERANCE,
         "ARC_EDGES": SAMPLES,
     },
-    "top/supports.py": {"CELL_INSET": SAMPLES},
-    "top/views.py": {"VIEW_CELLS": SAMPLES, "PLAN_CELLS": SAMPLES, "VIEWING_DIRECTIONS": NUMBERING},
+    "top/supports.py": {"ALONG_AXES": SHAPE, "CELL_INSET": SAMPLES},
+    "top/views.py": {
+        "VIEW_CELLS": SAMPLES,
+        "PLAN_CELLS": SAMPLES,
+        "VIEWING_DIRECTIONS": NUMBERING,
+        "SEEN_POINTS": SAMPLES,
+    },
 }
 
 IN_FUNCTIONS = {
-    "grips.py": {1.2: TOLERANCE},  # cells: what lies on a border
-    "spots.py": {0.25: SAMPLES, 0.75: SAMPLES},  # the middles of two halves
+    "carcass/complete.py": {3: NUMBERING},
+    "handle/grips.py": {1.2: TOLERANCE},  # cells: what lies on a border
+    "handle/spots.py": {0.25: SAMPLES, 0.75: SAMPLES},  # the middles of two halves
+    "interior/compartments.py": {5: NUMBERING, 6: NUMBERING},
+    "interior/rooms.py": {3: NUMBERING, 5: NUMBERING, 6: NUMBERING},
 }
 
 
@@ -106,8 +145,9 @@ def test_no_threshold_stands_in_a_module() -> None:
     assert named_numbers(ADDITIONS) == {name: set(reasons) for name, reasons in REASONS.items()}
 
 
-def test_grips_and_places_of_handles_hold_no_threshold() -> None:
-    sources = modules_of(ADDITIONS / "handle")
-    found = {name: set(floats_in_functions(sources[name])) for name in IN_FUNCTIONS}
+@pytest.mark.parametrize("name", modules_of(ADDITIONS))
+def test_no_threshold_stands_in_a_function(name: str) -> None:
+    source = modules_of(ADDITIONS)[name]
+    found = {*floats_in_functions(source), *factors_in_functions(source)}
 
-    assert found == {name: set(reasons) for name, reasons in IN_FUNCTIONS.items()}
+    assert found == set(IN_FUNCTIONS.get(name, {}))

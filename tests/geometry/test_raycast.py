@@ -8,7 +8,14 @@ from hypothesis import strategies as st
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster, line_crossings, outer_faces, robust_median
+from grafu.geometry.raycast import (
+    RayCaster,
+    line_crossings,
+    outer_faces,
+    robust_median,
+    stands_between_walls,
+    wall_distances,
+)
 
 CUBE = TriangleMesh.box_mesh(Box(vec3(-0.5, -0.5, -0.5), vec3(0.5, 0.5, 0.5)))
 CASTER = RayCaster(CUBE)
@@ -142,3 +149,33 @@ def test_a_slanted_face_is_met_at_its_own_height():
     found = line_crossings(slope, XS, YS)
     x, y = np.meshgrid(XS, YS, indexing="ij")
     assert np.allclose(found.height, (x + y).reshape(-1))
+
+
+def walls_apart(length: float) -> RayCaster:
+    """Two upright boards at x = -0.5 and 0.5 along y, the right one `length` long."""
+    left = TriangleMesh.box_mesh(Box(vec3(-0.52, 0.0, 0.0), vec3(-0.5, 1.0, 1.0)))
+    right = TriangleMesh.box_mesh(Box(vec3(0.5, 0.0, 0.0), vec3(0.52, length, 1.0)))
+    return RayCaster(merge_meshes([left, right]))
+
+
+def test_a_place_lies_between_walls_where_both_are_met() -> None:
+    depths, heights = np.linspace(0.1, 0.9, 5), np.array([0.2, 0.8])
+    places = (1, depths), (2, heights)
+    walls = walls_apart(0.6).along
+
+    between = stands_between_walls(walls, vec3(0.1, 0.0, 0.0), *places)
+    right = wall_distances(walls, vec3(0.1, 0.0, 0.0), *places, 1.0)
+
+    np.testing.assert_array_equal(between, [True, True, True, False, False])
+    np.testing.assert_allclose(right[:3], 0.4, atol=1e-6)
+    assert np.isinf(right[3:]).all()
+    assert not stands_between_walls(walls, vec3(0.1, 0.0, 0.0), *places, reach=0.5).any()
+
+
+def test_walls_count_from_half_of_the_heights_on() -> None:
+    heights = np.array([0.2, 0.8, 1.2, 1.4, 1.6])
+    walls = walls_apart(1.0).along
+
+    for count, stands in ((4, True), (5, False)):
+        found = stands_between_walls(walls, vec3(0.0, 0.0, 0.0), (1, np.array([0.5])), (2, heights[:count]))
+        assert found.tolist() == [stands]

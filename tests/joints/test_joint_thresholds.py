@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from grafu.joints.config import ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import BlockConfig, ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -27,9 +27,10 @@ TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture
 EFFORT = "after how many tries, or beyond how many pieces, a search ends or is done in a simpler way"
 NUMBERING = "the rank of a row in a table, or a direction"
 LOOK = "the colour of hardware"
+CHOICE = "the range of what a user may choose"
 
 REASONS = {
-    "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES, "_ROUND": TOLERANCE},
+    "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
@@ -37,21 +38,24 @@ REASONS = {
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
-    "limits.py": {"_REST_DENSITY": SAMPLES, "_DIP": TOLERANCE},
+    "limits.py": {
+        "_REST_DENSITY": SAMPLES,
+        "_DIP": TOLERANCE,
+        "_BOX_POSES": SAMPLES,
+        "_BETWEEN": SAMPLES,
+        "_HALVINGS": SAMPLES,
+    },
     "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},
     "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
+    "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BodyConfig, ClearanceConfig, DrawerConfig, FlankConfig, FootingConfig, HingeConfig, PinConfig,
-    PivotConfig, PlanConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
-)  # fmt: skip
-WITHOUT_NUMBERS = (
-    "clearance/carve.py", "clearance/make.py", "clearance/trim.py", "hinge/candidates.py", "hinge/hardware.py",
-    "hinge/pivot.py", "hinge/place.py", "hinge/search.py", "hinge/survey.py", "rail/body_region.py",
-    "rail/place.py", "rail/search.py", "rail/spots.py",
+    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, DrawerConfig, DrawnConfig, FlankConfig, FootingConfig,
+    HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig,
+    TimeConfig,
 )  # fmt: skip
 
 
@@ -59,7 +63,7 @@ def test_no_threshold_stands_in_a_module() -> None:
     assert named_numbers(JOINTS) == {name: set(reasons) for name, reasons in REASONS.items()}
 
 
-@pytest.mark.parametrize("name", WITHOUT_NUMBERS)
+@pytest.mark.parametrize("name", modules_of(JOINTS))
 def test_no_threshold_stands_in_a_function(name: str) -> None:
     source = modules_of(JOINTS)[name]
 

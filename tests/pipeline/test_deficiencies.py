@@ -5,10 +5,13 @@ from dataclasses import replace
 from grafu.additions.step import DeficiencyKind
 from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.functionalize import functionalize
+from grafu.joints.config import RealizationConfig
+from grafu.joints.rail_config import DrawerConfig
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.records import find_deficiencies
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
@@ -82,3 +85,19 @@ def test_a_run_on_a_whole_cabinet_finds_nothing_of_it() -> None:
     found = found_by_a_run(made())
     missing = (KIND.TOP, KIND.BACK, KIND.BOTTOM, KIND.DRAWER_BOX, KIND.HANDLE)
     assert {kind: found[kind] for kind in missing} == {kind: [] for kind in missing}
+
+
+def test_what_counts_as_a_drawer_is_the_same_to_joints_and_to_drawer_boxes() -> None:
+    """Where all that is less deep than wide counts as a front, the boxes of a wide chest's drawers do not count."""
+    chest = make_cabinet(Cabinet("made", Case(width=1.2, depth=0.4), Stack((Drawer(), Drawer()), between="nothing")))
+    config = RealizationConfig(drawer=DrawerConfig(thickest_board=9.0, slat=0.99))
+
+    assert without_box(chest, RealizationConfig()) == []
+    assert without_box(chest, config) == [part.id for part in chest.parts if part.label is PartLabel.DRAWER]
+
+
+def without_box(asset: Asset, config: RealizationConfig) -> list[str]:
+    """The drawers that are reported as mere fronts."""
+    settings = PipelineConfig(realization=config)
+    made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), settings)
+    return [one.part for one in made.body.deficiencies if one.kind is KIND.DRAWER_BOX]

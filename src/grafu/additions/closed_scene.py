@@ -8,18 +8,25 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.joints.rail.body_region import DrawerFrame
+from grafu.joints.rail.body_region import DrawerFrame, drawer_frame
+from grafu.joints.rail.search import carried_mesh, slides_in_its_plane
+from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.scene import MovingBody, Scene
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class ClosedScene:
-    """The parts as they stand with every moving body closed, and who moves how; `scene` holds no hardware."""
+    """The parts as they stand with every moving body closed, and who moves how; `scene` holds no hardware.
+
+    `drawers` states what counts as a drawer.
+    """
 
     scene: Scene
     requests: tuple[JointRequest, ...]
+    drawers: DrawerConfig
 
     @property
     def body(self) -> tuple[Part, ...]:
@@ -50,6 +57,21 @@ class ClosedScene:
                 nearest = min(nearest, (frame.depth + max(float(low[1]), frame.depth)) / 2)
         return nearest
 
+    def slides_in_its_plane(self, request: JointRequest) -> bool:
+        """Whether a part is a board that slides along itself."""
+        direction = np.asarray(request.axis.direction)
+        return slides_in_its_plane(self.scene.parts[request.moving].mesh, direction, self.drawers)
+
+    def framed(self, request: JointRequest) -> tuple[DrawerFrame, TriangleMesh] | None:
+        """Returns a drawer's frame, and the drawer with what rides behind its front in it; None where it is none."""
+        if self.slides_in_its_plane(request):
+            return None
+        mesh = carried_mesh(request, self.scene, self.drawers)
+        frame = drawer_frame(mesh, np.asarray(request.axis.direction), config=self.drawers)
+        if frame is None or min(frame.width, frame.height) <= 0:
+            return None
+        return frame, TriangleMesh(np.asarray((mesh.vertices - frame.origin) @ frame.rotation), mesh.faces)
+
     def with_members(self, moving_id: str, members: Iterable[str]) -> "ClosedScene":
         """Returns the closed scene in which some still parts ride on a moving body."""
         return replace(self, scene=self.scene.with_attached((moving_id, member) for member in members))
@@ -59,12 +81,12 @@ class ClosedScene:
         return replace(self, scene=self.scene.with_parts(parts))
 
 
-def closed_scene(scene: Scene, plan: RealizationPlan) -> ClosedScene:
+def closed_scene(scene: Scene, plan: RealizationPlan, drawers: DrawerConfig = DrawerConfig()) -> ClosedScene:
     """Returns a scene with every moving body of a plan closed, once for all steps; parts without faces are left out."""
-    return scene.once(_closed, plan.joints)
+    return scene.once(_closed, plan.joints, drawers)
 
 
-def _closed(scene: Scene, joints: tuple[JointRequest, ...]) -> ClosedScene:
+def _closed(scene: Scene, joints: tuple[JointRequest, ...], drawers: DrawerConfig) -> ClosedScene:
     known = {part.id: part for part in scene.parts.values() if len(part.mesh.faces)}
     requests = tuple(r for r in joints if r.moving in known)
     moving_bodies = {
@@ -74,7 +96,7 @@ def _closed(scene: Scene, joints: tuple[JointRequest, ...]) -> ClosedScene:
         for member in moving_bodies[request.moving].members:
             known[member] = closed_part(known[member], request)
     whole = Box.enclosing(part.box for part in known.values())
-    return ClosedScene(Scene(known, moving_bodies, float(whole.size.max())), requests)
+    return ClosedScene(Scene(known, moving_bodies, float(whole.size.max())), requests, drawers)
 
 
 def closed_part(part: Part, request: JointRequest) -> Part:

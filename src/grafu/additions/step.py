@@ -13,6 +13,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Refusal
 from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
@@ -121,12 +122,14 @@ class PanelHint:
 class Request:
     """What a run knows that a scene does not say; the same for all steps.
 
-    `plan` are the joints to build. `names` are those of the piece and of its parts, `tops` the parts that are called
-    top panels. The completed graph expects `top` (a box, object frame), `handles` (by moving part, their middles) and
-    `panels`. `own_handles` are the user's templates by id, `rejected` the ids of added parts that are left out again.
+    `plan` are the joints to build, `drawers` states what counts as a drawer, for joints and additions alike. `names`
+    are those of the piece and of its parts, `tops` the parts that are called top panels. The completed graph expects
+    `top` (a box, object frame), `handles` (by moving part, their middles) and `panels`. `own_handles` are the user's
+    templates by id, `rejected` the ids of added parts that are left out again.
     """
 
     plan: RealizationPlan = field(default_factory=RealizationPlan)
+    drawers: DrawerConfig = DrawerConfig()
     names: tuple[str, ...] = ()
     tops: frozenset[str] = frozenset()
     top: Box | None = None

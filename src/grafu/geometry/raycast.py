@@ -5,6 +5,7 @@ triangles is found exactly, every crossing: the lines run along the third coordi
 first two.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
 from typing import final
@@ -159,3 +160,43 @@ def outer_points(points: Points, mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
         left = np.flatnonzero(~seen)
         seen[left] = np.isinf(caster.along(points[left] + off * direction, direction))
     return seen
+
+
+Cast = Callable[[Points, Vec3], Scalars]
+"""What gives the distances of many origins along one unit direction, as `RayCaster.along` does."""
+
+
+def wall_distances(
+    cast: Cast,
+    spot: Vec3,
+    along: tuple[int, Float[np.ndarray, " a"]],
+    up: tuple[int, Float[np.ndarray, " b"]],
+    sign: float,
+) -> Float[np.ndarray, "a b"]:
+    """Returns how far to one side of a grid of places something is met; infinity where nothing is.
+
+    The grid runs through `spot` along two axes, each given by its number and its coordinates; rays run along the third.
+    """
+    side = 3 - along[0] - up[0]
+    places = np.stack(np.meshgrid(along[1], up[1], indexing="ij"), axis=-1).reshape(-1, 2)
+    origins = np.tile(np.asarray(spot, dtype=np.float64), (len(places), 1))
+    origins[:, along[0]], origins[:, up[0]] = places[:, 0], places[:, 1]
+    direction = np.zeros(3)
+    direction[side] = sign
+    return cast(origins, direction).reshape(len(along[1]), len(up[1]))
+
+
+def stands_between_walls(
+    cast: Cast,
+    spot: Vec3,
+    along: tuple[int, Float[np.ndarray, " a"]],
+    up: tuple[int, Float[np.ndarray, " b"]],
+    reach: float = np.inf,
+) -> Bool[np.ndarray, " a"]:
+    """Whether walls stand on both sides of each place `along`, within `reach` metres, at half of those `up` at least.
+
+    The grid is as in `wall_distances`.
+    """
+    sides = [wall_distances(cast, spot, along, up, sign) for sign in (-1.0, 1.0)]
+    met = [np.isfinite(distances) & (distances <= reach) for distances in sides]
+    return np.asarray((met[0] & met[1]).mean(axis=1) >= 0.5)

@@ -134,7 +134,9 @@ def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearan
     """Returns rails for a drawer trimmed where it touches its walls, else ones that leave out what it cuts into."""
     request, scene, config = search.request, search.scene, search.config
     if config.trim:
-        walls = [o.id for o in scene.static_obstacles if o.collider.box.overlaps(search.mesh.box, 1e-3)]
+        walls = [
+            o.id for o in scene.static_obstacles if o.collider.box.overlaps(search.mesh.box, config.clearance.beside)
+        ]
         path = _path(request, scene, search.axis, search.reach)
         cleared, trimmed = trim(scene, path, walls, config, touching=True)
         again = drawer_search(request, cleared, config) if trimmed else None

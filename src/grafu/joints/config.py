@@ -26,9 +26,14 @@ class PlanConfig:
     """Largest outline of what a moving part carries, over its own (fraction of the area)."""
     nearer_border: float = 0.2
     """A chosen mount this much nearer to a door's other border carries it there (fraction of the door's width)."""
+    short_turn: float = radians(1.0)
+    """A note states that a door opens by more than this less than was chosen (radians) ..."""
+    short_slide: float = 0.002
+    """... or a drawer (metres)."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_positive(self, "short_turn", "short_slide")
+        require_ratios(self, "play", "beyond", "carried_area", "nearer_border")
 
 
 @final
@@ -77,10 +82,37 @@ class ClearanceConfig:
     """What is nearer than this touches, where what touches is pressed back as well (fraction of `play`)."""
     enclosed: float = 2.0
     """How far what lies enclosed in a moving part may stand out of it (in tolerated penetrations)."""
+    beside: float = 0.001
+    """Static parts whose boxes are nearer to a drawer's than this are walls that it may touch (metres)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "play", "enclosed")
+        require_positive(self, "play", "enclosed", "beside")
         require_ratios(self, "touching")
+
+
+@final
+@dataclass(frozen=True)
+class BlockConfig:
+    """When a support block rests on a surface, and how it holds there.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    face: float = 0.9
+    """Fraction of the block's face over which rays are spread."""
+    rays: int = 3
+    """How many of them must meet the surface."""
+    rest: float = 0.1
+    """The block ends where this fraction of the rays that meet it have done so: not all of its face need rest on it."""
+    lap: float = 2e-4
+    """How deep a block is inset at both ends, so that it holds (metres)."""
+    near: float = 0.1
+    """Static parts farther from a piece of hardware than this do not carry it (extent)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "face", "rest")
 
 
 @final
@@ -161,6 +193,8 @@ class RealizationConfig:
     """Of what counts as a drawer."""
     plan: PlanConfig = PlanConfig()
     """Of requests."""
+    block: BlockConfig = BlockConfig()
+    """Of support blocks."""
     clearance: ClearanceConfig = ClearanceConfig()
     """Of the play of what is trimmed and carved."""
     time: TimeConfig = TimeConfig()

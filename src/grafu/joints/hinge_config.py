@@ -182,6 +182,37 @@ class FootingConfig:
 
 @final
 @dataclass(frozen=True)
+class DrawnConfig:
+    """Which shells near a door's border are the barrels of drawn hinges; lengths are metres on furniture of usual size.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    reach: float = 0.06
+    """How far from the border a barrel lies at most (metres)."""
+    line: float = 0.0015
+    """Barrels nearer to one line than this turn about one pin (metres)."""
+    spread: float = 0.3
+    """Fraction of the border's length over which the barrels that carry a door are spread at least."""
+    thinnest: float = 0.0015
+    """Smallest radius of a barrel (metres)."""
+    thickest: float = 0.02
+    """Largest radius of a barrel (metres)."""
+    round: float = 0.9
+    """Fraction of a barrel's vertices that lie on its rim, and of its radius at which the rim begins."""
+    corners: int = 12
+    """Vertices that a rim has at least."""
+    cap: float = 0.1
+    """Vertices nearer to the middle than this fraction of the radius are the middle of a cap."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "spread", "round", "cap")
+
+
+@final
+@dataclass(frozen=True)
 class HingeConfig:
     """Sizes of hinges that are not templates, what is tried where usual ones do not fit, and where it is measured.
 
@@ -221,16 +252,6 @@ class HingeConfig:
     """An axis nearer to a side than this fraction of the part runs along its border."""
     chunky: float = 0.45
     """A part thicker than this fraction of its width is no door panel."""
-    drawn_reach: float = 0.06
-    """How far from the door's border the barrel of a drawn hinge lies at most (metres on furniture of usual size)."""
-    drawn_line: float = 0.0015
-    """Barrels nearer to one line than this turn about one pin (metres on furniture of usual size)."""
-    drawn_spread: float = 0.3
-    """Fraction of the border's length over which the barrels that carry a door are spread at least."""
-    thinnest_drawn: float = 0.0015
-    """Smallest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
-    thickest_drawn: float = 0.02
-    """Largest radius of the barrel of a drawn hinge (metres on furniture of usual size)."""
     nearly: float = 0.05
     """A pin that leaves this fraction of the wanted opening blocked is still as good as free."""
 
@@ -251,8 +272,10 @@ class HingeConfig:
     """Of what pins need."""
     pivot: PivotConfig = PivotConfig()
     """Of discs at a door's ends."""
+    drawn: DrawnConfig = DrawnConfig()
+    """Of hinges that the input has."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "footing", "pin", "pivot"}))
+        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "footing", "pin", "pivot", "drawn"}))
         require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")
         require_ratios(self, "spacing", "leaf_thickness", "carriers", "around")

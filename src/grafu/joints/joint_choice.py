@@ -5,7 +5,7 @@ A choice narrows the search; what it leaves must still hold and be free, or the 
 
 from collections.abc import Collection, Mapping
 from dataclasses import replace
-from math import degrees, radians
+from math import degrees
 
 from grafu.asset.part import Asset, Part
 from grafu.errors import OptionError
@@ -114,13 +114,13 @@ def flipped_axis(part: Part, axis: Axis) -> Axis:
     return Axis(frame.to_object(vec3(frame.width - float(x), float(y), 0.0)[None])[0], -frame.rotation[:, 2])
 
 
-def short_of_chosen(request: JointRequest, template: str, upper: float) -> tuple[str, ...]:
-    """Returns a note where a joint opens less than the user chose: by more than a degree, or 2 mm.
+def short_of_chosen(request: JointRequest, template: str, upper: float, config: PlanConfig) -> tuple[str, ...]:
+    """Returns a note where a joint opens clearly less than the user chose.
 
     `upper` is how far it opens, radians or metres.
     """
     chosen, turns = request.choice.opening, request.kind.turns
-    if chosen is None or upper > chosen - (radians(1.0) if turns else 2e-3):
+    if chosen is None or upper > chosen - (config.short_turn if turns else config.short_slide):
         return ()
     opens = f"{degrees(upper):.0f} of {degrees(chosen):.0f} degrees" if turns else f"{upper:.3f} of {chosen:.3f} m"
     return (f"opens by {opens} that were chosen: `{template}` or what stands around it allows no more",)

@@ -8,7 +8,6 @@ with its carrier.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import radians
 from typing import final
 
 from grafu.articulation.articulated_object import Coupling
@@ -199,15 +198,16 @@ def _joined(levels: Levels, moving: str, coupling: Coupling, upper: float) -> Le
 
 
 def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
-    movings = [_built_joint(b) for b in built]
+    movings = [_built_joint(b, config.hinge.usual_opening) for b in built]
     return stand_aside(order_joints(movings, scene, config), movings, scene, config)
 
 
-def _built_joint(built: Built) -> BuiltJoint:
+def _built_joint(built: Built, wide: float) -> BuiltJoint:
+    """Returns a joint with the opening that it keeps: `wide` (radians) of what turns, where nothing was chosen."""
     placement = built.placement
     motion = built.request.kind.along(placement.axis)
     turns = built.request.kind.turns
-    least = radians(90) if turns and built.request.choice.opening is None else placement.upper
+    least = wide if turns and built.request.choice.opening is None else placement.upper
     return BuiltJoint(built.request.moving, motion, placement.upper, least, placement.in_way)
 
 

@@ -18,6 +18,9 @@ from grafu.scene.scene import Obstacle
 
 _DIP = 1e-6  # metres below the floor that rounding alone makes
 _REST_DENSITY = 1.5  # exponent that brings the poses of a sweep closer together near rest
+_BOX_POSES = 9  # poses around which the box of a path is drawn
+_BETWEEN = 0.02  # of the body's largest side: what lies between these poses stands out of their box by less
+_HALVINGS = 6  # of the last step of a sweep: to a sixty-fourth of it
 
 PoseFunction = Callable[[float], Mat4]
 
@@ -42,10 +45,10 @@ def _ratios(poses: int) -> Scalars:
     return frozen_array(np.linspace(0.0, 1.0, poses) ** _REST_DENSITY)
 
 
-def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = 9) -> Box:
+def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = _BOX_POSES) -> Box:
     """Returns a box around a box's whole path from 0 to `reach` (slightly grown for what lies between poses)."""
     corners = np.vstack([transform_points(motion(v), box.corners()) for v in np.linspace(0.0, reach, poses)])
-    return Box.around(corners).grown(0.02 * float(box.size.max()))
+    return Box.around(corners).grown(_BETWEEN * float(box.size.max()))
 
 
 def in_the_way(obstacles: Sequence[Obstacle], box: Box) -> list[Obstacle]:
@@ -112,7 +115,7 @@ def _before_first(is_blocked: Callable[[float], bool], reach: float, poses: int)
     for before, after in pairwise(opening_values(reach, poses)):
         if not is_blocked(after):
             continue
-        for _ in range(6):
+        for _ in range(_HALVINGS):
             middle = (before + after) / 2
             if is_blocked(middle):
                 after = middle

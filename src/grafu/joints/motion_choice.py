@@ -17,6 +17,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.rail.search import slides_in_its_plane
+from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import part_axes
 from grafu.vocabulary import JointType, PartLabel
 
@@ -110,11 +111,11 @@ def choice_in_words(word: str) -> MotionChoice:
     return MotionChoice(Moves(word))
 
 
-def label_of_motion(part: Part, choice: MotionChoice) -> PartLabel:
+def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = DrawerConfig()) -> PartLabel:
     """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
     if choice.moves is Moves.FIXED:
         return part.label
-    if choice.moves is Moves.TURNS or slides_in_its_plane(part.mesh, _direction(choice)):
+    if choice.moves is Moves.TURNS or slides_in_its_plane(part.mesh, _direction(choice), drawers):
         return PartLabel.DOOR
     return PartLabel.DRAWER
 

@@ -24,7 +24,6 @@ NO_HARDWARE = "none"
 _NOTE = "no hinge or rail finds room: it moves without hardware"
 DRAWN = "drawn"
 """`Placement.template` of a door on the hinges that the input has."""
-_ROUND = 0.9  # fraction of a barrel's vertices that lie on its surface
 _DEPTHS = (0.0, 0.25, 0.5, 0.75, 1.0)  # of a door's thickness, from its front, at which an axis runs along its border
 _POSES = 5  # from closed to open in which it must be near what stands around it
 
@@ -50,10 +49,10 @@ def drawn_pin(search: DoorSearch) -> Axis | None:
     """
     if str(search.request.choice):
         return None
-    config, metre = search.config.hinge, search.scene.metre
+    config, metre = search.config.hinge.drawn, search.scene.metre
     barrels = [barrel for shell in _near_border(search) for barrel in _barrels(shell, search)]
-    lines = [line for line in _lines(barrels, config.drawn_line * metre) if len(line) > 1]
-    least = config.drawn_spread * search.frame.length
+    lines = [line for line in _lines(barrels, config.line * metre) if len(line) > 1]
+    least = config.spread * search.frame.length
     spread = [line for line in lines if max(b.high for b in line) - min(b.low for b in line) >= least]
     line = max(spread, key=len, default=None)
     return search.frame.axis_at(line[0].x, line[0].y) if line else None
@@ -68,7 +67,7 @@ def door_on_drawn_hinges(axis: Axis, search: DoorSearch) -> Placement | None:
 def _near_border(search: DoorSearch) -> Iterator[TriangleMesh]:
     """Yields the shells near the door's border, of the door and all that rides on it and of static parts."""
     scene, frame = search.scene, search.frame
-    reach = search.config.hinge.drawn_reach * scene.metre
+    reach = search.config.hinge.drawn.reach * scene.metre
     ids = [*scene.moving_bodies[search.request.moving].members, *(part.id for part in scene.static_parts)]
     for part in (scene.parts[name] for name in ids):
         box = Box.around(frame.to_border(part.box.corners()))
@@ -90,14 +89,14 @@ def _barrels(shell: TriangleMesh, search: DoorSearch) -> Iterator[_Barrel]:
     local = search.frame.to_border(shell.vertices)
     box = Box.around(local)
     radius = float(box.size[:2].max()) / 2
-    config, metre = search.config.hinge, search.scene.metre
-    if not config.thinnest_drawn * metre <= radius <= config.thickest_drawn * metre or box.size[2] < radius:
+    config, metre = search.config.hinge.drawn, search.scene.metre
+    if not config.thinnest * metre <= radius <= config.thickest * metre or box.size[2] < radius:
         return
     x, y = float(box.center[0]), float(box.center[1])
     off = np.hypot(local[:, 0] - x, local[:, 1] - y)
-    is_rim = off > 0.1 * radius  # not the middle of a cap
-    on_rim = np.abs(off[is_rim] - radius) <= (1 - _ROUND) * radius
-    if len(on_rim) >= 12 and np.count_nonzero(on_rim) >= _ROUND * len(on_rim):
+    is_rim = off > config.cap * radius
+    on_rim = np.abs(off[is_rim] - radius) <= (1 - config.round) * radius
+    if len(on_rim) >= config.corners and np.count_nonzero(on_rim) >= config.round * len(on_rim):
         yield _Barrel(x, y, float(box.low[2]), float(box.high[2]))
 
 
@@ -139,12 +138,13 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     It is None too for a single board, such as a front without a box, where hardware was chosen, where the drawer would
     come away from all static parts, and where only a guess states that it is a drawer: cases slide as freely.
     """
-    is_board = search.frame.width < search.config.no_hardware_width * search.frame.depth or is_shallow(search.frame)
+    frame, config = search.frame, search.config
+    is_board = frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not search.scene.parts[search.request.moving].label.is_movable:
         return None
     upper = search.travel(search.reach)
     wanted = min(search.request.reference or search.wanted, search.reach)
-    if upper < search.config.restricted * wanted:
+    if upper < config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
 

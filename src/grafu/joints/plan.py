@@ -14,6 +14,10 @@ from grafu.vocabulary import JointType, MechanismClass
 
 PIVOT = "pivot"
 """The template of a door that is carried by discs at its ends; it is of no gallery."""
+SCALES = (0.25, 4.0)
+"""Least and largest factor by which a user may change the size of hinges."""
+MOST_HINGES = 12
+"""Most hinges that a user may ask for on one door."""
 
 
 class Supports(StrEnum):
@@ -36,7 +40,7 @@ class JointChoice:
     the two rails of a drawer, at least one), `supports` what holds rails where they touch no wall.
 
     Raises:
-        ValueError: if `scale` is not in [0.25, 4], `count` not in 0..12, or `opening` not above 0.
+        ValueError: if `scale` is not within `SCALES`, `count` not in 0..`MOST_HINGES`, or `opening` not above 0.
     """
 
     mechanism: MechanismClass | None = None
@@ -49,10 +53,11 @@ class JointChoice:
     supports: Supports = Supports.AUTO
 
     def __post_init__(self) -> None:
-        if not 0.25 <= self.scale <= 4.0:
-            raise ValueError(f"`JointChoice.scale` must be in 0.25..4: got {self.scale}")
-        if not 0 <= self.count <= 12:
-            raise ValueError(f"`JointChoice.count` must be in 0..12: got {self.count}")
+        least, largest = SCALES
+        if not least <= self.scale <= largest:
+            raise ValueError(f"`JointChoice.scale` must be in {least:g}..{largest:g}: got {self.scale}")
+        if not 0 <= self.count <= MOST_HINGES:
+            raise ValueError(f"`JointChoice.count` must be in 0..{MOST_HINGES}: got {self.count}")
         if self.opening is not None and not (isfinite(self.opening) and self.opening > 0):
             raise ValueError(f"`JointChoice.opening` must be above 0: got {self.opening}")
         if self.mechanism is MechanismClass.NONE:

@@ -133,7 +133,8 @@ def _installed(
     request, placement = built.request, built.placement
     order, (ratio, gap) = levels.orders[request.moving], levels.figures[request.moving]
     joint = articulated.joint_of[request.moving]
-    notes = (*placement.notes, *short_of_chosen(request, placement.template, order.upper), *_note(order))
+    short = short_of_chosen(request, placement.template, order.upper, config.plan)
+    notes = (*placement.notes, *short, *_note(order))
     return Installed(
         moving=request.moving,
         joint=joint_id(request.moving),

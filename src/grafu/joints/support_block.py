@@ -17,6 +17,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
+from grafu.joints.config import BlockConfig
 from grafu.joints.plan import JointRequest
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -37,29 +38,25 @@ class Footing:
     u: Vec3
     v: Vec3
 
-    def grid(self) -> Points:
-        """Returns points spread over the rectangle, its border nearly reached."""
-        steps = np.linspace(-0.9, 0.9, _GRID)
+    def grid(self, face: float) -> Points:
+        """Returns points spread over a fraction of the rectangle's sides."""
+        steps = np.linspace(-face, face, _GRID)
         s, t = (a.ravel()[:, None] for a in np.meshgrid(steps, steps))
         return self.center + s * self.u + t * self.v
 
-    def gap(self, target: RayCaster, reach: float) -> float:
-        """Returns the distance after which a fair fraction of the rectangle rests on the target; infinity if none.
-
-        The tenth part of the rays that hit first decides: a block need not rest on all of its face.
-        """
-        distances = np.sort(target.along(self.grid(), self.direction))
+    def gap(self, target: RayCaster, reach: float, config: BlockConfig) -> float:
+        """Returns the distance after which a fair fraction of the rectangle rests on the target; infinity if none."""
+        distances = np.sort(target.along(self.grid(config.face), self.direction))
         distances = distances[distances <= reach]
-        if len(distances) < 3:
+        if len(distances) < config.rays:
             return float("inf")
-        return float(distances[len(distances) // 10])
+        return float(distances[int(config.rest * len(distances))])
 
 
-def block(name: str, footing: Footing, length: float, material: Material = WOOD) -> Visual:
+def block(name: str, footing: Footing, length: float, config: BlockConfig, material: Material = WOOD) -> Visual:
     """Returns the prism of the footing extruded by `length` metres, inset by a trace at both ends so that it holds."""
-    bite = 2e-4
     w = footing.direction
-    half = np.array([np.linalg.norm(footing.u), np.linalg.norm(footing.v), (length + 2 * bite) / 2])
+    half = np.array([np.linalg.norm(footing.u), np.linalg.norm(footing.v), (length + 2 * config.lap) / 2])
     axes: Mat3 = np.column_stack([footing.u / half[0], footing.v / half[1], w])
     if np.linalg.det(axes) < 0:
         axes = axes[:, [1, 0, 2]]
@@ -69,17 +66,19 @@ def block(name: str, footing: Footing, length: float, material: Material = WOOD)
     return Visual(name, (Surface(mesh, material),), VisualRole.HARDWARE, PartLabel.MISC)
 
 
-def shortest_bridge(footings: Iterable[Footing], target: RayCaster, reach: float) -> tuple[Footing, float] | None:
+def shortest_bridge(
+    footings: Iterable[Footing], target: RayCaster, reach: float, config: BlockConfig
+) -> tuple[Footing, float] | None:
     """Returns the footing that meets the target over the shortest gap, and that gap; None where none does."""
-    found = [(footing, footing.gap(target, reach)) for footing in footings]
+    found = [(footing, footing.gap(target, reach, config)) for footing in footings]
     reached = [(footing, gap) for footing, gap in found if np.isfinite(gap)]
     return min(reached, key=lambda pair: pair[1], default=None)
 
 
-def nearest_part(hardware: Visual, scene: Scene, request: JointRequest) -> str:
+def nearest_part(hardware: Visual, scene: Scene, request: JointRequest, config: BlockConfig) -> str:
     """Returns the id of the static part that hardware sits on, "" where none is near; a wanted mount wins a draw."""
     collider = MeshCollider(hardware.mesh)
     held_by = scene.static_obstacles_of(request.holders)
-    near = [o for o in held_by if o.collider.box.overlaps(collider.box, 0.1 * scene.extent)]
+    near = [o for o in held_by if o.collider.box.overlaps(collider.box, config.near * scene.extent)]
     ranked = sorted((round(collider.distance(o.collider), 4), o.id not in request.mounts, o.id) for o in near)
     return ranked[0][2] if ranked else ""

@@ -12,6 +12,7 @@ from grafu.geometry.arrays import Vec3
 from grafu.geometry.intersection import forget_large_shapes
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized
 from grafu.scene.scene import MovingBody, Scene
 from grafu.templates.template import HandleTemplate
@@ -25,13 +26,18 @@ def planned_scene(asset: Asset, plan: RealizationPlan) -> Scene:
 
 
 def add_before_joints(
-    asset: Asset, completion: GraphCompletion, plan: RealizationPlan, config: AdditionConfig
+    asset: Asset,
+    completion: GraphCompletion,
+    plan: RealizationPlan,
+    config: AdditionConfig,
+    drawers: DrawerConfig = DrawerConfig(),
 ) -> StepResult:
     """Returns the asset with the tops, boards and drawer boxes that it lacks and may have: joints must respect them."""
     nodes = completion.completed.nodes
     expected = (completion.completed.node(name) for name in completion.added)
     request = Request(
         plan,
+        drawers,
         (asset.name, *(part.source.name for part in asset.parts)),
         frozenset(node.id for node in nodes if node.label is PartLabel.TOP_PANEL),
         next((node.box for node in expected if node.label is PartLabel.TOP_PANEL), None),

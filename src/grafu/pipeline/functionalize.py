@@ -181,9 +181,9 @@ def functionalize(
         TooComplex: if the budget does not even hold what cannot be left out.
     """
     stages = Stages(on_stage, budget)
-    stated = len(asset.stated_joints)
+    stated, drawers = len(asset.stated_joints), config.realization.drawer
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
-    asset = with_moving(corrected(asset, config.labels), config.motions, config.labels)
+    asset = with_moving(corrected(asset, config.labels), config.motions, config.labels, drawers)
     if isinstance(source, ForeignMotions):
         foreign = source
         asset = stages.timed("match", lambda: attach_motions(asset, foreign))
@@ -206,7 +206,7 @@ def functionalize(
     plan = with_choices(
         plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery, requested
     )
-    add = partial(cache.value, "body", add_before_joints, asset, completion, plan, config.additions.of_body)
+    add = partial(cache.value, "body", add_before_joints, asset, completion, plan, config.additions.of_body, drawers)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
     build = partial(realize, plan, grown, gallery, config.realization, cache)

@@ -20,6 +20,7 @@ from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
 from grafu.joints.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
 from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan
+from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
@@ -40,10 +41,12 @@ def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
     return {part: choice for part, choice in found.items() if choice is not None}
 
 
-def with_moving(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel]) -> Asset:
+def with_moving(
+    asset: Asset, motions: Motions, labels: Mapping[str, PartLabel], drawers: DrawerConfig = DrawerConfig()
+) -> Asset:
     """Returns the asset whose parts are called what their stated motions make of them, and ride on nothing then.
 
-    `labels` are the categories that were corrected already.
+    `labels` are the categories that were corrected already; `drawers` states what counts as a drawer.
 
     Raises:
         OptionError: if a part does not exist, or its corrected category moves in another way.
@@ -51,13 +54,15 @@ def with_moving(asset: Asset, motions: Motions, labels: Mapping[str, PartLabel])
     known = {part.id for part in asset.parts}
     if unknown := sorted(set(motions) - known):
         raise OptionError(f"motions must be of parts: {asset.name} has no {', '.join(unknown)}")
-    return replace(asset, parts=tuple(_moved(p, motions.get(p.id), labels) for p in asset.parts)) if motions else asset
+    if not motions:
+        return asset
+    return replace(asset, parts=tuple(_moved(p, motions.get(p.id), labels, drawers) for p in asset.parts))
 
 
-def _moved(part: Part, choice: MotionChoice | None, labels: Mapping[str, PartLabel]) -> Part:
+def _moved(part: Part, choice: MotionChoice | None, labels: Mapping[str, PartLabel], drawers: DrawerConfig) -> Part:
     if choice is None or choice.moves is Moves.FIXED:
         return part
-    label = label_of_motion(part, choice)
+    label = label_of_motion(part, choice, drawers)
     if labels.get(part.id, label) is not label:
         raise OptionError(f"`{part.id}` {choice.moves} and so is a {label}: its category must not be {part.label}")
     by = part.labelled_by if part.label is label else "user"

@@ -4,20 +4,19 @@ All is measured in a view: x to the right as seen from the side to which the fro
 label is asked: a wall is what a ray to the side meets.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.closed_scene import ClosedScene
 from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import clustered
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster
+from grafu.geometry.raycast import RayCaster, stands_between_walls, wall_distances
 from grafu.joints.plan import JointRequest
-from grafu.joints.rail.search import slides_in_its_plane
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
@@ -92,9 +91,11 @@ class Bay(ArrayValue):
         )
 
 
-def find_views(scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[View, ...]:
+def find_views(closed: ClosedScene, config: CarcassConfig) -> tuple[View, ...]:
     """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
-    directions = {r.moving: outward for r in requests if (outward := _outward(scene, r, config)) is not None}
+    scene = closed.scene
+    found = ((r.moving, _outward(closed, r, config)) for r in closed.requests)
+    directions = {moving: outward for moving, outward in found if outward is not None}
     groups: list[tuple[Vec3, list[str]]] = []
     for moving, outward in directions.items():
         group = next((g for g in groups if float(g[0] @ outward) > config.same_way), None)
@@ -116,11 +117,12 @@ def _coarse(mesh: TriangleMesh, extent: float, config: CarcassConfig) -> Triangl
     return clustered(mesh, config.coarse * extent) if len(mesh.faces) > config.many_faces else mesh
 
 
-def _outward(scene: Scene, request: JointRequest, config: CarcassConfig) -> Vec3 | None:
+def _outward(closed: ClosedScene, request: JointRequest, config: CarcassConfig) -> Vec3 | None:
     """Returns the level unit direction to which a front looks; None where it is a lid, or slides up."""
+    scene = closed.scene
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
-    if request.kind.slides and not slides_in_its_plane(mesh, direction):
+    if request.kind.slides and not closed.slides_in_its_plane(request):
         outward = direction
     else:
         axes = part_axes(mesh)
@@ -154,9 +156,10 @@ def _view(
     return View(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
 
 
-def find_bays(view: View, scene: Scene, requests: Iterable[JointRequest], config: CarcassConfig) -> tuple[Bay, ...]:
+def find_bays(view: View, closed: ClosedScene, config: CarcassConfig) -> tuple[Bay, ...]:
     """Returns the bays behind the fronts of a view, those that open into one another as one."""
-    doors = {r.moving for r in requests if r.kind.turns}
+    scene = closed.scene
+    doors = {r.moving for r in closed.requests if r.kind.turns}
     bays = [
         bay for moving in view.moving_bodies if (bay := _bay(view, scene, moving, moving in doors, config)) is not None
     ]
@@ -186,7 +189,7 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
         return None
     x, z = float(low[0] + high[0]) / 2, low[2] + FRONT_HEIGHTS * (high[2] - low[2])
     depths = float(low[1]) + np.linspace(0.0, 1.0, DEPTHS) * depth
-    both = _between(view, x, depths, z)
+    both = stands_between_walls(view.cast, vec3(x, 0.0, 0.0), (1, depths), (2, z))
     if not both.any():
         return None
     first, last = int(np.argmax(both)), DEPTHS - 1 - int(np.argmax(both[::-1]))
@@ -194,7 +197,8 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     end = _refined(view, x, z, (float(depths[min(last + 1, DEPTHS - 1)]), float(depths[last])))
     if end - start < config.least_depth * scene.extent:
         return None
-    sides = [_walls(view, x, depths[both], z, sign) for sign in (-1.0, 1.0)]
+    places = (1, depths[both]), (2, z)
+    sides = [wall_distances(view.cast, vec3(x, 0.0, 0.0), *places, sign) for sign in (-1.0, 1.0)]
     x0, x1 = (
         x + sign * float(np.median(found[np.isfinite(found)])) for sign, found in zip((-1.0, 1.0), sides, strict=True)
     )
@@ -213,21 +217,8 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     )
 
 
-def _walls(view: View, x: float, depths: Scalars, z: np.ndarray, sign: float) -> np.ndarray:
-    """Returns the distance to a wall on one side, (depths, heights); infinity where there is none."""
-    y, heights = (a.ravel() for a in np.meshgrid(depths, z, indexing="ij"))
-    origins = np.column_stack([np.full(y.size, x), y, heights])
-    return view.cast(origins, vec3(sign, 0.0, 0.0)).reshape(len(depths), len(z))
-
-
-def _between(view: View, x: float, depths: Scalars, z: np.ndarray) -> np.ndarray:
-    """Returns for each depth whether walls stand on both sides over at least half of the heights."""
-    met = [np.isfinite(_walls(view, x, depths, z, sign)) for sign in (-1.0, 1.0)]
-    return np.asarray((met[0] & met[1]).mean(axis=1) >= 0.5)
-
-
 def _refined(view: View, x: float, z: np.ndarray, span: tuple[float, float]) -> float:
     """Returns where walls end between a depth without and one with them (or the latter, if both have them)."""
     depths = np.linspace(*span, FINE_DEPTHS)
-    both = _between(view, x, depths, z)
+    both = stands_between_walls(view.cast, vec3(x, 0.0, 0.0), (1, depths), (2, z))
     return float(depths[int(np.argmax(both))]) if both.any() else span[1]

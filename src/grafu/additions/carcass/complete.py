@@ -26,12 +26,19 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 RAY_SPREAD = np.linspace(-0.4, 0.4, 9)
 """Places of rays around a spot that look for walls, as fractions of a bay's side."""
+PIECES = 8
+"""Pieces along each side of a board in which it is asked whether something stands there."""
+FINE_PIECES = 16
+"""The same where it is asked how far something reaches."""
+WITHIN = 0.98
+"""Fraction of a box within which a piece of a triangle lies in it, not in its rim."""
 
 
 @final
@@ -95,14 +102,14 @@ class BoardRoom:
 
     def rear_of(self, around: Box, fallback: float) -> float:
         """Returns how far back anything reaches in a box."""
-        pieces = pieces_in(np.concatenate([self._still, self.moving]), around, (8, 1, 8))
+        pieces = pieces_in(np.concatenate([self._still, self.moving]), around, (PIECES, 1, PIECES))
         return max(float(pieces.high[:, 1].max(initial=fallback)), fallback) - self.config.inset
 
     def is_free(self, board: Box, touch: float) -> bool:
         """Whether a board pierces nothing by more than a touch in metres."""
-        inside = Box.from_center(board.center, np.maximum(board.half - touch, 0.1 * board.half))
-        still = pieces_in(meeting(self._still, inside), inside, (8, 8, 8))
-        moving = pieces_in(meeting(self.moving, inside), inside, (8, 8, 8))
+        inside = Box.from_center(board.center, np.maximum(board.half - touch, self.config.core * board.half))
+        still = pieces_in(meeting(self._still, inside), inside, (PIECES,) * 3)
+        moving = pieces_in(meeting(self.moving, inside), inside, (PIECES,) * 3)
         return not len(still.low) and not len(moving.low)
 
     def behind_fronts(self, board: Box, ratio: float) -> float:
@@ -112,8 +119,8 @@ class BoardRoom:
         """
         end = float(board.low[1] + ratio * board.size[1])
         inside = Box(board.low, np.array([board.high[0], end + ratio * board.size[1], board.high[2]]))
-        pieces = pieces_in(np.concatenate([self._still, self.moving]), inside, (16, 16, 2))
-        ends = pieces.high[pieces.within(Box.from_center(inside.center, 0.98 * inside.half)), 1]
+        pieces = pieces_in(np.concatenate([self._still, self.moving]), inside, (FINE_PIECES, FINE_PIECES, 2))
+        ends = pieces.high[pieces.within(Box.from_center(inside.center, WITHIN * inside.half)), 1]
         return max(float(ends[ends <= end].max(initial=board.low[1])), float(board.low[1]))
 
     def holds(self, board: Box) -> bool:
@@ -126,7 +133,7 @@ class BoardRoom:
         low, high = np.array(board.low), np.array(board.high)
         face = (board.high if end else board.low)[axis]
         low[axis], high[axis] = face - self.config.held, face + self.config.held
-        return len(pieces_in(self._still, Box(low, high), (16, 16, 16)).low) > 0
+        return len(pieces_in(self._still, Box(low, high), (FINE_PIECES,) * 3).low) > 0
 
 
 NO_ROOM = "no board fits between the walls without piercing something"
@@ -145,9 +152,9 @@ class CarcassCompletion:
 def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | None) -> StepResult:
     """Returns the scene with the backs and bottoms that it lacks; without a config it is only said which."""
     made = (
-        CarcassCompletion(missing_panels(scene, request.plan))
+        CarcassCompletion(missing_panels(scene, request.plan, drawers=request.drawers))
         if config is None
-        else complete_carcass(scene, request.plan, config)
+        else complete_carcass(scene, request.plan, config, request.drawers)
     )
     return StepResult(
         scene.with_parts(addition.part for addition in made.additions),
@@ -157,9 +164,14 @@ def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | N
     )
 
 
-def complete_carcass(scene: Scene, plan: RealizationPlan, config: CarcassConfig = CarcassConfig()) -> CarcassCompletion:
+def complete_carcass(
+    scene: Scene,
+    plan: RealizationPlan,
+    config: CarcassConfig = CarcassConfig(),
+    drawers: DrawerConfig = DrawerConfig(),
+) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
-    closed = closed_scene(scene, plan)
+    closed = closed_scene(scene, plan, drawers)
     config = config.at_scale(closed.scene.metre)
     missing = panels_missing(closed, config)
     additions: list[Addition] = []
@@ -253,7 +265,9 @@ def _backs(bay: Bay, room: BoardRoom, config: CarcassConfig) -> Iterable[Box]:
     lap = min(config.on_edge, config.thickness_ratio * min(width, height))
     body = room.box
     low = vec3(
-        max(float(bay.low[0]) - lap, body.low[0]), rear - 0.02 * width, max(float(bay.low[2]) - lap, body.low[2])
+        max(float(bay.low[0]) - lap, body.low[0]),
+        rear - config.rear_edges * width,
+        max(float(bay.low[2]) - lap, body.low[2]),
     )
     high = vec3(min(float(bay.high[0]) + lap, body.high[0]), body.high[1], min(float(bay.high[2]) + lap, body.high[2]))
     edge = room.rear_of(Box(low, high), rear)
@@ -269,8 +283,8 @@ def _bottoms(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Ite
     width, depth = (float(bay.high[axis] - bay.low[axis]) for axis in (0, 1))
     full = min(config.bottom, config.thickness_ratio * min(width, depth))
     foot = float(bay.outline[2])
-    for thick in (full, 0.4 * full):
-        below = foot - min(config.gap, 0.2 * thick) - thick
+    for thick in (full, config.thinner * full):
+        below = foot - min(config.gap, config.gap_ratio * thick) - thick
         for z in (below, foot) if bay.inset else (foot, below):
             if z < room.floor - config.touch:
                 continue

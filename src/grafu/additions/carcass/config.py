@@ -21,7 +21,11 @@ class CarcassConfig:
     walled: float = 0.6
     """Fraction of the depth at which walls must stand on both sides: else it is a table, a rack, or a front alone."""
     filled: float = 0.35
-    """Fraction of the height under them that drawers must fill where there is no door: fewer hang in a table."""
+    """Fraction of the height under them that drawers must fill where there is no door: fewer hang in a table ..."""
+    least_height: float = 0.1
+    """... which counts as this fraction of the object's largest side at least."""
+    behind_frame: float = 0.3
+    """Fraction of a bay's depth behind which its back is looked for: past whatever frames the opening."""
     least_depth: float = 0.08
     """Fraction of the object's largest side below which a body is too shallow to be one."""
     back: float = 0.006
@@ -31,9 +35,15 @@ class CarcassConfig:
     thickness_ratio: float = 0.03
     """Most of a bay's smaller side that either takes."""
     gap: float = 0.002
-    """Room between a bottom and a door or drawer above it."""
+    """Room between a bottom and a door or drawer above it ..."""
+    gap_ratio: float = 0.2
+    """... and the most of the bottom's thickness that this takes."""
+    thinner: float = 0.4
+    """Where drawers run low, a bottom of this fraction of its thickness is tried, too."""
     on_edge: float = 0.008
     """How far a back that is planted on the rear edges laps onto them."""
+    rear_edges: float = 0.02
+    """Fraction of a bay's width: edges that end so far before its rear count as rear edges."""
     upright: float = 0.3
     """Most of a front's outward unit direction that may point up or down for the front to stand upright (ratio)."""
     same_way: float = 0.97
@@ -59,7 +69,9 @@ class CarcassConfig:
     frame_depth: float = 0.2
     """Fraction of the depth in which a face frame or a front may stand before a bottom."""
     touch: float = 5e-4
-    """Depth below which a board and its neighbour merely touch (metres)."""
+    """Depth below which a board and its neighbour merely touch (metres) ..."""
+    core: float = 0.1
+    """... where this fraction of the board's thickness is left, which must be free."""
     square: float = cos(radians(8.0))
     """Cosine between a front's direction and an axis of the object from which on the front looks along the axis."""
     many_faces: int = 4000

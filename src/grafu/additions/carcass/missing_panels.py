@@ -15,11 +15,14 @@ from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.geometry.arrays import vec3
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 RAY_GRID = np.linspace(0.12, 0.88, 13)
 """Places of rays on a back or bottom, as fractions of a bay's sides: walls and edges lie outside."""
+NAMED = 3
+"""Doors and drawers that a sentence names."""
 
 
 @final
@@ -39,24 +42,30 @@ class MissingPanel:
 
 
 def missing_panels(
-    scene: Scene, plan: RealizationPlan, config: CarcassConfig = CarcassConfig()
+    scene: Scene,
+    plan: RealizationPlan,
+    config: CarcassConfig = CarcassConfig(),
+    drawers: DrawerConfig = DrawerConfig(),
 ) -> tuple[MissingPanel, ...]:
-    """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack."""
-    closed = closed_scene(scene, plan)
+    """Returns the backs and bottoms that the bodies behind the doors and drawers of a plan lack.
+
+    `drawers` states what counts as a drawer.
+    """
+    closed = closed_scene(scene, plan, drawers)
     return panels_missing(closed, config.at_scale(closed.scene.metre))
 
 
 def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingPanel, ...]:
     """Returns what the bodies lack, all moving bodies closed; `config` is at the scale of the scene."""
     found: list[MissingPanel] = []
-    for view in find_views(closed.scene, closed.requests, config):
+    for view in find_views(closed, config):
         bays = [
             bay
-            for bay in find_bays(view, closed.scene, closed.requests, config)
+            for bay in find_bays(view, closed, config)
             if bay.walled >= config.walled and _is_carcass(bay, closed.scene, config)
         ]
         for bay in bays:
-            covered = _back_covered(view, bay)
+            covered = _back_covered(view, bay, config.behind_frame)
             if covered < config.covered:
                 found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
             if not any(_under(other, bay) for other in bays):
@@ -68,7 +77,7 @@ def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingP
 
 def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: View) -> MissingPanel:
     side = "back" if what is PartLabel.BACK_PANEL else "bottom"
-    named = ", ".join(bay.moving_bodies[:3]) + (" and others" if len(bay.moving_bodies) > 3 else "")
+    named = ", ".join(bay.moving_bodies[:NAMED]) + (" and others" if len(bay.moving_bodies) > NAMED else "")
     return MissingPanel(
         what, bay.moving_bodies, covered, f"the {side} behind {named} is covered to {covered:.0%}", view, bay
     )
@@ -79,14 +88,17 @@ def _is_carcass(bay: Bay, scene: Scene, config: CarcassConfig) -> bool:
     if bay.has_door:
         return True
     filled = float(bay.outline[3] - bay.outline[2])
-    return filled >= config.filled * max(float(bay.outline[3]) - scene.floor, 0.1 * scene.extent)
+    return filled >= config.filled * max(float(bay.outline[3]) - scene.floor, config.least_height * scene.extent)
 
 
-def _back_covered(view: View, bay: Bay) -> float:
-    """Returns the fraction of a bay's back at which something stands, seen through the fronts."""
+def _back_covered(view: View, bay: Bay, behind: float) -> float:
+    """Returns the fraction of a bay's back at which something stands, seen through the fronts.
+
+    It is looked for from this fraction of the bay's depth on.
+    """
     (x0, y0, z0), (x1, _, z1) = bay.low.tolist(), bay.high.tolist()
     x, z = (a.ravel() for a in np.meshgrid(x0 + RAY_GRID * (x1 - x0), z0 + RAY_GRID * (z1 - z0), indexing="ij"))
-    y = y0 + 0.3 * (float(bay.high[1]) - y0)  # past whatever frames the opening
+    y = y0 + behind * (float(bay.high[1]) - y0)
     hits = view.cast_through(np.column_stack([x, np.full(x.size, y), z]), vec3(0.0, 1.0, 0.0))
     return float(np.isfinite(hits).mean())
 

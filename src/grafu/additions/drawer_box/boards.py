@@ -21,6 +21,12 @@ from grafu.refusal import Reason, Refusal
 
 RAYS_PER_SIDE = 5
 """Rays along each side of a face."""
+SPREAD = 0.6
+"""Fraction of a face over which rays to it are spread: rims and joints lie outside."""
+WHOLE_SPREAD = 0.95
+"""The same where all of a front counts."""
+WALL_HEIGHTS = (0.3, 0.8)
+"""Lowest and highest ray to a wall, as fractions of the box's height."""
 
 
 @final
@@ -58,8 +64,8 @@ def boards_to_complete(
     `room` is the free space behind the front: walls on a mere bottom keep within it.
     """
     y = mesh.vertices[:, 1]
-    behind = mesh.vertices[y > verdict.inner_front + 0.25 * (frame.depth - verdict.inner_front)]
-    if len(behind) < 3:
+    behind = mesh.vertices[y > verdict.inner_front + config.probe.length * (frame.depth - verdict.inner_front)]
+    if len(behind) < config.probe.corners:
         return Refusal("", Reason.NOT_CLEAR, "the boards that are there do not show how long the box is")
     there = Box.around(behind)
     low, high = np.array(there.low), np.array(there.high)
@@ -73,7 +79,7 @@ def boards_to_complete(
     if room is not None:
         low[0], high[:2] = max(low[0], room.low[0]), np.minimum(high[:2], room.high[:2])
         high[2] = max(high[2], room.high[2])
-    if np.any(high - low < 2.5 * wall):
+    if np.any(high - low < config.narrowest * wall):
         return Refusal("", Reason.NO_ROOM, "the boards that are there leave no room for others between them")
     outer = Box(low, high)
     inner = np.array([low[0] + wall, high[0] - wall, high[1] - wall])
@@ -83,7 +89,7 @@ def boards_to_complete(
     if "back" not in verdict.missing:
         inner[2] = _inner_face(caster, outer, 1, 1, inner[2], config.inset)
     lift = _top_of_bottom(caster, outer) - float(low[2]) - config.inset if not has_walls(verdict) else 0.0
-    if lift > 0.7 * float(outer.size[2]):
+    if lift > config.highest_bottom * float(outer.size[2]):
         return Refusal("", Reason.NO_ROOM, "above the bottom that is there is no room for walls")
     lifted = Outline(Box(vec3(low[0], low[1], low[2] + lift), high), inner)
     between = (wall if "side_left" in verdict.missing else 0.0, wall if "side_right" in verdict.missing else 0.0)
@@ -100,8 +106,8 @@ def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: f
     along, height = (
         a.ravel()
         for a in np.meshgrid(
-            outer.center[other] + np.linspace(-0.6, 0.6, RAYS_PER_SIDE) * outer.half[other],
-            outer.low[2] + np.linspace(0.3, 0.8, RAYS_PER_SIDE) * outer.size[2],
+            outer.center[other] + np.linspace(-SPREAD, SPREAD, RAYS_PER_SIDE) * outer.half[other],
+            outer.low[2] + np.linspace(*WALL_HEIGHTS, RAYS_PER_SIDE) * outer.size[2],
             indexing="ij",
         )
     )
@@ -119,8 +125,8 @@ def _top_of_bottom(caster: RayCaster, outer: Box) -> float:
     x, y = (
         a.ravel()
         for a in np.meshgrid(
-            outer.center[0] + np.linspace(-0.6, 0.6, RAYS_PER_SIDE) * outer.half[0],
-            outer.center[1] + np.linspace(-0.6, 0.6, RAYS_PER_SIDE) * outer.half[1],
+            outer.center[0] + np.linspace(-SPREAD, SPREAD, RAYS_PER_SIDE) * outer.half[0],
+            outer.center[1] + np.linspace(-SPREAD, SPREAD, RAYS_PER_SIDE) * outer.half[1],
             indexing="ij",
         )
     )
@@ -165,8 +171,8 @@ def _front_face(drawer: RayCaster, outer: Box, start: float, ahead: float) -> fl
     x, z = (
         a.ravel()
         for a in np.meshgrid(
-            outer.center[0] + np.linspace(-0.95, 0.95, 2 * RAYS_PER_SIDE) * outer.half[0],
-            outer.center[2] + np.linspace(-0.95, 0.95, RAYS_PER_SIDE) * outer.half[2],
+            outer.center[0] + np.linspace(-WHOLE_SPREAD, WHOLE_SPREAD, 2 * RAYS_PER_SIDE) * outer.half[0],
+            outer.center[2] + np.linspace(-WHOLE_SPREAD, WHOLE_SPREAD, RAYS_PER_SIDE) * outer.half[2],
             indexing="ij",
         )
     )

@@ -28,15 +28,14 @@ from grafu.additions.step import (
     added_part,
     free_ids,
 )
-from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.cells import pieces_in, spans_of
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import translation
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.joints.rail.body_region import DrawerFrame, drawer_frame, is_shallow
-from grafu.joints.rail.search import carried_mesh, slides_in_its_plane
+from grafu.joints.rail.body_region import DrawerFrame, is_shallow
+from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -61,7 +60,8 @@ class DrawerBoxes:
 
 def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | None) -> StepResult:
     """Returns the scene in which drawers have their boxes; without a config it is only said what they lack."""
-    made = complete_drawers(scene, request.plan, config or DrawerBoxConfig(), build=config is not None)
+    boxes = config or DrawerBoxConfig()
+    made = complete_drawers(scene, request.plan, boxes, request.drawers, build=config is not None)
     lacking = [verdict for verdict in made.verdicts if verdict.missing]
     return StepResult(
         scene.with_attached(made.loose).with_parts(addition.part for addition in made.additions),
@@ -73,16 +73,21 @@ def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | N
 
 
 def complete_drawers(
-    scene: Scene, plan: RealizationPlan, config: DrawerBoxConfig = DrawerBoxConfig(), *, build: bool = True
+    scene: Scene,
+    plan: RealizationPlan,
+    config: DrawerBoxConfig = DrawerBoxConfig(),
+    drawers: DrawerConfig = DrawerConfig(),
+    *,
+    build: bool = True,
 ) -> DrawerBoxes:
     """Returns the boards that the drawers of a plan lack, each drawer keeping out of those of the others.
 
-    `build=False` only looks: what is missing is said, nothing is added.
+    `drawers` states what counts as one. `build=False` only looks: what is missing is said, nothing is added.
     """
     requests = [r for r in plan.joints if r.kind.slides]
     if not requests:
         return DrawerBoxes()
-    closed = closed_scene(scene, plan)
+    closed = closed_scene(scene, plan, drawers)
     config = config.at_scale(closed.scene.metre)
     verdicts: list[BoxVerdict] = []
     additions: list[Addition] = []
@@ -116,18 +121,19 @@ def complete_drawers(
 
 def find_loose(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig) -> tuple[str, ...]:
     """Returns the still parts that are boards of the box behind a mere front."""
-    frame, mesh = _framed(request, closed.scene)
-    return loose_boards(request, mesh, frame, closed, config) if frame is not None and mesh is not None else ()
+    framed = closed.framed(request)
+    return loose_boards(request, framed[1], framed[0], closed, config) if framed else ()
 
 
 def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig) -> BoxVerdict:
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
-    frame, mesh = _framed(request, closed.scene)
-    if frame is None or mesh is None:
+    framed = closed.framed(request)
+    if framed is None:
         return BoxVerdict(request.moving, "no drawer", why="it does not slide out of a case")
-    verdict = box_verdict(request.moving, mesh, frame, config)
-    if verdict.kind != "front only" and is_shallow(frame):
-        behind = _space_behind(frame, closed, request)
+    frame, mesh = framed
+    verdict = box_verdict(request.moving, mesh, frame, config, closed.drawers)
+    if verdict.kind != "front only" and is_shallow(frame, closed.drawers):
+        behind = _space_behind(frame, closed, request, config.probe.behind_middle)
         if behind > config.deeper * frame.depth:
             return as_front_only(verdict, frame, behind)
     return verdict
@@ -140,16 +146,17 @@ def drawn_with_the_case(
 
     They look like parts of the case; boards beside them would be doubles.
     """
-    frame, mesh = _framed(request, closed.scene)
-    if verdict.kind != "incomplete" or frame is None or mesh is None:
+    framed = closed.framed(request)
+    if verdict.kind != "incomplete" or framed is None:
         return False
+    frame, mesh = framed
     still, _ = closed.triangles(request, frame)
     half = np.array([frame.width / 2, np.inf, frame.height / 2]) + config.sticks_out
     inside = (np.abs(still) <= half).all(axis=(1, 2)) & (still[..., 1] <= frame.depth + config.sticks_out).all(axis=1)
     inside &= (still[..., 1] >= 0.0).all(axis=1)
     corners = still[inside].reshape(-1, 3)
     boards = TriangleMesh(corners, np.arange(len(corners)).reshape(-1, 3))
-    return not box_verdict(request.moving, merge_meshes([mesh, boards]), frame, config).missing
+    return not box_verdict(request.moving, merge_meshes([mesh, boards]), frame, config, closed.drawers).missing
 
 
 def drawer_box(
@@ -163,9 +170,10 @@ def drawer_box(
 
     `taken` are the ids that parts have.
     """
-    frame, mesh = _framed(request, closed.scene)
-    if frame is None or mesh is None or not verdict.missing:
+    framed = closed.framed(request)
+    if framed is None or not verdict.missing:
         return _of(request, Refusal("", Reason.NOT_MISSING, "nothing is missing behind it"))
+    frame, mesh = framed
     still, others = closed.triangles(request, frame)
     caster = RayCaster(mesh)
     room: Room | Refusal | None = None
@@ -189,27 +197,14 @@ def _of(request: JointRequest, refusal: Refusal) -> Refusal:
     return replace(refusal, part=request.moving, why=f"no drawer box: {refusal.why}", what=Asked.DRAWER_BOX)
 
 
-def _framed(request: JointRequest, scene: Scene) -> tuple[DrawerFrame | None, TriangleMesh | None]:
-    """Returns a drawer's frame, and the drawer with what rides behind its front in it; None where it is no drawer."""
-    direction = np.asarray(request.axis.direction)
-    if slides_in_its_plane(scene.parts[request.moving].mesh, direction):
-        return None, None
-    mesh = carried_mesh(request, scene)
-    frame = drawer_frame(mesh, direction)
-    if frame is None or min(frame.width, frame.height) <= 0:
-        return None, None
-    return frame, TriangleMesh(_local(mesh.vertices, frame), mesh.faces)
+def _space_behind(frame: DrawerFrame, closed: ClosedScene, request: JointRequest, middle: float) -> float:
+    """Returns how deep the space behind a part's middle is, metres, 0 where nothing ends it.
 
-
-def _local(points: Points, frame: DrawerFrame) -> Points:
-    return np.asarray((points - frame.origin) @ frame.rotation)
-
-
-def _space_behind(frame: DrawerFrame, closed: ClosedScene, request: JointRequest) -> float:
-    """Returns how deep the space behind a part's middle is, metres, 0 where nothing ends it."""
+    The middle is this fraction of its smaller side wide, to both sides.
+    """
     still, others = closed.triangles(request, frame)
     near = np.concatenate([still, others])
-    reach = 0.2 * min(frame.width, frame.height)
+    reach = middle * min(frame.width, frame.height)
     low, high = spans_of(near)
     met = (np.abs(low[:, [0, 2]] + high[:, [0, 2]]) / 2 - (high - low)[:, [0, 2]] / 2 < reach).all(axis=1)
     met &= high[:, 1] > frame.depth

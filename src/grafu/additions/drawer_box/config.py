@@ -33,6 +33,18 @@ class BoxProbeConfig:
     """Depth to which a new board may reach into what is there ..."""
     touch_ratio: float = 0.1
     """... and the most of the board's thickness that this takes."""
+    length: float = 0.25
+    """Fraction of the room behind a front: boards that are there show how long the box is by what lies behind it ..."""
+    corners: int = 3
+    """... in so many vertices at least."""
+    behind_middle: float = 0.2
+    """Fraction of a shallow part's smaller side: what lies so near to its middle ends the space behind it."""
+    rear_middle: float = 0.25
+    """Fraction of a front's sides: what lies so near to its middle and behind it closes the furniture's rear."""
+    carrier: float = 0.3
+    """Fraction of a front's smaller side that what may carry it reaches behind it at least."""
+    apart: float = 0.1
+    """Fraction of the gap across which loose boards hang together: nearer ones touch the case."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -76,6 +88,10 @@ class DrawerBoxConfig:
     """Thickness of the bottom: the common 6 mm plywood."""
     wall_ratio: float = 0.05
     """Most of the front's smaller side that a wall takes (a bottom half of it)."""
+    narrowest: float = 2.5
+    """Least width, depth and height of a box, in thicknesses of its walls (ratio)."""
+    highest_bottom: float = 0.7
+    """A bottom above this fraction of the box's height leaves no room for walls."""
     highest: float = 0.25
     """Height of a box's walls above which ..."""
     high_ratio: float = 0.8
@@ -91,7 +107,9 @@ class DrawerBoxConfig:
     rim: float = 0.006
     """What stands higher than this above a bottom is a wall (metres) ..."""
     rim_ratio: float = 0.04
-    """... or higher than this fraction of the drawer's height, whichever is more."""
+    """... or higher than this fraction of the drawer's height, whichever is more ..."""
+    most_rim: float = 0.3
+    """... up to this fraction of it."""
     wall_height: float = 0.35
     """Fraction of the height that makes a wall where there is no bottom: a slider's bar is lower."""
     block: float = 0.9
@@ -101,7 +119,9 @@ class DrawerBoxConfig:
     crooked: float = 0.02
     """Fraction of the depth by which a back may lie crooked before its columns differ in depth."""
     drawn_in: float = 5e-4
-    """How far the front's outline is drawn in: what merely touches it is not in the way (metres)."""
+    """How far the front's outline is drawn in: what merely touches it is not in the way (metres) ..."""
+    drawn_in_ratio: float = 0.01
+    """... and the most of the front's height that this takes."""
     open_depth: float = 0.85
     """Fraction of the depth that a box takes where nothing but the furniture's rear edge ends it."""
     inset: float = 2e-4

@@ -35,9 +35,9 @@ def loose_boards(
     for part in closed.scene.static_parts:
         if part.label not in CASE_LABELS and _is_behind(_local_box(part, frame), frame, touch):
             near[part.id] = TriangleMesh(_local(part.mesh.vertices, frame), part.mesh.faces)
-    held = _hanging_together(mesh.box, _apart(near, closed, 0.1 * touch), touch)
+    held = _hanging_together(mesh.box, _apart(near, closed, config.probe.apart * touch), touch)
     rest = [p for p in closed.scene.static_parts if p.id not in held]
-    if not held or not any(_reaches_behind(_local_box(p, frame), frame) for p in rest):
+    if not held or not any(_reaches_behind(_local_box(p, frame), frame, config.probe.carrier) for p in rest):
         return ()
     whole = merge_meshes([mesh, *(near[part_id] for part_id in held)])
     depth = float(whole.box.high[1])
@@ -46,6 +46,7 @@ def loose_boards(
         whole,
         DrawerFrame(frame.origin, frame.rotation, frame.width, depth, frame.height),
         config,
+        closed.drawers,
     )
     there = {name for name, ratio in verdict.ratios if ratio >= config.covered}
     is_box = {"side_left", "side_right"} <= there and there & {"bottom", "back"}
@@ -67,9 +68,9 @@ def _is_behind(box: Box, frame: DrawerFrame, touch: float) -> bool:
     return beside and level and float(box.low[1]) >= frame.depth - 2 * touch - 0.5 * frame.depth
 
 
-def _reaches_behind(box: Box, frame: DrawerFrame) -> bool:
-    """Whether a part stands behind a front's plane: it may carry what slides there."""
-    return float(box.high[1]) > frame.depth + 0.3 * min(frame.width, frame.height)
+def _reaches_behind(box: Box, frame: DrawerFrame, ratio: float) -> bool:
+    """Whether a part reaches this fraction of a front's smaller side behind it: it may carry what slides there."""
+    return float(box.high[1]) > frame.depth + ratio * min(frame.width, frame.height)
 
 
 def _apart(near: dict[str, TriangleMesh], closed: ClosedScene, touch: float) -> dict[str, TriangleMesh]:

@@ -26,6 +26,8 @@ SLICES = 6
 """Slices along the path into the cabinet."""
 DEPTH_QUANTILES = (0.02, 0.1, 0.25, 0.5, 0.75, 0.9)
 """Quantiles of all columns' depths at which a box may end."""
+SAME_DEPTH = 1e-3
+"""Space behind a front up to which there is none, metres."""
 SHALLOW = "the space behind the front is only {:.3f} m deep"
 
 
@@ -55,10 +57,10 @@ def find_room(
         config: clearances and least sizes.
         limit: the y at which the box must end at the latest, metres.
     """
-    end = min(_end_of(still, frame, config.open_depth), limit)
+    end = min(_end_of(still, frame, config), limit)
     if end <= frame.depth:
         return Refusal("", Reason.NO_SUPPORT, "nothing stands behind the front that could carry a box")
-    half = np.array([frame.width / 2, frame.height / 2]) - min(config.drawn_in, 0.01 * frame.height)
+    half = np.array([frame.width / 2, frame.height / 2]) - min(config.drawn_in, config.drawn_in_ratio * frame.height)
     around = Box(vec3(-half[0], 0.5 * frame.depth, -half[1]), vec3(half[0], end, half[1]))
     near = _near(np.concatenate([still, others]), around)
     columns = _columns(around)
@@ -77,7 +79,7 @@ def find_room(
     return _with_clearance(free, frame, config)
 
 
-def _end_of(still: np.ndarray, frame: DrawerFrame, open_depth: float) -> float:
+def _end_of(still: np.ndarray, frame: DrawerFrame, config: DrawerBoxConfig) -> float:
     """Returns the y up to which a box may reach: to a thing behind it, or under the rear edge of what is around it."""
     if not len(still):
         return 0.0
@@ -86,10 +88,11 @@ def _end_of(still: np.ndarray, frame: DrawerFrame, open_depth: float) -> float:
     if not beside.any():
         return 0.0
     rear = float(high[beside, 1].max())
-    middle = beside & (low[:, 2] < 0.25 * frame.height) & (low[:, 0] < 0.25 * frame.width)
-    middle &= (high[:, 2] > -0.25 * frame.height) & (high[:, 0] > -0.25 * frame.width) & (low[:, 1] > frame.depth)
+    wide, tall = config.probe.rear_middle * frame.width, config.probe.rear_middle * frame.height
+    middle = beside & (low[:, 2] < tall) & (low[:, 0] < wide)
+    middle &= (high[:, 2] > -tall) & (high[:, 0] > -wide) & (low[:, 1] > frame.depth)
     closed = middle.any() and float(high[middle, 1].max()) > 0.5 * rear
-    return rear if closed else frame.depth + open_depth * (rear - frame.depth)
+    return rear if closed else frame.depth + config.open_depth * (rear - frame.depth)
 
 
 def _near(triangles: np.ndarray, around: Box) -> TriangleMesh:
@@ -126,7 +129,7 @@ def _best_rectangle(depths: np.ndarray, around: Box, frame: DrawerFrame, crooked
     best, chosen = 0.0, None
     for deep in np.unique(np.append(np.quantile(depths, DEPTH_QUANTILES), depths.max())):
         level = deep - crooked * (deep - frame.depth)
-        if level <= frame.depth + 1e-3:
+        if level <= frame.depth + SAME_DEPTH:
             continue
         rows, found = largest_rectangles(depths >= level)
         width = (rows[:, 1] - rows[:, 0] + 1) * step[0]

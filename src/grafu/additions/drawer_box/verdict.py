@@ -15,6 +15,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame, is_board
+from grafu.joints.rail_config import DrawerConfig
 
 BoxKind = Literal[
     "whole",  # nothing is missing, or what it is wants no box (a solid block, a tray, a pull-out board)
@@ -65,9 +66,14 @@ class BoxVerdict:
     why: str = ""
 
 
-def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: DrawerBoxConfig) -> BoxVerdict:
-    """Returns what a drawer has of a box; `mesh` is the drawer with what rides behind its front, in its own frame."""
-    if is_board(frame):
+def box_verdict(
+    drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: DrawerBoxConfig, drawers: DrawerConfig
+) -> BoxVerdict:
+    """Returns what a drawer has of a box; `mesh` is the drawer with what rides behind its front, in its own frame.
+
+    `drawers` states what counts as one.
+    """
+    if is_board(frame, drawers):
         return _front_only(drawer, frame, f"it is {frame.depth:.3f} m deep: a front")
     caster = RayCaster(mesh)
     inner = _inner_front(caster, frame, config.probe)
@@ -76,7 +82,7 @@ def box_verdict(drawer: str, mesh: TriangleMesh, frame: DrawerFrame, config: Dra
         return BoxVerdict(drawer, "whole", (("bottom", bottom),), (), inner, "it is a board or a tray")
     wall = _Wall(-frame.height, config.wall_height * frame.height, config.inner_ratio, config.outer_ratio)
     if bottom >= config.covered and floor < (config.block - 0.5) * frame.height:
-        rim = min(max(config.rim, config.rim_ratio * frame.height), 0.3 * frame.height)
+        rim = min(max(config.rim, config.rim_ratio * frame.height), config.most_rim * frame.height)
         wall = replace(wall, above=floor, height=rim)
     left, right = (_side(caster, frame, inner, sign, wall, config.probe) for sign in (-1.0, 1.0))
     ratios = {"side_left": left, "side_right": right, "back": _back(caster, frame, inner, wall), "bottom": bottom}

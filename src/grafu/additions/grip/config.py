@@ -60,9 +60,11 @@ class GripSizes:
     """Radius of a groove's rounded bottom, as a fraction of its depth."""
     rim_radius: float = 0.15
     """Radius of a hole's rounded rim, as a fraction of the front's thickness."""
+    beyond: float = 0.25
+    """How far what cuts a notch reaches beyond the edge, as a fraction of the notch's width."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "bottom_radius", "rim_radius")
+        require_ratios(self, "bottom_radius", "rim_radius", "beyond")
 
     def of(self, kind: GripKind) -> GripSize:
         """Returns the size of a kind of grip."""
@@ -101,6 +103,8 @@ class GroundConfig:
 
     seam: float = 0.002
     """Distance up to which layers count as one, metres."""
+    over: float = 0.4
+    """How far a hole's cutter stands out of a layer on both sides, as a fraction of `seam` (ratio)."""
     board: float = 0.04
     """Distance up to which two sheets are the sides of one board, metres."""
     thinnest: float = 0.001
@@ -146,7 +150,9 @@ class GripConfig:
     depth_ratio: float = 0.65
     """Deepest groove, as a fraction of the front's thickness."""
     thickest: float = 0.05
-    """Thickest front through which a hole or notch is cut, metres."""
+    """Thickest front through which a hole or notch is cut, metres ..."""
+    thick_ratio: float = 1.5
+    """... and the most of the grip's length that its thickness may be (ratio)."""
     finger_width: float = 0.02
     """One finger's width: the shortest grip, metres."""
     finger_thickness: float = 0.012
@@ -172,7 +178,9 @@ class GripConfig:
     reach_height: float = 1.0
     """Height above the floor at which tall doors are gripped (EN 12098 and joiners: 0.9 to 1.1), metres."""
     tall: float = 0.5
-    """Length of the gripped edge from which on a door is gripped off its middle, metres."""
+    """Length of the gripped edge from which on a door is gripped off its middle, metres ..."""
+    upright: float = 0.9
+    """... where the upright part of this edge's unit direction is at least this (ratio)."""
     high: float = 1.2
     """Height of a door's lower end above which it is gripped as low as it can be, metres."""
     end_ratio: float = 0.25
@@ -197,7 +205,19 @@ class GripConfig:
             "shallowest",
             "step",
         )
-        require_positive(self, *lengths, "steepest", "blunt", "away", "clear", "reach_height", "tall", "high")
+        require_positive(
+            self,
+            *lengths,
+            "thick_ratio",
+            "upright",
+            "steepest",
+            "blunt",
+            "away",
+            "clear",
+            "reach_height",
+            "tall",
+            "high",
+        )
         require_ratios(
             self, "length_ratio", "width_ratio", "depth_ratio", "uneven", "margin_ratio", "shown", "end_ratio", "full"
         )

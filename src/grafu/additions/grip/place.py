@@ -65,7 +65,7 @@ def best_along(frame: GripFrame, scene: Scene, config: GripConfig) -> float:
     """Returns the X at which a front is best gripped: in its middle; tall and high doors where a hand reaches."""
     scale, low, high = scene.metre, float(frame.box.low[0]), float(frame.box.high[0])
     up = float(frame.rotation[2, 0])
-    if abs(up) < 0.9 or frame.length < config.tall * scale:
+    if abs(up) < config.upright or frame.length < config.tall * scale:
         return (low + high) / 2
     bottom, top = sorted((low * up, high * up))
     inset = config.end_ratio * (top - bottom)
@@ -121,9 +121,9 @@ def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | 
     if float(np.ptp(ground.face)) > config.step * site.scale:
         return Reason.UNEVEN
     face, back = float(ground.face.max()), float(ground.back.min())
-    if face - back > min(config.thickest * site.scale, 1.5 * cut.size.length):
+    if face - back > min(config.thickest * site.scale, config.thick_ratio * cut.size.length):
         return Reason.TOO_THICK
-    over = 0.4 * site.seam
+    over = config.ground.over * site.seam
     bottom = back - over
     if float(np.ptp(ground.back)) > 2 * config.step * site.scale or np.any(ground.beneath > bottom):
         return Reason.UNEVEN

@@ -71,10 +71,16 @@ Outline = Float[np.ndarray, "n 2"]
 
 QUARTER_EDGES = 6
 """Straight edges of a quarter turn."""
+TURN_EDGES = 4 * QUARTER_EDGES
+"""Straight edges of a whole turn, and of the half turn of a notch."""
 BOTTOM_LEVELS = 5
 """Levels of a rounded bottom."""
 RIM_SLICES = 3
 """Slices of a rounded rim."""
+RIM_TRACE = 0.05
+"""Fraction of a rim's radius by which what cuts it ends above the face: an edge in the very face leaves slivers."""
+DIGITS = 9
+"""Decimals to which the corners of a circle are rounded before it is asked on which side of its middle they lie."""
 LEVEL_TOLERANCE = 1e-9
 """Distance from a level up to which a corner lies on it, metres."""
 
@@ -125,7 +131,7 @@ def cutters(cut: Cut, sizes: GripSizes) -> tuple[ConvexSolid, ...]:
         # sheets are cut by the outline alone, which is quick; what curves is their lining
         solids = [_groove(cut, sizes) if rounded and not cut.is_hollow else _prism(outline, cut.bottom, cut.top)]
     elif cut.kind is GripKind.EDGE:
-        solids = [_prism(_notch(cut, 0.25 * cut.size.width), cut.bottom, cut.top)]
+        solids = [_prism(_notch(cut, sizes.beyond * cut.size.width), cut.bottom, cut.top)]
     else:
         solids = _stages(cut, sizes) if _is_rounded(cut) else [_prism(_oval(cut), cut.bottom, cut.top)]
     return tuple(solid for solid in solids if solid is not None)
@@ -167,9 +173,9 @@ def _oval(cut: Cut, grown: float = 0.0) -> Outline:
     size = np.array([cut.size.length, cut.size.width])
     radius = float(size.min()) / 2
     ends = size / 2 - radius
-    angles = _half_turn(4 * QUARTER_EDGES, 2 * np.pi)
+    angles = _half_turn(TURN_EDGES, 2 * np.pi)
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
-    return np.array([cut.x, cut.y]) + (radius + grown) * circle + ends * np.sign(np.round(circle, 9))
+    return np.array([cut.x, cut.y]) + (radius + grown) * circle + ends * np.sign(np.round(circle, DIGITS))
 
 
 def _groove(cut: Cut, sizes: GripSizes) -> ConvexSolid | None:
@@ -188,7 +194,7 @@ def _notch(cut: Cut, over: float) -> Outline:
     if cut.profile == "sharp":
         inner = np.array([(-half, -width), (half, -width)])
     else:
-        angles = np.linspace(-np.pi, 0.0, 4 * QUARTER_EDGES + 1)
+        angles = np.linspace(-np.pi, 0.0, TURN_EDGES + 1)
         inner = np.column_stack([half * np.cos(angles), width * np.sin(angles)])
     return np.array([cut.x, cut.y]) + np.vstack([inner, [(half, over), (-half, over)]])
 
@@ -216,13 +222,10 @@ def _is_rounded(cut: Cut) -> bool:
 
 
 def _hole_levels(cut: Cut, sizes: GripSizes) -> list[tuple[float, float]]:
-    """Returns by how much a hole with a rounded rim is wider, and at which level, upwards: a quarter turn outwards.
-
-    It ends a trace above the face: an edge in the very face would leave slivers.
-    """
+    """Returns by how much a hole with a rounded rim is wider, and at which level, upwards: a quarter turn outwards."""
     radius = sizes.rim_radius * (cut.face - cut.bottom)
     angles = np.linspace(np.pi / 2, 0.0, RIM_SLICES + 1)
-    rim = [(float(radius * (1 - np.sin(a))), float(cut.face - radius * (0.95 - np.cos(a)))) for a in angles]
+    rim = [(float(radius * (1 - np.sin(a))), float(cut.face - radius * (1 - RIM_TRACE - np.cos(a)))) for a in angles]
     return [(0.0, cut.bottom), *rim, (radius, cut.top)]
 
 

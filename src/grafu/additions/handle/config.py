@@ -9,6 +9,8 @@ NO_HANDLE = "none"
 """`HandleChoice.style` of a front that gets nothing."""
 ANY_GRIP = "grip"
 """... and of one that gets whichever grip fits."""
+MOST_HANDLES = 4
+"""Most handles that one front may get."""
 
 
 @final
@@ -144,8 +146,8 @@ class HandleConfig:
         require_ratios(self, "both", "inset_ratio", "bar_ratio", "lid", "from_top_ratio")
         require_ratios(self, "from_end_ratio", "tall_end_ratio", "end_inset_ratio", "central")
         require_not_negative(self, "length", "margin", "weak")
-        if not 0 <= self.count <= 4:
-            raise ValueError(f"`HandleConfig.count` must be in 0..4: got {self.count}")
+        if not 0 <= self.count <= MOST_HANDLES:
+            raise ValueError(f"`HandleConfig.count` must be in 0..{MOST_HANDLES}: got {self.count}")
         if self.poses < 2:
             raise ValueError(f"`HandleConfig.poses` must be at least 2: got {self.poses}")
 
@@ -160,7 +162,7 @@ class HandleChoice:
     stay beside it unless it `replaces` them.
 
     Raises:
-        ValueError: if the count is not in 0..4, or the length is negative.
+        ValueError: if the count is not in 0..`MOST_HANDLES`, or the length is negative.
     """
 
     style: str = ""
@@ -170,7 +172,7 @@ class HandleChoice:
     replaces: bool = True
 
     def __post_init__(self) -> None:
-        if not 0 <= self.count <= 4:
-            raise ValueError(f"`HandleChoice.count` must be in 0..4: got {self.count}")
+        if not 0 <= self.count <= MOST_HANDLES:
+            raise ValueError(f"`HandleChoice.count` must be in 0..{MOST_HANDLES}: got {self.count}")
         if not self.length >= 0:
             raise ValueError(f"`HandleChoice.length` must not be negative: got {self.length}")

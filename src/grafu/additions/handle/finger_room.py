@@ -88,7 +88,7 @@ def _pulls(
 ) -> Mask:
     """Whether a fingertip behind the edge meets the moving body, and nothing else, when it is pulled back."""
     hook, tip = relief.factor * config.hook, config.fingers.tip * relief.factor
-    tips = _points(relief, cells, start) + (edge + 0.8 * hook)[:, None] * step
+    tips = _points(relief, cells, start) + (edge + config.pull * hook)[:, None] * step
     moving, others = relief.cast(tips, vec3(0.0, -1.0, 0.0))
     return (moving <= others) & (moving <= start - lip + tip)
 

@@ -119,6 +119,8 @@ class GraspConfig:
     """How deep fingers go in behind the face that they pull at, its own thickness counted in."""
     hook: float = 0.006
     """How far fingertips reach behind an edge, sideways, to pull at it: the lips of finger pulls are 6 to 10 mm."""
+    pull: float = 0.8
+    """Where behind an edge a fingertip pulls at it, as a fraction of `hook`."""
     length: float = 0.06
     """Width of three fingers: the shortest edge that is pulled at."""
     knob: float = 0.012
@@ -181,5 +183,5 @@ class GraspConfig:
     def __post_init__(self) -> None:
         nested = ("confidences", "relief", "fingers")
         require_positive(self, *(name for name in self.__dataclass_fields__ if name not in nested))
-        require_ratios(self, "lever", "small", "long_ratio", "local_ratio", "inside")
+        require_ratios(self, "lever", "small", "long_ratio", "local_ratio", "inside", "pull")
         require_at_most_one(self, "labelled", "unlabelled", "unattached")

@@ -25,6 +25,8 @@ Grid = Float[np.ndarray, "n m"]
 
 MOST_CELLS = 12_000
 """Cells of a relief that a front with cells of the least side may have."""
+ALL_CELLS = 48_000
+"""Cells that any relief may have."""
 UNSEEN = 1e3
 """Depth of what no ray meets, metres."""
 
@@ -108,7 +110,7 @@ class Reliefs:
                 low, high = self._extent(mesh)
                 found.append(mesh.triangles[np.all((low <= region.high) & (high >= region.low), axis=1)])
         corners = np.concatenate(found)
-        return TriangleMesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+        return TriangleMesh(corners.reshape(-1, 3), np.arange(corners.shape[0] * corners.shape[1]).reshape(-1, 3))
 
     def _extent(self, mesh: TriangleMesh) -> tuple[Points, Points]:
         if id(mesh) not in self._extents:
@@ -121,7 +123,7 @@ class Reliefs:
 def _looked_at(front: Front, scene: Scene, moving: RayCaster, others: RayCaster, config: ReliefConfig) -> Relief:
     area, factor = front.width * front.height, scene.metre
     cell = min(max(sqrt(area / MOST_CELLS), factor * config.cell), factor * config.coarse_cell)
-    cell = max(cell, sqrt(area / (4 * MOST_CELLS)))
+    cell = max(cell, sqrt(area / ALL_CELLS))
     u, v = (_cells(side, cell, config.margin * factor) for side in (front.width, front.height))
     lead = config.lead * factor
     grid = np.stack(np.broadcast_arrays(u[:, None], -lead, v[None, :]), axis=-1)

@@ -19,6 +19,9 @@ from grafu.geometry.box import Box
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel
 
+FLAT = 1e-3
+"""Fraction of its largest side that a flat box counts as thick."""
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -68,15 +71,15 @@ def by_size(compartment: Compartment, sizes: Sizes, config: InteriorConfig) -> A
     height, width = float(size[2]), float(size[compartment.side_axis])
     if compartment.is_chest:
         return Arrangement(dividers=min(max(round(width / sizes.divider_pitch) - 1, 0), 2))
-    if width < 1.5 * sizes.least_side:
+    if width < config.slim * sizes.least_side:
         return Arrangement()
     if is_for_hanging(compartment, sizes):
         above = height - sizes.hanging_height - sizes.thickness
         hat = float(compartment.box.high[2]) - min(above, sizes.shelf_pitch) - sizes.thickness / 2
         return Arrangement(shelf_at=(hat,)) if above >= sizes.hat else Arrangement()
     shelves = min(max(round(height / sizes.shelf_pitch) - 1, 0), most)
-    pitch = sizes.divider_pitch * (1.0 if not compartment.behind else 1.5)  # doors are dividers enough for most
-    is_low = shelves == 0 and width >= 2.5 * height
+    pitch = sizes.divider_pitch * (config.doors_pitch if compartment.behind else 1.0)
+    is_low = shelves == 0 and width >= config.low * height
     dividers = min(max(round(width / pitch) - 1, 0), most) if is_low else 0
     return Arrangement(shelves, dividers)
 
@@ -186,7 +189,7 @@ def _home(compartments: Sequence[Compartment], hint: PanelHint, reach: float) ->
 def _shared_part(one: Box, other: Box) -> float:
     """Returns the product of the fractions of `other`'s sides that lie in `one`; flat sides count by their place."""
     low, high = np.maximum(one.low, other.low), np.minimum(one.high, other.high)
-    sides = np.maximum(other.size, 1e-3 * float(other.size.max()) + 1e-9)
+    sides = np.maximum(other.size, FLAT * float(other.size.max()) + 1e-9)
     return float(np.prod(np.clip((high - low + 1e-9) / sides, 0.0, 1.0)))
 
 

@@ -15,7 +15,7 @@ from grafu.additions.interior.rooms import FRONTS, LID, find_rooms
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import mesh_near
-from grafu.geometry.raycast import RayCaster
+from grafu.geometry.raycast import RayCaster, stands_between_walls
 from grafu.scene.scene import Scene
 
 RAYS_PER_SIDE = 9
@@ -24,6 +24,12 @@ RAY_SPAN = 0.94
 """Fraction of a face over which rays are spread: they keep off its rim, where neighbours meet."""
 FACE_CELLS = 1.05
 """Cells beyond a box of cells: what bounds it lies in the next one."""
+RIM_STEPS = np.linspace(-2.5, 2.0, 37)
+"""Cells beyond an open side of a box of cells at which the walls beside it are looked for, from inside outwards."""
+RIM_LEVELS = np.linspace(-0.8, 0.8, 7)
+"""Places of these rays across, as fractions of half the box's side."""
+RIM_REACH = 1.5
+"""Cells beyond its other sides within which these walls must be."""
 PART_CELLS = 0.05
 """Cells around a part's box in which a hit is still on the part."""
 
@@ -97,19 +103,11 @@ class FaceFinder:
         sign = 1.0 if is_high else -1.0
         side = 1 - axis if axis < 2 else 0
         end = float(box.high[axis] if is_high else box.low[axis])
-        steps = end + sign * self._cell * np.linspace(-2.5, 2.0, 37)  # from inside outwards
+        steps = end + sign * self._cell * RIM_STEPS
         up = 3 - axis - side
-        levels = box.center[up] + box.half[up] * np.linspace(-0.8, 0.8, 7)
-        grid = np.stack(np.meshgrid(steps, levels, indexing="ij"), axis=-1).reshape(-1, 2)
-        origins = np.tile(box.center, (len(grid), 1))
-        origins[:, axis], origins[:, up] = grid[:, 0], grid[:, 1]
-        reach = float(box.half[side]) + 1.5 * self._cell
-        walled = np.ones(len(grid), dtype=bool)
-        for sense in (-1.0, 1.0):
-            direction = np.zeros(3)
-            direction[side] = sense
-            walled &= self._still.along(origins, direction) <= reach
-        rows = walled.reshape(len(steps), len(levels)).mean(axis=1) >= 0.5
+        levels = box.center[up] + box.half[up] * RIM_LEVELS
+        reach = float(box.half[side]) + RIM_REACH * self._cell
+        rows = stands_between_walls(self._still.along, box.center, (axis, steps), (up, levels), reach)
         inside = np.flatnonzero(~rows)
         last = len(steps) - 1 if not len(inside) else max(int(inside[0]) - 1, 0)
         low, high = box.low.copy(), box.high.copy()
@@ -135,7 +133,7 @@ class FaceFinder:
         for moving, own in self._moving_bodies:
             gaps = own.axis_gaps(box)
             before = own.high[axis] > box.high[axis] if is_high else own.low[axis] < box.low[axis]
-            if before and all(gaps[k] < -0.05 * box.size[k] for k in range(3) if k != axis):
+            if before and all(gaps[k] < -self._config.before * box.size[k] for k in range(3) if k != axis):
                 found.append(moving)
         return tuple(found)
 

@@ -42,13 +42,15 @@ class RoomConfig:
     """Cells between a box of free cells and such a drawer: what a drawer takes is counted in whole cells."""
     wall_part: float = 0.1
     """Fraction of the hits on a face that makes a part one of its walls."""
+    before: float = 0.05
+    """Fraction of a compartment's sides by which a moving body overlaps them at least to be in its opening."""
     most: int = 60
     """Most compartments of one object; a pigeonhole desk has fewer."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(
-            self, "thin", "frame", "walled", "taken", "closed_cells", "closed", "door", "drawer", "wall_part"
+            self, "thin", "frame", "walled", "taken", "closed_cells", "closed", "door", "drawer", "wall_part", "before"
         )
 
 
@@ -74,7 +76,13 @@ class InteriorConfig:
     shelf_pitch: float = 0.34
     """Clear height that `auto` aims at between shelves; real ones stand 0.25 to 0.4 apart."""
     divider_pitch: float = 0.55
-    """Clear width that `auto` aims at between dividers in low, wide compartments."""
+    """Clear width that `auto` aims at between dividers in low, wide compartments ..."""
+    doors_pitch: float = 1.5
+    """... and so many times as much behind doors, which are dividers enough for most (ratio)."""
+    low: float = 2.5
+    """A compartment that is at least so many times as wide as high is low and wide (ratio)."""
+    slim: float = 1.5
+    """`auto` leaves a compartment empty that is narrower than this, over `least_side` (ratio)."""
     hanging_height: float = 1.05
     """Free height that shirts on hangers need; wardrobes keep it."""
     most_panels: int = 8
@@ -115,7 +123,7 @@ class InteriorConfig:
     def __post_init__(self) -> None:
         lengths = ("thickness", "least_side", "least_pitch", "shelf_pitch", "divider_pitch", "hanging_height", "touch")
         require_positive(self, *lengths, "most_panels", "cells", "hanging_depth", "hat", "between", "hint_reach")
-        require_positive(self, "insets", "askew_cells", "poses", "depth")
+        require_positive(self, "doors_pitch", "low", "slim", "insets", "askew_cells", "poses", "depth")
         require_ratios(self, "alike", "back_ratio")
         require_not_negative(self, "inset")
         for name in ("deepest_inset", "carried", "wall_ratio"):

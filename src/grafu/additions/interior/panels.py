@@ -27,6 +27,8 @@ from grafu.vocabulary import PartLabel
 
 RAYS_ALONG_EDGE = 16
 """Rays along an edge of a panel."""
+EDGE_MARGIN = 0.02
+"""Fraction of an edge at either end in which no ray lies."""
 EDGE_LEVELS = (-0.98, 0.0, 0.98)
 """Levels at which a panel's edges are looked for, as fractions of half its thickness."""
 
@@ -142,7 +144,7 @@ def cut_panel(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfi
     back = _back(place, walls, sizes, config, inward)
     if inward * (back - front) < sizes.least_side / 2:
         return Refusal("", Reason.NO_ROOM, "it is too shallow")
-    margin = 0.02 * abs(back - front)
+    margin = EDGE_MARGIN * abs(back - front)
     along = np.linspace(front + inward * margin, back - inward * margin, RAYS_ALONG_EDGE)
     ends = []
     for sense in (-1.0, 1.0):
@@ -162,7 +164,8 @@ def _back(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig, i
     """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     end = float(box.low[depth] if inward < 0 else box.high[depth])
-    across = box.center[place.reach] + box.half[place.reach] * np.linspace(-0.96, 0.96, RAYS_ALONG_EDGE)
+    span = 1 - 2 * EDGE_MARGIN
+    across = box.center[place.reach] + box.half[place.reach] * np.linspace(-span, span, RAYS_ALONG_EDGE)
     origins = _origins(place, sizes.thickness, place.reach, across)
     direction = np.zeros(3)
     direction[depth] = inward

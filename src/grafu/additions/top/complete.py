@@ -46,6 +46,13 @@ from grafu.joints.plan import JointRequest
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
+NARROWEST_GROOVE = 3.0
+"""Width of a groove, in overruns, below which it is left out (ratio)."""
+GROOVE_DETAIL = 0.2
+"""Distance by which a groove's outline may be simplified, in overruns (ratio)."""
+RECTANGLE = 0.97
+"""Fraction of its smallest rectangle from which on an outline is called one."""
+
 
 @final
 @dataclass(frozen=True)
@@ -183,7 +190,7 @@ def _slab(
     if rim is None:
         return None
     extent = float(views.grid.cell) * max(views.grid.shape)
-    thickness = min(config.thickness * metre, 0.2 * (rim.seat - views.floor))
+    thickness = min(config.thickness * metre, config.thickness_ratio * (rim.seat - views.floor))
     if thickness <= 0:
         return None
     seat, clean = config.seat * extent, config.overrun * metre
@@ -201,7 +208,8 @@ def _slab(
     mesh = slab_mesh(outline, rim.seat, rim.seat + thickness, config.shape, config.edge)
     for region, height in free.grooves:
         below = region.intersection(offset(outline, clean)).difference(rim.walls)
-        groove = shapely.simplify(without_slivers(below, 3 * config.overrun * metre), 0.2 * config.overrun * metre)
+        wide = without_slivers(below, NARROWEST_GROOVE * config.overrun * metre)
+        groove = shapely.simplify(wide, GROOVE_DETAIL * config.overrun * metre)
         mesh = without_block(mesh, groove, rim.seat - thickness, height)
     for region, height in inset_regions(roles, rim, seat, own, metre):
         mesh = without_block(mesh, region, rim.seat - thickness, height)
@@ -217,4 +225,4 @@ def _cut_outs(basins: tuple[Part, ...], config: TopConfig, metre: float) -> Base
 
 
 def _is_rectangle(outline: Polygon) -> bool:
-    return bool(outline.area >= 0.97 * outline.minimum_rotated_rectangle.area)
+    return bool(outline.area >= RECTANGLE * outline.minimum_rotated_rectangle.area)

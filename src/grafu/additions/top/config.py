@@ -1,7 +1,4 @@
-"""When furniture counts as topless, and the slab that it is given. Lengths are metres on furniture of usual size.
-
-Every config checks its numbers when it is made, and raises ValueError where one is out of its range.
-"""
+"""When furniture counts as topless, and the slab that it is given. Lengths are metres on furniture of usual size."""
 
 from dataclasses import dataclass
 from math import radians
@@ -165,7 +162,9 @@ class OutlineConfig:
     kneehole: float = 1.3
     """Distance between two pedestals that one top spans, metres."""
     square: float = 0.04
-    """Distance between a rectangle's and an outline's corners up to which it was meant as a rectangle, metres."""
+    """Distance between a rectangle's and an outline's corners up to which it was meant as a rectangle, metres ..."""
+    empty: float = 0.02
+    """... where the outline, grown by twice that, leaves out at most this fraction of the rectangle."""
     front: float = 0.08
     """Distance before the body in which a front belongs under the top, metres."""
     front_below: float = 0.005
@@ -191,7 +190,7 @@ class OutlineConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "apart", "carries")
+        require_ratios(self, "apart", "carries", "empty")
 
 
 @final
@@ -237,9 +236,13 @@ class TopConfig:
     doubt: float = 0.2
     """Distance of the covered fraction from `coverage` within which labels, bars and predictions are asked too."""
     recess: float = 0.05
-    """How far below its rim a surface still is the top: fillets and let-in tops are deeper than 1 % of the height."""
+    """How far below its rim a surface still is the top: fillets and inset tops are deeper than 1 % of the height ..."""
+    recess_ratio: float = 0.1
+    """... and at most this fraction of the height."""
     gallery: float = 0.15
-    """How far the sides and the back may stand above a top that is open in front: galleries, splashbacks."""
+    """How far the sides and the back may stand above a top that is open in front: galleries, splashbacks ..."""
+    gallery_ratio: float = 0.25
+    """... and at most this fraction of the height."""
     front: float = 0.02
     """Overhang of an added top beyond the fronts: that of usual worktops."""
     side: float = 0.01
@@ -247,7 +250,9 @@ class TopConfig:
     back: float = 0.0
     """Overhang behind: furniture stands against walls."""
     thickness: float = 0.025
-    """Thickness of an added top; worktops have 20 to 40 mm, official: 20 mm."""
+    """Thickness of an added top; worktops have 20 to 40 mm, official: 20 mm ..."""
+    thickness_ratio: float = 0.2
+    """... and at most this fraction of its height above the floor."""
     shape: TopShape = "rectangle"
     """Whether the upper edge and the corners of an added top are sharp, rounded or chamfered."""
     edge: float = 0.35
@@ -288,7 +293,7 @@ class TopConfig:
     """What a slab leaves free for what moves."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "coverage", "edge", "apart", "upright")
+        require_ratios(self, "recess_ratio", "gallery_ratio", "thickness_ratio", "coverage", "edge", "apart", "upright")
         require_ratios(self, "seen_depth", "seen_facing", "seen_body", "seen_legs", "metal")
         require_positive(self, "thickness", "corner", "overrun", "most_tops")
         require_not_negative(self, "doubt", "recess", "gallery", "front", "side", "back", "gap", "seat")

@@ -64,7 +64,8 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     depth = metre * np.array([config.recess, config.gallery])
     openings = config.openings
     narrow = min(openings.narrow * metre, openings.narrow_ratio * views.grid.cell * min(views.grid.shape))
-    deep = min(depth[0], 0.1 * _height(views)), min(depth[1], 0.25 * _height(views))
+    most = _height(views) * np.array([config.recess_ratio, config.gallery_ratio])
+    deep = min(depth[0], most[0]), min(depth[1], most[1])
     rim, opened = _openings(views, *deep, narrow, openings)
     free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
     opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(openings.crack * metre) // 2))

@@ -17,6 +17,8 @@ from grafu.geometry.transform import transform_points
 
 SWEEP_POSES = 12
 """Poses of a turning body between which its sweep is joined."""
+ROUNDED_UP = 1.001
+"""Factor that makes a slab surely thick enough."""
 
 
 @final
@@ -74,7 +76,7 @@ def thick_enough(
         points = moving.mesh.vertices[moving.mesh.vertices[:, 2] > seat - gap][:, :2]
         plan = shapely.convex_hull(shapely.multipoints(points))
         if plan.intersection(body).area > own.tray * body.area:
-            thickness = 1.001 * rise / (1 - own.left)
+            thickness = ROUNDED_UP * rise / (1 - own.left)
     return thickness
 
 

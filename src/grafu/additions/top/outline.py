@@ -33,6 +33,11 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 
+ALONG_AXES = 1.02
+"""Area of the rectangle along the axes, over that of the smallest one, up to which it is taken instead (ratio)."""
+SPECK = 0.02
+"""Fraction of the openings up to which a piece of an outline holds none of them."""
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -58,7 +63,7 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, config: OutlineConfig
     held = held.intersection(shapely.convex_hull(walls.union(hollow)))
     body = offset(closed_up(held, config.span * metre), -line)
     body = _joined(body, coverage, config.kneehole * metre)
-    body = _of_openings(_squared(body, config.square * metre), coverage)
+    body = _of_openings(_squared(body, config, metre), coverage)
     return Rim(seat, offset(solid(walls, config.board * metre), -line), body) if body.area > 0 else None
 
 
@@ -75,7 +80,7 @@ def with_fronts(rim: Rim, moving_bodies: tuple[Closed, ...], config: OutlineConf
         found.append(front.intersection(near))
     if len(found) == 1:
         return rim.outline
-    return _squared(closed_up(shapely.union_all(found), 2 * config.front * metre), config.square * metre)
+    return _squared(closed_up(shapely.union_all(found), 2 * config.front * metre), config, metre)
 
 
 def over_the_base(
@@ -232,16 +237,16 @@ def _near(triangles: Float[np.ndarray, "n 3 3"], coverage: Coverage, around: flo
     return triangles[np.all((flat.max(axis=1) >= low) & (flat.min(axis=1) <= high), axis=1)]
 
 
-def _squared(shape: BaseGeometry, tolerance: float) -> BaseGeometry:
+def _squared(shape: BaseGeometry, config: OutlineConfig, metre: float) -> BaseGeometry:
     """Returns each polygon as the rectangle that it was meant to be, where all of whose corners lie near it."""
-    made = []
+    made, tolerance = [], config.square * metre
     for polygon in polygons_in(shape):
         upright = box(*polygon.bounds)
         turned = polygon.minimum_rotated_rectangle
-        rectangle = upright if upright.area <= 1.02 * turned.area else turned
+        rectangle = upright if upright.area <= ALONG_AXES * turned.area else turned
         corners = shapely.points(np.asarray(rectangle.exterior.coords)[:-1])
         is_meant = float(shapely.distance(polygon, corners).max()) <= tolerance
-        is_full = rectangle.difference(offset(polygon, 2 * tolerance)).area <= 0.02 * rectangle.area
+        is_full = rectangle.difference(offset(polygon, 2 * tolerance)).area <= config.empty * rectangle.area
         made.append(rectangle if is_meant and is_full else polygon)
     return shapely.union_all(made) if made else EMPTY
 
@@ -253,9 +258,9 @@ def _joined(body: BaseGeometry, coverage: Coverage, kneehole: float) -> BaseGeom
 
 
 def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:
-    """Returns the polygons of a shape that hold a fraction of the openings; all of it, where there are several."""
+    """Returns the polygons of a shape that hold some of the openings, as one."""
     x, y = coverage.grid.centers(coverage.opened).T
-    held = [p for p in polygons_in(shape) if shapely.contains_xy(p, x, y).sum() > 0.02 * len(x)]
+    held = [p for p in polygons_in(shape) if shapely.contains_xy(p, x, y).sum() > SPECK * len(x)]
     return shapely.union_all(held) if held else EMPTY
 
 

@@ -32,6 +32,14 @@ ROUNDINGS = (1e-5, 1e-4, 5e-4, 1e-3, 2e-3)
 """To which the ends of lines are rounded, in turn, until there are not too many lines, metres."""
 SHORTEST_EDGE = 1e-5
 """Fraction of a slab's length: shorter edges that a cut leaves are joined."""
+LEAST_SPREAD = 0.2
+"""Least divisor of a corner's move: corners that are more pointed move no farther."""
+SMALL = 0.1
+"""Fraction of the width of what is closed up: pieces up to this size become their convex hulls."""
+MOST_CORNER = 0.1
+"""Fraction of the mean side of a slab's outline by which its corners are broken at most."""
+SIDES = 4
+"""Sides of a rectangle."""
 ARC_EDGES = 4
 """Straight edges of a quarter round."""
 EMPTY = Polygon()
@@ -87,7 +95,7 @@ def filled(shape: BaseGeometry) -> BaseGeometry:
 
 def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without holes, and without bays and gaps up to `width` metres wide; corners stay sharp."""
-    plain = shapely.union_all([_plain(p, 0.1 * width) for p in polygons_in(shape)])
+    plain = shapely.union_all([_plain(p, SMALL * width) for p in polygons_in(shape)])
     closed = offset(filled(offset(plain, 0.5 * width)), -0.5 * width)
     return filled(closed.intersection(shapely.convex_hull(plain)))  # slips of a hair beget spikes beyond it
 
@@ -134,8 +142,8 @@ def with_corners(outline: BaseGeometry, shape: TopShape, radius: float) -> BaseG
     """Returns an outline with its outer corners as the shape wants them, broken by up to `radius` metres."""
     if shape == "rectangle":
         return outline
-    least = min((min(p.minimum_rotated_rectangle.exterior.length / 8, 1e9) for p in polygons_in(outline)), default=0.0)
-    radius = min(radius, 0.2 * least)
+    around = (p.minimum_rotated_rectangle.exterior.length for p in polygons_in(outline))
+    radius = min(radius, MOST_CORNER * min(around, default=0.0) / SIDES)
     inner = offset(outline, -radius)
     if shape == "rounded":
         return inner.buffer(radius, join_style="round", quad_segs=ARC_EDGES)
@@ -199,7 +207,7 @@ def _inset(ring: Ring, depth: float) -> Ring:
     left = np.stack([-along[:, 1], along[:, 0]], axis=1)
     before = np.roll(left, 1, axis=0)
     spread = 1.0 + np.einsum("ij,ij->i", left, before)
-    return ring + depth * (left + before) / np.maximum(spread, 0.2)[:, None]
+    return ring + depth * (left + before) / np.maximum(spread, LEAST_SPREAD)[:, None]
 
 
 def _is_sound(layer: list[Ring], area: float) -> bool:

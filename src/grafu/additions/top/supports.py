@@ -18,6 +18,8 @@ from grafu.additions.top.config import SupportConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid
 from grafu.additions.top.views import Views
 
+ALONG_AXES = 1.05
+"""Area of the rectangle along the axes, over that of the smallest one, up to which it is taken instead (ratio)."""
 CELL_INSET = 0.99
 """Cells by which an outline is drawn in: a cell farther inside is next to its supports, none reaches beyond them."""
 
@@ -97,7 +99,7 @@ def _outline(supports: _Supports) -> Polygon | None:
     if not isinstance(hull, Polygon):
         return None
     upright, turned = box(*hull.bounds), hull.minimum_rotated_rectangle
-    around = upright if upright.area <= 1.05 * turned.area else turned
+    around = upright if upright.area <= ALONG_AXES * turned.area else turned
     corners = np.asarray(around.exterior.coords)
     sides = np.linalg.norm(np.diff(corners[:3], axis=0), axis=1)
     if sides.min() < supports.config.supports.narrowest_top * supports.metre:

@@ -26,6 +26,8 @@ VIEW_CELLS = 96
 """Cells along the longer side of each view from in front or from a side."""
 PLAN_CELLS = 160
 """Cells along the longer side of the view from above: a panel of 18 mm is two cells of a sideboard wide."""
+SEEN_POINTS = 3
+"""Points of a triangle, of four, that must lie foremost for it to be seen."""
 VIEWING_DIRECTIONS = ((0, 1.0), (0, -1.0), (1, -1.0))  # along X to the right and to the left, and along Y in front
 SPARE_LABELS = (PartLabel.HANDLE, PartLabel.LEG)  # their look is the body's only where there is no other
 
@@ -87,7 +89,7 @@ class _View:
         at = np.floor((points[..., :2] - self.grid.low) / self.grid.cell).astype(np.int64)
         at = np.clip(at, 0, np.array(self.grid.shape) - 1)
         foremost = points[..., 2] >= self.front[at[..., 0], at[..., 1]] - deep
-        return facing & (foremost.sum(axis=1) >= 3)
+        return facing & (foremost.sum(axis=1) >= SEEN_POINTS)
 
 
 def _any_sees(views: list[_View], triangles: Triangles, deep: float) -> FaceMask:

@@ -22,7 +22,6 @@ from grafu.geometry.transform import transform_points
 from grafu.joints.clearance.carve import Path, box_in
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
-from grafu.scene.scale import metre_on
 from grafu.scene.scene import Scene
 
 _FIRST_STEP = 0.02  # of an opening: where a door has left what it closes
@@ -156,7 +155,7 @@ def trim(
     """
     part = scene.parts[path.moving]
     most = config.max_trim * box_in(path.axes, part.mesh).size
-    metre = metre_on(scene.extent)
+    metre = scene.metre
     hidden = np.maximum(most, config.max_hidden_trim * metre)
     thinnest = config.thinnest_front * metre
     front = _front_of(part.mesh.vertices @ path.axes, path, thinnest)

@@ -18,6 +18,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.joints.config import BlockConfig
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
 from grafu.joints.hinge_config import FootingConfig, HingeConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
@@ -102,6 +103,7 @@ class Site:
     anchor: float
     reach: float
     config: HingeConfig
+    block: BlockConfig
     holders: tuple[str, ...] = ()
 
 
@@ -199,7 +201,7 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
 def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.inset:
-        tongue = _tongue(hinge, pin, site.frame, site.config)
+        tongue = _tongue(hinge, pin, site)
         held = site.scene.is_near_static(tongue.mesh, site.anchor, site.holders)
         return (hinge.static, tongue) if held else None
     if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.holders):
@@ -219,11 +221,11 @@ def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | No
 
 def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:
     """Returns an end with the shortest support block that reaches the target."""
-    bridge = shortest_bridge(_footings(end, snap, site.frame, site.config.footing), target, site.reach)
+    bridge = shortest_bridge(_footings(end, snap, site.frame, site.config.footing), target, site.reach, site.block)
     if bridge is None:
         return None
     footing, length = bridge
-    return (end, block("support_hinge", footing, length, METAL))
+    return (end, block("support_hinge", footing, length, site.block, METAL))
 
 
 def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame, config: FootingConfig) -> Iterator[Footing]:
@@ -241,8 +243,9 @@ def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame, config: FootingC
         yield Footing(start, frame.rotation @ direction, u, v)
 
 
-def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame, config: HingeConfig) -> Visual:
+def _tongue(hinge: FittedHinge, pin: PinCandidate, site: Site) -> Visual:
     """Returns the strip that carries an inset leaf on through the seam into what stands behind the door."""
+    frame, config = site.frame, site.config
     size = hinge.template.size
     leaf = frame.to_border(hinge.static.mesh.vertices)
     start, end = float(leaf[:, 1].min()) + config.lap, -frame.thickness - config.tongue
@@ -251,4 +254,4 @@ def _tongue(hinge: FittedHinge, pin: PinCandidate, frame: BorderFrame, config: H
     v = frame.direction(config.footing.tongue * size.thickness, 0.0, 0.0)
     center = frame.to_object(vec3(pin.x - size.thickness / 2, start, z)[None])[0]
     foot = Footing(center, frame.direction(0.0, -1.0, 0.0), u, v)
-    return block("support_hinge", foot, max(start - end, config.lap), METAL)
+    return block("support_hinge", foot, max(start - end, config.lap), site.block, METAL)

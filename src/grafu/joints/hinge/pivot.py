@@ -15,6 +15,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, robust_median
+from grafu.joints.config import BlockConfig, RealizationConfig
 from grafu.joints.hinge.candidates import PinCandidate
 from grafu.joints.hinge_config import PivotConfig
 from grafu.joints.support_block import METAL, Footing, block
@@ -25,9 +26,10 @@ PivotEnd = tuple[tuple[Visual, ...], tuple[Visual, ...]]
 
 
 def pivot_ends(
-    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, config: PivotConfig
+    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, realization: RealizationConfig
 ) -> list[PivotEnd]:
     """Returns (static, dynamic) discs at each end of the pin where the door and the body near it are met."""
+    config = realization.hinge.pivot
     found: list[PivotEnd] = []
     casters, reach = (RayCaster(door), RayCaster(static)), config.reach * frame.length
     for sign in (1.0, -1.0):
@@ -35,7 +37,7 @@ def pivot_ends(
             frame, pin, (door, static), sign, reach, config
         )
         if met is None:
-            plated = _plated_end(frame, pin, casters, sign, config)
+            plated = _plated_end(frame, pin, casters, sign, config, realization.block)
             found += [plated] if plated else []
             continue
         on_door, on_body, radius = met
@@ -51,7 +53,12 @@ def pivot_ends(
 
 
 def _plated_end(
-    frame: BorderFrame, pin: PinCandidate, casters: tuple[RayCaster, RayCaster], sign: float, config: PivotConfig
+    frame: BorderFrame,
+    pin: PinCandidate,
+    casters: tuple[RayCaster, RayCaster],
+    sign: float,
+    config: PivotConfig,
+    blocks: BlockConfig,
 ) -> PivotEnd | None:
     """Returns the discs beside an end of a door where the body has nothing, the static one on a plate.
 
@@ -80,13 +87,13 @@ def _plated_end(
         frame.direction(config.foot_width * pin.radius, 0.0, 0.0),
         frame.direction(0.0, config.foot_depth * config.plate_reach, 0.0),
     )
-    gap = foot.gap(static, config.plate_reach)
+    gap = foot.gap(static, config.plate_reach, blocks)
     if not np.isfinite(gap):
         return None
     still = (
         _visual("hinge_static", _disc(frame, pin, middle, sign * outer, config.sides)),
-        block("hinge_plate", plate, config.plate, METAL),
-        block("support_hinge", foot, gap, METAL),
+        block("hinge_plate", plate, config.plate, blocks, METAL),
+        block("support_hinge", foot, gap, blocks, METAL),
     )
     moving = _disc(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
     return still, (_visual("hinge_dynamic", moving),)

@@ -138,7 +138,7 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
-    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config.hinge.pivot)
+    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
     free = [hinge for hinge in held if not {*hinge.struck_by} - {FLOOR}]
@@ -172,6 +172,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
         anchor=search.config.anchor * extent,
         reach=(search.config.chosen_reach if mount else search.config.bridge) * extent,
         config=search.config.hinge,
+        block=search.config.block,
         holders=search.request.holders,
     )
 
@@ -233,7 +234,7 @@ def _placement(
         upper=upper,
         mechanism=judged.pin.mechanism,
         template=template,
-        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request),
+        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request, search.config.block),
         count=len(hinges),
         dynamic=tuple(dynamic),
         static=tuple(static),

@@ -21,12 +21,13 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, reflection
+from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, is_free, swept_box
 from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
-from grafu.joints.rail_config import RailConfig, RailFootingConfig
+from grafu.joints.rail_config import RailFootingConfig
 from grafu.joints.report import Placement
 from grafu.joints.support_block import Footing, block, nearest_part, shortest_bridge
 from grafu.scene.scene import Obstacle
@@ -71,12 +72,13 @@ def _fixed(
     walls = search.walls_of(holders) if holders else search.static_rays
     is_chosen = holders == (search.request.choice.mount,)
     reach = (search.config.chosen_reach if is_chosen else search.config.bridge) * search.scene.extent
+    blocks = search.config.block
     if search.request.choice.supports is Supports.DIVIDER:
-        found = _divider(end, T, walls, reach, search.config.rail)
+        found = _divider(end, T, walls, reach, search.config)
     else:
         footings = _footings(end, T, search.config.rail.footing)
-        found = shortest_bridge([next(footings)] if _is_slab(search) else footings, walls, reach)
-    return None if found is None else (rail, block(f"support_{name}", *found))
+        found = shortest_bridge([next(footings)] if _is_slab(search) else footings, walls, reach, blocks)
+    return None if found is None else (rail, block(f"support_{name}", *found, blocks))
 
 
 def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
@@ -100,10 +102,10 @@ def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tupl
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
-    config = search.config.rail.footing
+    config, blocks = search.config.rail.footing, search.config.block
     reach = config.drawer_reach * search.frame.width
-    bridge = shortest_bridge(_dynamic_footings(end, T, config), RayCaster(search.mesh), reach)
-    return None if bridge is None else (rail, block(f"support_{name}", *bridge))
+    bridge = shortest_bridge(_dynamic_footings(end, T, config), RayCaster(search.mesh), reach, blocks)
+    return None if bridge is None else (rail, block(f"support_{name}", *bridge, blocks))
 
 
 def _is_slab(search: DrawerSearch) -> bool:
@@ -115,15 +117,16 @@ def _visual(name: str, end: TemplateEnd) -> Visual:
 
 
 def _divider(
-    end: TemplateEnd, T: Mat4, walls: RayCaster, reach: float, config: RailConfig
+    end: TemplateEnd, T: Mat4, walls: RayCaster, reach: float, realization: RealizationConfig
 ) -> tuple[Footing, float] | None:
     """Returns the foot of an upright board behind a rail and its height: from what is below to what is above.
 
     Where one of the two is out of reach it ends with the rail there; None where both are, or a wall leaves no room.
     """
     snap = end.snap
+    config, blocks = realization.rail, realization.block
     side = config.footing.wall
-    room = Footing(snap.center, snap.normal, side * snap.u, side * snap.v).gap(walls, reach)
+    room = Footing(snap.center, snap.normal, side * snap.u, side * snap.v).gap(walls, reach, blocks)
     thickness = min(config.divider, room - config.divider_air)
     if thickness < config.thinnest_divider:
         return None
@@ -135,7 +138,7 @@ def _divider(
     middle = snap.center + outward * thickness / 2
     middle = middle + up * (float(heights.min() + half) - float(middle @ up))
     middle = middle + back * (float(lengths.min() + np.ptp(lengths) / 2) - float(middle @ back))
-    gaps = [Footing(middle, sign * up, outward * thickness / 2, v).gap(walls, reach) for sign in (-1.0, 1.0)]
+    gaps = [Footing(middle, sign * up, outward * thickness / 2, v).gap(walls, reach, blocks) for sign in (-1.0, 1.0)]
     if not np.isfinite(gaps).any():
         return None
     below, above = (gap if np.isfinite(gap) else half for gap in gaps)
@@ -217,7 +220,7 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         upper=upper,
         mechanism=model.mechanism,
         template=model.id,
-        mount=mount or nearest_part(static[0], search.scene, search.request),
+        mount=mount or nearest_part(static[0], search.scene, search.request, search.config.block),
         count=2,
         dynamic=tuple(dynamic),
         static=tuple(static),
