@@ -120,6 +120,53 @@ def test_a_long_chain_and_a_crowd_of_links_are_limited(tmp_path):
     cheaply(write_urdf(tmp_path / "b", urdf_text(crowd)), "nodes", Limits(max_nodes=400))
 
 
+BALL = "<visual><geometry><sphere{}</geometry></visual>"
+CROWDS = {
+    "a.urdf": ('<robot name="a"><link name="l">', BALL.format(' radius="0.1"/>'), "</link></robot>"),
+    "a.sdf": (
+        '<sdf><model name="m"><link name="l">',
+        BALL.format("><radius>0.1</radius></sphere>"),
+        "</link></model></sdf>",
+    ),
+    "a.xml": ("<mujoco><worldbody>", '<geom type="sphere" size="0.1"/>', "</worldbody></mujoco>"),
+    "bodies.xml": ("<mujoco><worldbody>", "<body/>", "</worldbody></mujoco>"),
+    "copies.xml": (
+        "<mujoco><worldbody>",
+        '<replicate count="3"><geom type="sphere" size="0.1"/></replicate>',
+        "</worldbody></mujoco>",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CROWDS)
+def test_the_shapes_of_a_robot_are_counted_before_one_is_made(tmp_path, monkeypatch, name):
+    """Nor is MuJoCo asked, whose time grows with the square of what it is given."""
+    made = []
+    monkeypatch.setattr("grafu.asset.urdf_shapes.ShapeReader.read", lambda *_: made.append("a shape"))
+    monkeypatch.setattr("grafu.asset.mjcf._library", lambda *_: made.append("MuJoCo"))
+    before, one, after = CROWDS[name]
+    (tmp_path / name).write_text(before + one * 4 + after)
+    most = 11 if "copies" in name else 3
+
+    with pytest.raises(AssetTooLarge, match=rf"{most + 1} parts: at most {most} are read"):
+        load_asset(tmp_path / name, LoadOptions(limits=Limits(max_parts=most)))
+    assert made == []
+
+
+def test_hidden_geoms_are_no_parts(tmp_path):
+    pytest.importorskip("mujoco")
+    hidden = (
+        '<geom type="sphere" size="0.1" group="3"/><geom class="far" size="0.1"/><geom class="collision" size="0.1"/>'
+        '<body childclass="near"><geom size="0.1"/></body><geom size="0.1" rgba="1 1 1 0"/>'
+    )
+    classes = '<default class="far"><geom group="4"/><default class="near"/></default><default class="collision"/>'
+    shown = '<geom type="box" size="1 1 1"/><geom class="far" group="0" type="box" size="1 1 2" pos="3 0 0"/>'
+    text = f"<mujoco><default>{classes}</default><worldbody>{shown}{hidden}</worldbody></mujoco>"
+    (tmp_path / "a.xml").write_text(text)
+
+    assert len(load_asset(tmp_path / "a.xml", LoadOptions(limits=Limits(max_parts=2))).parts) == 2
+
+
 def test_values_of_json_and_xml_are_limited(tmp_path):
     cheaply(scene(tmp_path / "a.glb", lambda document: document.update(extras=[[]] * 2_000_000)), "values")
     cheaply(write_urdf(tmp_path / "r", urdf_text("<a/>" * 1000)), "values", Limits(max_values=900))

@@ -122,6 +122,16 @@ def test_included_mjcf_files_are_put_in_place(tmp_path):
     same(asset, load_annotated(write_urdf(tmp_path / "urdf")))
 
 
+def test_geoms_of_a_class_of_mjcf_are_as_their_class_states(tmp_path):
+    classes = '<default><geom type="box"/><default class="red"><geom size="1 2 3" rgba="1 0 0 1"/></default></default>'
+    geoms = '<geom class="red"/><body childclass="red" pos="5 0 0"><geom/><geom size="1 1 1" pos="4 0 0"/></body>'
+    (tmp_path / "a.xml").write_text(f"<mujoco>{classes}<worldbody>{geoms}</worldbody></mujoco>")
+    parts = load_asset(tmp_path / "a.xml", LoadOptions(parts="input", scale=1.0, front="-Y")).parts
+
+    np.testing.assert_allclose([part.box.size for part in parts], [[2, 4, 6], [2, 4, 6], [2, 2, 2]])
+    assert {part.surfaces[0].material.base_color for part in parts} == {(1.0, 0.0, 0.0, 1.0)}
+
+
 def test_copies_in_mjcf_are_counted_before_they_are_made(tmp_path):
     many = '<replicate count="100000000" offset="0 0 1"><geom name="board" type="box" size="1 1 1"/></replicate>'
     with pytest.raises(AssetTooLarge, match="nodes"):

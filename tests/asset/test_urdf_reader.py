@@ -2,8 +2,10 @@ from math import pi
 
 import numpy as np
 import pytest
+import trimesh
 
 from grafu.articulation.articulated_object import Coupling
+from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import AnnotatedJoint, moved_joints
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
@@ -103,6 +105,30 @@ def test_primitives_scale_and_colours_are_read(tmp_path):
     top, leg = load_annotated(tmp_path / "r.urdf").parts
     assert top.surfaces[0].material.base_color == (1.0, 0.0, 0.0, 1.0)
     np.testing.assert_allclose(sorted(leg.box.size), [0.2, 0.2, 0.3], atol=2e-3)
+
+
+def test_solids_of_any_size_are_one_mesh_scaled(tmp_path, monkeypatch):
+    made = []
+    for form in ("icosphere", "capsule"):
+        own = getattr(trimesh.creation, form)
+        monkeypatch.setattr(f"trimesh.creation.{form}", lambda *a, own=own, **k: made.append(a) or own(*a, **k))
+    balls = "".join(
+        f'<visual><origin xyz="{k} 0 0"/><geometry><sphere radius="{(k + 1) / 20}"/></geometry></visual>'
+        for k in range(5)
+    )
+    pins = "".join(
+        f'<visual name="pin"><origin xyz="{k} 1 0"/>'
+        f'<geometry><capsule radius="{(k + 1) / 20}" length="0.7"/></geometry></visual>'
+        for k in range(5)
+    )
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a">{balls}{pins}</link></robot>')
+    parts = load_asset(tmp_path / "r.urdf", LoadOptions(parts="input", scale=1.0)).parts
+
+    sizes = np.sort([part.box.size for part in parts], axis=1)
+    np.testing.assert_allclose(sizes[:5], [[2 * r] * 3 for r in np.arange(1, 6) / 20], atol=1e-3)
+    np.testing.assert_allclose(sizes[5:, 2], [0.7 + 2 * r for r in np.arange(1, 6) / 20], atol=1e-9)
+    np.testing.assert_allclose(sizes[5:, 0], [2 * r for r in np.arange(1, 6) / 20], atol=1e-3)
+    assert len(made) <= 2
 
 
 def test_roll_pitch_yaw_turn_about_fixed_axes(tmp_path):

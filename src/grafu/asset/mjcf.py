@@ -4,7 +4,6 @@ MuJoCo is given text alone, in which meshes and images are names that it does no
 as those of a URDF. The library is an extra (`grafu[sim]`).
 """
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +13,7 @@ import numpy as np
 from lxml import etree
 
 from grafu.articulation.motion_kind import kind_named
-from grafu.asset.mjcf_text import MjcfText, whole_text
+from grafu.asset.mjcf_text import COLLISION, SHOWN_GROUPS, MjcfText, whole_text
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
@@ -27,8 +26,6 @@ from grafu.geometry.transform import from_rotation
 
 CONVENTION = Convention("the format (MJCF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
 _EXPECTED = "an MJCF model that MuJoCo compiles"
-_SHOWN_GROUPS = 3  # as in MuJoCo's viewer: models keep collision shapes in group 3 and above
-_COLLISION = re.compile(r"collision|collider", re.IGNORECASE)
 _WORDS = ("free", "ball", "slide", "hinge")  # by MuJoCo's number
 _FLOATING = "floating"  # a URDF's word for what moves in some other way
 
@@ -113,7 +110,7 @@ class _Model:
         first, count = int(self.model.body_geomadr[body]), int(self.model.body_geomnum[body])
         for index in range(first, first + count):
             name = self.model.geom(index).name
-            if self._geoms[name].is_shown and not _COLLISION.search(self.text.class_of(name)):
+            if self._geoms[name].is_shown and not COLLISION.search(self.text.class_of(name)):
                 R = np.array(self.state.geom_xmat[index]).reshape(3, 3)
                 yield name, from_rotation(R, np.array(self.state.geom_xpos[index])), self.model.geom_size[index]
 
@@ -195,7 +192,7 @@ def _folder(text: MjcfText, key: str) -> str:
 def _geom(geom: Any) -> _Geom:
     rgba = _rgba(geom)
     kind = str(getattr(geom.type, "name", geom.type)).removeprefix("mjGEOM_")
-    shown = int(geom.group) < _SHOWN_GROUPS and rgba[3] > 0.0
+    shown = int(geom.group) < SHOWN_GROUPS and rgba[3] > 0.0
     return _Geom("MESH" if geom.meshname else kind, geom.meshname, geom.material, rgba, shown)
 
 

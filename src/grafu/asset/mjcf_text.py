@@ -8,11 +8,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, final
 
+from grafu.asset.options import check_parts
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import parse_xml
 from grafu.errors import UnreadableAsset
 
+SHOWN_GROUPS = 3  # as in MuJoCo's viewer: models keep collision shapes in group 3 and above
+COLLISION = re.compile(r"collision|collider", re.IGNORECASE)
 _EXPECTED = "an MJCF model"
+_GROUPS = tuple(str(group) for group in range(SHOWN_GROUPS))
 _MOST_INCLUDED = 200
 _SECTIONS = ("compiler", "default", "asset", "worldbody")
 _IN_BODIES = {"body", "geom", "joint", "freejoint", "frame", "replicate"}
@@ -122,14 +126,18 @@ def _keep(text: MjcfText, parent: Any, kept: set[str]) -> None:
     for element in [*parent]:
         if element.tag not in kept:
             parent.remove(element)
-        elif element.tag == "default":
+        elif element.tag == parent.tag == "default":
             _keep(text, element, kept)
 
 
 def _number(text: MjcfText, world: Any, path: Path, files: ModelFiles) -> None:
-    """Numbers what lies in the world, takes out what is not read, and counts each copy that will be made."""
+    """Numbers what lies in the world, takes out what is not read, and counts each copy that will be made.
+
+    MuJoCo's time grows with the square of bodies and of copies, so that all are counted before it is asked.
+    """
     stack = [(world, "", 1)]
-    total = 0
+    total = bodies = shown = 0
+    looks = _looks(text.root)
     while stack:
         above, given, times = stack.pop()
         for element in [*above]:
@@ -142,6 +150,8 @@ def _number(text: MjcfText, world: Any, path: Path, files: ModelFiles) -> None:
             many = times * max(_whole(element.get("count", "1")), 1) if element.tag == "replicate" else times
             total += many
             files.limits.require("nodes", total, path)
+            bodies += many if element.tag == "body" else 0
+            shown += many if element.tag == "geom" and _is_shown(element, given_here, looks) else 0
             if element.tag in _NAMED:
                 key = f"{_NAMED[element.tag]}{len(text.classes)}_"
                 text.names[key], text.classes[key] = element.get("name", ""), element.get("class", given)
@@ -149,6 +159,30 @@ def _number(text: MjcfText, world: Any, path: Path, files: ModelFiles) -> None:
             for plugin in element.findall("plugin") if element.tag == "geom" else ():
                 element.remove(plugin)
             stack.append((element, given_here, many))
+    check_parts(max(bodies, shown), path, files.limits)
+
+
+def _looks(root: Any) -> dict[str, dict[str, str]]:
+    """Returns for each class what its geoms are like; an empty name is that of the main class."""
+    found: dict[str, dict[str, str]] = {"": {}}
+    above = [(element, "", True) for element in root.findall("default")]
+    while above:
+        element, parent, is_main = above.pop(0)
+        name = "" if is_main else element.get("class", "")
+        found[name] = {**found[parent], **found.get(name, {})}
+        for geom in element.findall("geom"):
+            found[name] |= geom.attrib
+        above += [(child, name, False) for child in element.findall("default")]
+    return found
+
+
+def _is_shown(geom: Any, given: str, looks: dict[str, dict[str, str]]) -> bool:
+    """Whether a geom is surely shown; MuJoCo decides on the others."""
+    of = geom.get("class", given)
+    look = {**looks.get(of, looks[""]), **geom.attrib}
+    group, alpha = look.get("group", "0"), look.get("rgba", "1").split()[-1:]
+    is_solid = look.get("type") not in ("plane", "hfield", "sdf") and not COLLISION.search(of)
+    return is_solid and group in _GROUPS and alpha != ["0"]
 
 
 def _whole(text: str) -> int:

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from grafu.articulation.motion_kind import kind_named
-from grafu.asset.options import LoadOptions
+from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.robot_document import RobotDocument, StatedJoint
@@ -46,6 +46,7 @@ def read_sdf(path: Path, options: LoadOptions, files: ModelFiles | None = None) 
     root = parse_xml(files.read(path), path, "an SDF model", files.limits)
     if root.tag != "sdf":
         raise UnreadableAsset(f"{path} has the root <{root.tag}>: expected <sdf>, a Gazebo model")
+    check_parts(len(root.findall(".//model/link/visual/geometry/*")), path, options.limits)
     document = RobotDocument(path)
     document.add_link(_WORLD, np.eye(4))
     worlds = [root, *root.findall("world")]

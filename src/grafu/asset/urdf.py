@@ -16,7 +16,7 @@ from grafu.articulation.motion_kind import MotionKind, kind_named
 from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.labels import is_whole_part, label_of
-from grafu.asset.options import LoadOptions
+from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf_shapes import ShapeReader, numbers, origin_of, read_xml
@@ -78,8 +78,12 @@ def read_urdf(path: Path, options: LoadOptions, files: ModelFiles | None = None)
 
     Raises:
         UnreadableAsset: if the file is no URDF, its joints do not form a tree, or no shape could be read.
+        AssetTooLarge: if it has more of something than the limits allow.
     """
-    found = read_bodies(path, files or ModelFiles(path, options.limits))
+    files = files or ModelFiles(path, options.limits)
+    robot = read_xml(path, files)
+    check_parts(len(robot.findall("link/visual/geometry/*")), path, options.limits)
+    found = bodies_of_robot(robot, path, files)
     parts = parts_of_drafts(drafts_of_visuals(found.visuals))
     annotation = annotation_of_bodies(list(found.bodies), up=2)
     return Reading("urdf", parts, CONVENTION, annotation, notes=tuple(dict.fromkeys(found.notes)))

@@ -8,6 +8,7 @@ the URDF, or the folder that the user gave. Where neither is known and the URDF 
 
 import math
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any, final
 
@@ -113,6 +114,20 @@ class Shape:
     file: str = ""
 
 
+@cache
+def _unit(form: str) -> TriangleMesh:
+    """Returns a solid whose sides, radius and length are 1; a capsule's length is 2."""
+    import trimesh
+
+    if form == "box":
+        return TriangleMesh.from_trimesh(trimesh.creation.box((1.0, 1.0, 1.0)))
+    if form == "cylinder":
+        return TriangleMesh.from_trimesh(trimesh.creation.cylinder(1.0, 1.0, sections=24))
+    if form == "capsule":
+        return TriangleMesh.from_trimesh(trimesh.creation.capsule(2.0, 1.0, count=(12, 24)))
+    return TriangleMesh.from_trimesh(trimesh.creation.icosphere(2, 1.0))
+
+
 class ShapeReader:
     """Reads the shapes of one URDF; each mesh file is read once. What cannot be read is a note."""
 
@@ -174,26 +189,24 @@ class ShapeReader:
         return found.surfaces
 
     def _primitive(self, element: Any) -> Shape | None:
-        import trimesh
-
         if element.tag == "box":
-            made = trimesh.creation.box(self._floats(element.get("size", ""), 3))
-        elif element.tag == "cylinder":
-            radius, length = (self._floats(element.get(k, ""), 1)[0] for k in ("radius", "length"))
-            made = trimesh.creation.cylinder(radius, length, sections=24)
+            form, size = "box", self._floats(element.get("size", ""), 3)
         elif element.tag == "sphere":
-            made = trimesh.creation.icosphere(2, self._floats(element.get("radius", ""), 1)[0])
+            form, size = "sphere", 3 * self._floats(element.get("radius", ""), 1)
         elif element.tag == "ellipsoid":
-            made = trimesh.creation.icosphere(2, 1.0)
-            made.apply_scale(self._floats(element.get("radii", ""), 3))
-        elif element.tag == "capsule":
+            form, size = "sphere", self._floats(element.get("radii", ""), 3)
+        elif element.tag in ("cylinder", "capsule"):
             radius, length = (self._floats(element.get(k, ""), 1)[0] for k in ("radius", "length"))
-            made = trimesh.creation.capsule(length, radius, count=(12, 24))
+            form, size = element.tag, [radius, radius, length if element.tag == "cylinder" else radius]
         else:
             self.notes.append(f"shape <{element.tag}> is not read and was left out")
             return None
-        self.files.tally.add(self.path, faces=len(made.faces), vertices=len(made.vertices))
-        return Shape((Surface(TriangleMesh.from_trimesh(made)),))
+        unit = _unit(form)
+        self.files.tally.add(self.path, faces=len(unit.faces), vertices=len(unit.vertices))
+        vertices = unit.vertices * np.abs(size)
+        if form == "capsule":
+            vertices[:, 2] += np.sign(vertices[:, 2]) * (abs(length) / 2 - abs(radius))
+        return Shape((Surface(TriangleMesh(vertices, unit.faces)),))
 
     def _floats(self, text: str, count: int) -> list[float]:
         try:
