@@ -47,7 +47,7 @@ OF_MODULES = {
         "division.py": {"_Z": NUMBERING},
         "fronts.py": {"_RING_CELLS": SAMPLES},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
-        "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES},
+        "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_SPARE": TOLERANCE},
     },
     "completion": {
         "doors.py": {},

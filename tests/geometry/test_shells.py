@@ -63,6 +63,20 @@ def test_faces_drawn_twice_count_once_and_sheets_stay_sheets():
     assert len(shells_of(soup(merge_meshes([sheet, doubled])))) == 2
 
 
+def test_shells_of_several_meshes_are_those_of_each():
+    """Meshes of any size, one without faces, two in the same place: none has a shell in common with another."""
+    empty = TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64))
+    tiny = TriangleMesh(1e-4 * merge_meshes([cube(0), cube(1)]).vertices, merge_meshes([cube(0), cube(1)]).faces)
+    meshes = [cube(0), empty, soup(merge_meshes([cube(0), cube(0.5, 1)])), tiny, cube(0)]
+    expected, count = [], 0
+    for mesh in meshes:
+        expected.append(shell_numbers(mesh) + count)
+        count += int(shell_numbers(mesh).max(initial=-1)) + 1
+
+    assert count == 6
+    np.testing.assert_array_equal(shell_numbers(*meshes), np.concatenate(expected))
+
+
 def test_nothing_has_no_shells():
     assert len(shell_numbers(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64)))) == 0
 

@@ -4,12 +4,14 @@ from collections import Counter
 
 import numpy as np
 import pytest
+import trimesh
 
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.config import CandidateConfig, DivisionConfig, FrameConfig, MemberConfig, SegmentationConfig
-from grafu.segmentation.division import divided
+from grafu.segmentation.division import axes_from, divided
+from grafu.segmentation.view import view_of
 from grafu.synth.samples import desk, dresser, kitchen_base
 from small_assets import CABINET, DOOR, DRAWER, mesh_of
 
@@ -19,6 +21,13 @@ CASE = [mesh_of(name) for name in CABINET if name not in (*DOOR, *DRAWER)]
 
 def board(low, high):
     return TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+
+
+def finely(mesh, times):
+    """The mesh with each face in four, so many times."""
+    for _ in range(times):
+        mesh = TriangleMesh(*trimesh.remesh.subdivide(mesh.vertices, mesh.faces))
+    return mesh
 
 
 def cut(*meshes, open_to=None, movers=None):
@@ -221,3 +230,17 @@ def test_marks_printed_on_a_front_are_no_handles():
     found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR, mark]), movers=[False, True])
 
     assert boxes(found, "handle") == rounded([BAR])
+
+
+def test_a_cabinet_of_very_many_faces_looks_as_one_of_few():
+    """Faces between the rays are not traced; what a ray meets, and how far off, stays the same."""
+    looks = []
+    for times in (0, 6):
+        meshes = [finely(mesh, times) for mesh in CASE]
+        shells = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
+        view = view_of(merge_meshes(meshes), shells, np.arange(len(meshes)), axes_from(0))
+        looks.append((view.seen, view.depth, sum(len(mesh.faces) for mesh in meshes)))
+
+    assert looks[1][2] > 100_000
+    np.testing.assert_array_equal(looks[0][0], looks[1][0])
+    np.testing.assert_allclose(looks[0][1], looks[1][1], atol=1e-5)

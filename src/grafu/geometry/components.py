@@ -5,6 +5,7 @@ solid must be found from positions alone. One mesh of many bodies is sorted into
 only touch stay apart.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -14,8 +15,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, freeze_arrays
-from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 
+_OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `_keys`
 BoxEnds = Float[np.ndarray, "n 2 3"]  # lowest and highest corner of each of n boxes
 
 
@@ -87,7 +89,11 @@ def repeated_faces(mesh: TriangleMesh) -> Indices:
     """Returns for each face the index of the first face with the same three corners, which may be itself."""
     if not len(mesh.faces):
         return np.zeros(0, np.int64)
-    corners = np.sort(welded(mesh.vertices)[mesh.faces], axis=1)
+    return _first_alike(welded(mesh.vertices)[mesh.faces])
+
+
+def _first_alike(position: Faces) -> Indices:
+    corners = np.sort(position, axis=1)
     _, first, number = np.unique(_keys(corners), return_index=True, return_inverse=True)
     return first[number.reshape(-1)]
 
@@ -132,7 +138,7 @@ def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:
     piece[faces] = part_numbers(mesh)[:, None]
     outwards = (np.abs(points - mesh.box.center) / np.maximum(mesh.box.half, 1e-12)).max(axis=1)
     order = np.argsort(-outwards, kind="stable")
-    keys = _cells(points, cell) + piece * 0x7F4A7C159E3779B9
+    keys = _cells(points, cell) + piece * _OF_PIECE
     _, first, number = np.unique(keys[order], return_index=True, return_inverse=True)
     position = np.empty(len(used), np.int64)
     position[order] = number.reshape(-1)
@@ -212,22 +218,31 @@ _OfEdges = Int[np.ndarray, " e"]
 _MaskOfEdges = Bool[np.ndarray, " e"]
 
 
-def shell_numbers(mesh: TriangleMesh) -> Indices:
-    """Returns for each face the number of the shell it belongs to, in order of first faces.
+def shell_numbers(*meshes: TriangleMesh) -> Indices:
+    """Returns for each face, mesh after mesh, the number of the shell it belongs to, in order of first faces.
 
     Vertices within a millionth of the mesh's largest side are one. Faces belong together across edges that exactly two
     of them share, so bodies that have a corner or an edge in common are two shells; faces drawn twice count once.
     """
-    if not len(mesh.faces):
+    whole = merge_meshes(meshes)
+    if not len(whole.faces):
         return np.zeros(0, np.int64)
-    scaled = TriangleMesh(mesh.vertices / float(max(mesh.box.size.max(), 1e-300)), mesh.faces)
-    edges, first = _edge_numbers(welded(scaled.vertices)[scaled.faces]), repeated_faces(scaled)
+    position = _welded_apart(meshes)[whole.faces]
+    edges, first = _edge_numbers(position), _first_alike(position)
     distinct = first == np.arange(len(first))
     count = np.bincount(edges[distinct].ravel(), minlength=int(edges.max()) + 1)
     shell = _connected(edges, first, distinct, count)
-    shell = _with_caps(mesh, edges, shell, (count > 2) & (np.bincount(edges.ravel()) % 2 == 0), count == 2)
+    shell = _with_caps(whole, edges, shell, (count > 2) & (np.bincount(edges.ravel()) % 2 == 0), count == 2)
     _, begins, number = np.unique(shell, return_index=True, return_inverse=True)
     return np.argsort(np.argsort(begins))[number.reshape(-1)].astype(np.int64)
+
+
+def _welded_apart(meshes: Sequence[TriangleMesh]) -> Indices:
+    """Returns for each vertex, mesh after mesh, the number of its position; two meshes have no position in common."""
+    sizes = [float(max(mesh.box.size.max(), 1e-300)) if len(mesh.faces) else 1.0 for mesh in meshes]
+    of = np.repeat(np.arange(len(meshes)), [len(mesh.vertices) for mesh in meshes])
+    scaled = np.concatenate([mesh.vertices for mesh in meshes]) / np.array(sizes)[of, None]
+    return np.unique(_cells(scaled, 1e-6) + of * _OF_PIECE, return_inverse=True)[1].reshape(-1)
 
 
 def _connected(edges: _Edges, first: Indices, distinct: _Mask, count: _OfEdges) -> Indices:
@@ -244,6 +259,8 @@ def _with_caps(
     mesh: TriangleMesh, edges: _Edges, shell: Indices, touching: _MaskOfEdges, inner: _MaskOfEdges
 ) -> Indices:
     """Returns the numbers with flat patches that only lie between touching bodies given to the body around them."""
+    if not touching.any():
+        return shell
     loose = touching[edges]
     is_cap = np.ones(int(shell.max()) + 1, dtype=np.bool_)
     np.logical_and.at(is_cap, shell, (loose | inner[edges]).all(axis=1))

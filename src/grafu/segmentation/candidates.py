@@ -132,10 +132,13 @@ def framed(view: View, config: FrameConfig) -> list[tuple[int, ...]]:
         across = 1 - along
         slender = (size[:, along] >= config.bar * size[:, across]) & (size[:, 2] <= config.thick * extent)
         bars = slender & (size[:, 2] <= config.deep * size[:, across]) & (size[:, across] > 0)
-        for pair in _pairs(view, bars, along, extent * config.same):
-            members = _filled(view, pair, along, extent[pair[0]], config)
-            if members:
-                found.append(members)
+        for bar, others in _pairs(view, bars, along, extent * config.same):
+            near = _level_with(view, bar, along, config.same * extent[bar])
+            around, numbers = view.of_shells(near), {shell: k for k, shell in enumerate(near.tolist())}
+            for other in others:
+                members = _filled(around, (numbers[bar], numbers[other]), along, extent[bar], config)
+                if members:
+                    found.append(tuple(near[[*members]].tolist()))
     return _without_shared(found)
 
 
@@ -161,20 +164,31 @@ def merged(view: View, groups: list[tuple[int, ...]]) -> tuple[View, list[tuple[
     ), members
 
 
-def _pairs(view: View, bars: MaskOfShells, along: int, same: np.ndarray) -> Iterator[tuple[int, int]]:
-    """Yields bars of one object side by side, with the same ends and depths: the nearest first."""
+def _pairs(view: View, bars: MaskOfShells, along: int, same: np.ndarray) -> Iterator[tuple[int, list[int]]]:
+    """Yields each bar with those of its object beside it that have the same ends and depths: the nearest first."""
     low, high, across = view.low, view.high, 1 - along
     for bar in np.flatnonzero(bars).tolist():
         beside = bars & (view.owner == view.owner[bar]) & (low[:, across] > high[bar, across])
         ends = np.maximum(np.abs(low[:, along] - low[bar, along]), np.abs(high[:, along] - high[bar, along]))
         depths = np.maximum(np.abs(low[:, 2] - low[bar, 2]), np.abs(high[:, 2] - high[bar, 2]))
         others = np.flatnonzero(beside & (ends <= same[bar]) & (depths <= same[bar]))
-        for other in others[np.argsort(low[others, across], kind="stable")].tolist():
-            yield bar, other
+        if len(others):
+            yield bar, others[np.argsort(low[others, across], kind="stable")].tolist()
+
+
+def _level_with(view: View, bar: int, along: int, same: float) -> Indices:
+    """Returns the shells of a bar's object that reach beyond none of its ends, nor before it or behind it."""
+    low, high = view.low, view.high
+    inside = (low[:, along] >= low[bar, along] - same) & (high[:, along] <= high[bar, along] + same)
+    level = (low[:, 2] >= low[bar, 2] - same) & (high[:, 2] <= high[bar, 2] + same)
+    return np.flatnonzero(inside & level & (view.owner == view.owner[bar]))
 
 
 def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config: FrameConfig) -> tuple[int, ...]:
-    """Returns the pair with the bars across and the panels between, empty where they are no filled frame."""
+    """Returns the pair with the bars across and the panels between, empty where they are no filled frame.
+
+    The view shows the shells that are level with the pair.
+    """
     first, second = pair
     across: Final = 1 - along
     low, high, same = view.low, view.high, config.same * extent
@@ -182,17 +196,14 @@ def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config
     groove = config.groove * bar
     left, right = high[first, across], low[second, across]
     between = (low[:, across] >= left - groove - same) & (high[:, across] <= right + groove + same)
-    inside = (low[:, along] >= low[first, along] - same) & (high[:, along] <= high[first, along] + same)
-    level = (low[:, 2] >= low[first, 2] - same) & (high[:, 2] <= high[first, 2] + same)
-    within = between & inside & level & (view.owner == view.owner[first])
-    spans = within & (low[:, across] <= left + same) & (high[:, across] >= right - same)
+    spans = between & (low[:, across] <= left + same) & (high[:, across] >= right - same)
     low_ends = spans & (np.abs(low[:, along] - low[first, along]) <= same)
     high_ends = spans & (np.abs(high[:, along] - high[first, along]) <= same)
     rails = low_ends ^ high_ends
     if not ((low_ends & rails).any() and (high_ends & rails).any()):
         return ()
     opening = high[low_ends & rails, along].min(), low[high_ends & rails, along].max()
-    filling = within & ~rails
+    filling = between & ~rails
     filling[[first, second]] = False
     muntins = filling & ~_is_set_back(view, first, config) & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
     panels = filling & ~muntins

@@ -49,17 +49,12 @@ class Shells:
     @classmethod
     def of(cls, meshes: Sequence[TriangleMesh], materials: Sequence[Indices] | None = None) -> "Shells":
         """Returns the shells of some meshes; with the material of each face, these are parted by material too."""
-        numbers, owner, count = [], [], 0
-        for k, mesh in enumerate(meshes):
-            found = shell_numbers(mesh)
-            if materials is not None:
-                pairs = np.column_stack([found, materials[k]])
-                found = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
-            numbers.append(found + count)
-            here = int(found.max()) + 1 if len(found) else 0
-            owner += [k] * here
-            count += here
-        return cls(merge_meshes(meshes), np.concatenate(numbers), np.array(owner, dtype=np.int64))
+        shell = shell_numbers(*meshes)
+        if materials is not None:
+            pairs = np.column_stack([shell, np.concatenate(materials)])
+            shell = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
+        of = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
+        return cls(merge_meshes(meshes), shell, of[np.unique(shell, return_index=True)[1]])
 
 
 def divided(

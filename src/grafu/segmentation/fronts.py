@@ -48,8 +48,8 @@ def fronts_among(view: View, plates: Indices, config: SegmentationConfig) -> tup
     finder: Final = _FrontFinder(view, config)
     chosen: list[int] = []
     for plate in _ranked(view, plates):
-        over = [k for k in chosen if overlaps(view, plate)[k] >= config.members.nested]
-        if not over and not finder.is_fixed(plate, plates):
+        covered = overlaps(view, plate)[chosen] >= config.members.nested
+        if not covered.any() and not finder.is_fixed(plate, plates):
             chosen.append(plate)
     taken: set[int] = set(chosen)
     found = []
@@ -118,7 +118,9 @@ class _FrontFinder:
             0.0,
         ).prod(axis=1)
         on = shared >= config.on_front * self._area
-        front = np.array([self._level_near(k, plate) if s else 0.0 for k, s in enumerate(small & on)])
+        front = np.zeros(len(small))
+        for k in np.flatnonzero(small & on).tolist():
+            front[k] = self._level_near(k, plate)
         out = (view.high[:, 2] > front + config.handle_least_out * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
         starts = view.low[:, 2] <= front + config.handle_gap * near
         starts &= view.high[:, 2] <= front + config.handle_out * extent

@@ -20,7 +20,7 @@ from grafu.segmentation.candidates import candidates, framed, merged
 from grafu.segmentation.config import JoiningConfig, SegmentationConfig
 from grafu.segmentation.division import Shells, axes_from
 from grafu.segmentation.fronts import fronts_among
-from grafu.segmentation.view import view_of
+from grafu.segmentation.view import SeenFaces
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 ObjectOfFaces = Int[np.ndarray, " _"]
@@ -45,7 +45,8 @@ def joined_objects(
     contacts: Final = _Contacts(meshes, config.joining)
     across = _across(whole, owner, apart, may)
     numberings = (apart,) if across.max(initial=0) == apart.max(initial=0) else (across, apart)
-    fronts = [front for shell in numberings for front in _front_objects(whole, shell, owner, may, config)]
+    faces = SeenFaces.of(whole, axes_from(0))
+    fronts = [front for shell in numberings for front in _front_objects(faces, shell, owner, may, config)]
     single = [front for front in fronts if contacts.count_apart(front.handles_within(fronts)) < 2]
     taken: set[int] = set()
     found: list[Group] = []
@@ -158,8 +159,10 @@ class _Contacts:
     def _of(self, k: int) -> set[int]:
         if k not in self._touched:
             gaps = np.maximum(self._low - self._high[k], self._low[k] - self._high).max(axis=1)
-            pairs = [(k, other) for other in np.flatnonzero(gaps <= self._reach).tolist() if other != k]
-            self._touched[k] = {other for _, other in touching_pairs(self._meshes, pairs, self._reach)}
+            near = [k, *(other for other in np.flatnonzero(gaps <= self._reach).tolist() if other != k)]
+            pairs = [(0, at) for at in range(1, len(near))]
+            found = touching_pairs([self._meshes[other] for other in near], pairs, self._reach)
+            self._touched[k] = {near[at] for _, at in found}
         return self._touched[k]
 
 
@@ -183,12 +186,12 @@ def _across(whole: TriangleMesh, owner: ObjectOfFaces, apart: Indices, may: Mask
 
 
 def _front_objects(
-    whole: TriangleMesh, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
+    faces: SeenFaces, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
 ) -> list[_Front]:
     """Returns the objects of each front and of its handles."""
     of = np.where(may, 0, np.arange(len(may)) + 1)
     first = np.unique(shell, return_index=True)[1]
-    seen = view_of(whole, shell, of[owner[first]].astype(np.int64), axes_from(0))
+    seen = faces.view(shell, of[owner[first]].astype(np.int64))
     view, members = merged(seen, framed(seen, config.frames))
     plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
     found = [front.made_of(members) for front in fronts_among(view, plates, config)]
