@@ -71,11 +71,18 @@ def test_welded_samples_give_each_front_back_whole(sample):
     ("config", "expected"),
     [
         (SegmentationConfig(), {"rest": 1, "front": 2, "handle": 2}),
-        (SegmentationConfig(candidates=CandidateConfig(least=0.9)), {}),
+        (SegmentationConfig(candidates=CandidateConfig(least=0.9), division=DivisionConfig(low=0.9)), {}),
+        (SegmentationConfig(candidates=CandidateConfig(least=0.9)), {"rest": 1, "front": 2, "handle": 2}),
         (SegmentationConfig(members=MemberConfig(handle_side=1e-9)), {"rest": 1, "front": 2}),
         (SegmentationConfig(division=DivisionConfig(small=0.9)), {}),
     ],
-    ids=["as usual", "no plate is large enough", "nothing is a handle", "fronts are trifles"],
+    ids=[
+        "as usual",
+        "no plate is large enough",
+        "handles stand on small plates",
+        "nothing is a handle",
+        "fronts are trifles",
+    ],
 )
 def test_thresholds_can_be_chosen(config, expected):
     whole = merge_meshes([mesh_of(name) for name in CABINET])
@@ -244,3 +251,32 @@ def test_a_cabinet_of_very_many_faces_looks_as_one_of_few():
     assert looks[1][2] > 100_000
     np.testing.assert_array_equal(looks[0][0], looks[1][0])
     np.testing.assert_allclose(looks[0][1], looks[1][1], atol=1e-5)
+
+
+LOW_TABLE = [
+    board((-0.75, -0.40, 0.72), (0.75, 0.40, 0.75)),
+    *(board((x, y, 0.0), (x + 0.05, y + 0.05, 0.72)) for x in (-0.74, 0.69) for y in (-0.39, 0.34)),
+    board((-0.69, 0.30, 0.62), (0.69, 0.32, 0.72)),
+    board((-0.025, -0.385, 0.645), (0.025, 0.30, 0.715)),
+]
+LOW_FRONTS = [board((x, -0.39, 0.65), (x + 0.63, -0.37, 0.71)) for x in (-0.67, 0.04)]
+
+
+@pytest.mark.parametrize("knobs", [2, 1, 0])
+def test_low_drawers_of_a_table_are_cut_out_where_a_handle_stands_on_them(knobs):
+    """Rails of a face frame are as low, and have none."""
+    handles = [board((x, -0.42, 0.67), (x + 0.04, -0.39, 0.69)) for x in (-0.375, 0.335)][:knobs]
+    found = cut(merge_meshes([*LOW_TABLE, *LOW_FRONTS, *handles]))
+
+    fronts = [box for role, box in found.get(0, []) if role == "front"]
+    assert len(fronts) == knobs
+    for box, mesh in zip(sorted(fronts, key=lambda box: box.low[0]), LOW_FRONTS[:knobs], strict=True):
+        np.testing.assert_allclose([box.low, box.high], [mesh.box.low, mesh.box.high], atol=1e-9)
+    assert [role for role, _ in found.get(0, [])].count("handle") == knobs
+
+
+def test_a_low_upright_strip_with_a_knob_is_no_drawer():
+    stile = board((-0.67, -0.39, 0.05), (-0.61, -0.37, 0.70))
+    knob = board((-0.65, -0.42, 0.4), (-0.63, -0.39, 0.42))
+
+    assert cut(merge_meshes([*LOW_TABLE, stile, knob])) == {}

@@ -172,6 +172,8 @@ class DivisionConfig:
     """How far a case stands out of the fronts of a box at least (multiple of `near`)."""
     small: float = 0.02
     """A front's shorter side at least (of the whole's largest side)."""
+    low: float = 0.025
+    """The height of a front that a handle stands on at least (of its object's largest side): a table's drawers."""
     single: float = 0.8
     """What an object's one front covers (of the object's outline)."""
     most_handles: int = 2

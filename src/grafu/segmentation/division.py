@@ -151,7 +151,7 @@ def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool], config: Segm
     view, members = merged(view, framed(view, config.frames))
     may = may[[shells[0] for shells in members]]
     found: dict[int, list[FrontShells]] = {}
-    for front in fronts_among(view, candidates(view, may, config.candidates), config):
+    for front in _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config):
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
     flush = {owner: tuple(f for f in fronts if _is_flush(view, f, config.division)) for owner, fronts in found.items()}
     hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o], config)}
@@ -161,6 +161,19 @@ def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool], config: Segm
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
         {o: front.made_of(members) for o, front in single.items()},
     )
+
+
+def _with_low(
+    view: View, may: MaskOfShells, fronts: tuple[FrontShells, ...], config: SegmentationConfig
+) -> tuple[FrontShells, ...]:
+    """Returns the fronts with those beside them that are lower and have a handle: the drawers of a table."""
+    low = candidates(view, may, replace(config.candidates, least=config.division.low))
+    taken = {shell for front in fronts for shell in front.all_shells}
+    covered = [overlaps(view, front.shells[0]) > 0 for front in fronts]
+    free = [k for k in low.tolist() if k not in taken and not any(mask[k] for mask in covered)]
+    wide = [k for k in free if view.size[k, 0] > view.size[k, 1]]
+    found = fronts_among(view, np.array(wide, dtype=np.int64), config)
+    return (*fronts, *(front for front in found if front.handles and not taken & front.all_shells))
 
 
 def _is_one_with_handles(view: View, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
