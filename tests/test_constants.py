@@ -10,9 +10,20 @@ from pathlib import Path
 
 import pytest
 
+from grafu.articulation.mass import MassConfig
+from grafu.asset.bodies import SlidingDoorConfig
+from grafu.asset.cutting import CutConfig
+from grafu.asset.drafts import GroupConfig
+from grafu.asset.foreign.agreement import AgreementConfig
+from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.frame import FrontEvidenceConfig
+from grafu.asset.loose import LooseConfig
+from grafu.asset.partnet_mobility import StandingConfig
+from grafu.asset.pieces import PieceConfig
+from grafu.asset.plausibility import PlausibilityConfig
 from grafu.asset.scale import ScaleConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
+from grafu.metrics.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
 from grafu.segmentation.config import (
     CandidateConfig,
@@ -33,10 +44,53 @@ VOTES = "the weight of a vote: weights were set together, against each other, an
 FRAME = "it settles the frame of a front or of a border, which joints and additions share: each must see the same"
 SHARED = "one answer for all: joints, additions and pages must not differ in it"
 SOLD = "a table of sizes of furniture as sold, or of units of length"
-WORDS = "how many names a sentence has"
+WORDS = "how many names a sentence has, or letters a name"
+FORMULA = "a number of geometry or mechanics"
+MATERIALS = "a table of what materials weigh, the default of a field"
+ELSEWHERE = "a tolerance that tells other coordinates from rounding, no size of furniture"
+EFFORT = "after how much work a reader ends, or works in a simpler way"
+FORMAT = "what a format or a data set states: its axes, its codes, how large its numbers are"
+
+READERS = (
+    "blend", "collada", "fbx", "fbx_document", "folder", "gltf", "gltf_buffers", "gltf_draco", "gltf_meshes",
+    "gltf_meshopt", "hssd_annotation", "json_files", "load", "mesh_files", "mjcf", "mjcf_text", "obj_lines",
+    "obj_parser", "regular_files", "resources", "robot_document", "scan_files", "sdf", "threeds", "threemf", "urdf",
+    "urdf_shapes", "usd", "usd_materials",
+)  # fmt: skip
+"""Modules that read bytes and text: their numbers are those of formats, of colours and of how much is read."""
 
 OF_MODULES = {
-    "asset": {"frame.py": {}, "scale.py": {"STORAGE": SOLD, "TABLE": SOLD, "UNITS": SOLD}},
+    "articulation": {
+        "mass.py": {"NO_MOMENTS": FORMULA, "_BY_WORD": MATERIALS, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA}
+    },
+    "asset": {
+        "bodies.py": {},
+        "cutting.py": {},
+        "drafts.py": {},
+        "foreign/agreement.py": {"_FEW": EFFORT},
+        "foreign/frames.py": {
+            "_ROUNDS": EFFORT,
+            "_Y_UP_Z_FRONT": FORMAT,
+            "_Z_UP_X_BACK": FORMAT,
+            "_Z_UP_X_FRONT": FORMAT,
+        },
+        "foreign/matching.py": {"_SMALLEST_SCALE": TOLERANCE, "_SOUND": TOLERANCE},
+        "foreign/motions.py": {"AS_PARTS": FORMAT},
+        "foreign/particulate.py": {"UP_ROTATIONS": FORMAT, "_SHAPES": FORMAT},
+        "foreign/singapo.py": {"_ALIKE": ELSEWHERE, "_LARGEST": FORMAT},
+        "frame.py": {},
+        "furniture_pieces.py": {"_NAMED": WORDS},
+        "hssd.py": {"_AGREES": ELSEWHERE},
+        "loose.py": {},
+        "names.py": {"_LEAST_PREFIX": WORDS, "_LONGEST": WORDS, "_RANKS": WORDS, "_TILES": WORDS},
+        "part.py": {"IDENTITY_FRAME": FORMAT},
+        "partnet_mobility.py": {},
+        "pieces.py": {},
+        "plausibility.py": {},
+        "reading.py": {"_FLATNESS": TOLERANCE},
+        "scale.py": {"STORAGE": SOLD, "TABLE": SOLD, "UNITS": SOLD},
+    },
+    "metrics": {"panels.py": {"POSES": SAMPLES}},
     "scene": {
         "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
@@ -61,7 +115,33 @@ OF_MODULES = {
     "pipeline": {"verdict.py": {"_NAMED": WORDS}, "triage.py": {}},
 }
 IN_FUNCTIONS = {
-    "asset": {"frame.py": {}, "scale.py": {}},
+    "articulation": {"mass.py": dict.fromkeys((3.0, 4.0, 6.0, 9, 12.0), FORMULA)},
+    "asset": {
+        "bodies.py": {},
+        "cutting.py": {},
+        "drafts.py": {},
+        "foreign/agreement.py": {},
+        "foreign/frames.py": {},
+        "foreign/matching.py": {},
+        "foreign/motions.py": {},
+        "foreign/particulate.py": {},
+        "foreign/singapo.py": {0.01: ELSEWHERE},
+        "frame.py": {},
+        "furniture_pieces.py": {},
+        "hssd.py": {},
+        "labels.py": {20_000: EFFORT},
+        "loose.py": {10_000: WORDS},
+        "names.py": {3: WORDS, 20_000: EFFORT},
+        "part.py": {},
+        "partnet_mobility.py": {3: FORMAT, 100: WORDS},
+        "pieces.py": {4: WORDS, 200_000: EFFORT},
+        "plausibility.py": {},
+        "reading.py": {},
+        "scale.py": {},
+    },
+    "metrics": {
+        "panels.py": {0.01: TOLERANCE, 0.1: TOLERANCE, 0.99: TOLERANCE, 3: NUMBERING, 5: NUMBERING, 6: NUMBERING}
+    },
     "scene": {"border.py": {}, "front.py": {}, "scale.py": {}},
     "segmentation": {
         "candidates.py": {},
@@ -85,10 +165,17 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    CandidateConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig, FrontEvidenceConfig,
-    FurnitureConfig, GuessConfig, MemberConfig, RowConfig, RuleConfig, ScaleConfig, SegmentationConfig, VerdictConfig,
+    AgreementConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig,
+    FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, LooseConfig, MassConfig, MatchConfig, MemberConfig,
+    PieceConfig, PlausibilityConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig, SegmentationConfig,
+    SlidingDoorConfig, StandingConfig, VerdictConfig,
 )  # fmt: skip
-NUMBERS = [(kind, f.name) for kind in CONFIGS for f in fields(kind) if not is_dataclass(f.default)]
+NUMBERS = [
+    (kind, f.name)
+    for kind in CONFIGS
+    for f in fields(kind)
+    if not is_dataclass(f.default) and f.name != "density_by_word"  # a table
+]
 
 
 @pytest.mark.parametrize("folder", OF_MODULES)
@@ -103,6 +190,14 @@ def test_no_threshold_stands_in_a_module(folder: str) -> None:
 @pytest.mark.parametrize("folder", ["scene", "segmentation"])
 def test_all_modules_of_a_folder_are_looked_at(folder: str) -> None:
     assert named_numbers(SOURCES / folder).keys() == OF_MODULES[folder].keys()
+
+
+def test_all_modules_with_numbers_of_the_input_are_looked_at_or_read_formats() -> None:
+    found = named_numbers(SOURCES / "asset").keys()
+
+    assert found <= {*OF_MODULES["asset"], *(f"{name}.py" for name in READERS)}
+    assert all((SOURCES / "asset" / f"{name}.py").is_file() for name in READERS)
+    assert not {f"{name}.py" for name in READERS} & OF_MODULES["asset"].keys()
 
 
 @pytest.mark.parametrize("folder", IN_FUNCTIONS)

@@ -27,6 +27,8 @@ from grafu.training.config import BASE, SMALL
 from grafu.training.source import TEST_SEED, VALIDATION_SEED
 from stated.constants_built import Sentence, additions, joints, per_cent
 
+_MATCH = matching.MatchConfig()
+
 SEEN, VERDICT = FeatureConfig(), VerdictConfig()
 
 
@@ -125,7 +127,7 @@ def learning() -> Iterator[Sentence]:
 
 def others() -> Iterator[Sentence]:
     """Yields what the remaining pages repeat."""
-    yield "conventions.md", "Shells under {:g} % of the largest side", (per_cent(loose._TINY),)
+    yield "conventions.md", "Shells under {:g} % of the largest side", (per_cent(loose.LooseConfig().tiny),)
     poses = ConnectivityConfig().poses
     yield (
         "pages.md",
@@ -140,8 +142,8 @@ def others() -> Iterator[Sentence]:
     yield "limits.md", "goes more than {:g} GB beyond", (round(limits._SPARE / 1e9),)
     yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)
     yield "limits.md", "| `--memory SIZE` | {} (of", (limit_options.MEMORY,)
-    yield "predictions.md", "agree in it to {} of the size", (matching._EXACT,)
-    yield "predictions.md", "({} times the best and {} of the size)", matching._ALIKE
+    yield "predictions.md", "agree in it to {} of the size", (_MATCH.exact,)
+    yield "predictions.md", "({} times the best and {} of the size)", (_MATCH.alike, _MATCH.alike_beyond)
 
 
 def told() -> dict[str, list[str]]:

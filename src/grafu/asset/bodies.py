@@ -20,8 +20,25 @@ from grafu.asset.names import unique_ids, words
 from grafu.asset.part import AnnotatedJoint, Annotation, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
+from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.vocabulary import JointType, PartLabel
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SlidingDoorConfig:
+    """What counts as a sliding door where no name tells.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    flat: float = 0.35
+    """Largest thickness of an upright plate that slides along itself (fraction of its next larger side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
 
 
 @final
@@ -187,12 +204,14 @@ def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: Stated
     return PartLabel.DOOR if _slides_in_its_plane(rest, motion, up) else PartLabel.DRAWER
 
 
-def _slides_in_its_plane(visuals: tuple[Visual, ...], motion: StatedMotion, up: int) -> bool:
+def _slides_in_its_plane(
+    visuals: tuple[Visual, ...], motion: StatedMotion, up: int, config: SlidingDoorConfig = SlidingDoorConfig()
+) -> bool:
     """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray."""
     size = merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size
     along = int(np.argmax(np.abs(motion.axis.direction)))
     thin = int(np.argmin(size))
-    return along != up and thin not in (up, along) and bool(size[thin] < 0.35 * np.delete(size, thin).min())
+    return along != up and thin not in (up, along) and bool(size[thin] < config.flat * np.delete(size, thin).min())
 
 
 def _static(body: Body, carrier: str | None, notes: list[str]) -> list[_Draft]:

@@ -5,8 +5,8 @@ What the input states about its motions is not asked: the parts are the same wit
 """
 
 from collections import Counter
-from dataclasses import replace
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Final, final
 
 import numpy as np
 
@@ -18,30 +18,47 @@ from grafu.asset.pieces import in_words, with_pieces
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.geometry.arrays import Indices, Mat4
+from grafu.geometry.config_checks import require_ratios
 from grafu.segmentation.division import Piece, divided
 from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
-
-_DOOR_HEIGHT = 0.5  # of its width: how high the door of an appliance is at least
-_THICK = 0.35  # of its middle side: what is thicker is no board
 
 # What may hide fronts: what no name tells, and what is called by what it holds.
 _OPEN: Final = frozenset({PartLabel.UNKNOWN, PartLabel.MISC, PartLabel.FACE_FRAME, PartLabel.DOOR, PartLabel.DRAWER})
 
 
-def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> Reading:
+@final
+@dataclass(frozen=True, slots=True)
+class CutConfig:
+    """Which parts may hide fronts, and which front of an appliance is a door.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    door_height: float = 0.5
+    """Least height of an appliance's door (fraction of its width)."""
+    thick: float = 0.35
+    """What is thicker than this is no board (fraction of its middle side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", config: CutConfig = CutConfig()) -> Reading:
     """Returns the reading with objects cut where that makes doors or drawers appear, and a note on each.
 
     Args:
         reading: what was read.
         frame: how it stands; its unit does not matter.
         name: that of the model: the front of what is called an oven is a door, unless another part is named door.
+        config: which parts may hide fronts.
     """
     if not reading.parts or _is_divided(reading):
         return reading
     T = _turn(frame)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
-    open_to = [_may_be_cut(part) and part.rides_on is None for part in reading.parts]
+    open_to = [_may_be_cut(part, config) and part.rides_on is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
     cuts = divided(meshes, open_to, whole, [_materials(part) for part in reading.parts])
     if not cuts:
@@ -50,7 +67,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "") -> R
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
     parts = tuple(
-        _freed(_named(_part(part, piece, new), piece, model, T), cut)
+        _freed(_named(_part(part, piece, new), piece, model, T, config), cut)
         for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
@@ -85,11 +102,11 @@ def _is_divided(reading: Reading) -> bool:
     return by_hand or (reading.kind in ROBOTS and len({part.source.link for part in reading.parts}) > 1)
 
 
-def _may_be_cut(part: Part) -> bool:
+def _may_be_cut(part: Part, config: CutConfig) -> bool:
     """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that."""
     sides = np.sort(part.box.size)
     is_body = part.label is BODY and sense_of(part.source.name).is_container
-    return part.label in _OPEN or (is_body and bool(sides[0] > _THICK * sides[1]))
+    return part.label in _OPEN or (is_body and bool(sides[0] > config.thick * sides[1]))
 
 
 def _materials(part: Part) -> Indices:
@@ -137,7 +154,7 @@ def _part(part: Part, piece: Piece | None, name: str) -> Part:
     return replace(part, id=name, surfaces=faces_of_part(part, piece.faces), label=label, labelled_by=by)
 
 
-def _named(part: Part, piece: Piece | None, model: str, T: Mat4) -> Part:
+def _named(part: Part, piece: Piece | None, model: str, T: Mat4, config: CutConfig) -> Part:
     """Returns a new front as a door where object or model are called an oven, a refrigerator or the like.
 
     It must be too high for a drawer or a control panel; `T` turns it upright.
@@ -145,7 +162,7 @@ def _named(part: Part, piece: Piece | None, model: str, T: Mat4) -> Part:
     if piece is None or piece.role != "front" or part.label is not PartLabel.UNKNOWN:
         return part
     size = part.mesh.transformed(T).box.size
-    is_high = float(size[2]) >= _DOOR_HEIGHT * float(size[:2].max())
+    is_high = float(size[2]) >= config.door_height * float(size[:2].max())
     if is_high and (is_appliance(part.source.name) or is_appliance(model)):
         return replace(part, label=PartLabel.DOOR, labelled_by="name")
     return part

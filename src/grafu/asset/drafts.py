@@ -20,11 +20,27 @@ from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 
 # Where a numbered beginning may end: after `drawer_1` in `drawer_1_front`, after `Door02` in `Door02Panel`.
 _NUMBERED = re.compile(r"\d+(?=[ _.-]*[^\W\d_])")
-_SPARE = 0.01  # of a group's largest side: how far what lies within it may stand out
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class GroupConfig:
+    """Which pieces belong to a door or drawer that numbered names tell.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    spare: float = 0.01
+    """How far what lies within it may stand out of it (fraction of its largest side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
 
 
 @final
@@ -53,10 +69,10 @@ class _Grouped:
     carrier: str = ""
 
 
-def parts_of_drafts(drafts: list[PartDraft]) -> tuple[Part, ...]:
+def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()) -> tuple[Part, ...]:
     """Returns one part per group or single piece, in order; handles stay parts of their own and ride on their group."""
     grouped: dict[str, _Grouped] = {}
-    for index, draft in enumerate(_with_name_groups(drafts)):
+    for index, draft in enumerate(_with_name_groups(drafts, config.spare)):
         label = label_of(draft.label_name or draft.name)
         alone = not draft.group or label is PartLabel.HANDLE
         key = f"piece {index}" if alone else f"group {draft.group}"
@@ -80,7 +96,7 @@ def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:
     return Part(part_id, grouped.label, surfaces, source, by, carrier)  # type: ignore[arg-type]
 
 
-def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
+def _with_name_groups(drafts: list[PartDraft], spare: float) -> list[PartDraft]:
     """Returns the drafts with groups added where numbered names share a beginning and one of them is a piece.
 
     What shares the beginning, but is named otherwise (`drawer_0_divider`), belongs to the group if it lies within
@@ -98,7 +114,7 @@ def _with_name_groups(drafts: list[PartDraft]) -> list[PartDraft]:
         if len(members) < 2 or not pieces:
             continue
         around = _box([drafts[i] for i in pieces])
-        within = [i for i in named if i not in members and around is not None and _lies_in(drafts[i], around)]
+        within = [i for i in named if i not in members and around is not None and _lies_in(drafts[i], around, spare)]
         for i in (*members, *within):
             out[i] = replace(drafts[i], group=f"name {beginning}", group_name=beginning)
     return out
@@ -115,9 +131,9 @@ def _box(drafts: list[PartDraft]) -> Box | None:
     return Box.enclosing(boxes) if boxes else None
 
 
-def _lies_in(draft: PartDraft, around: Box) -> bool:
+def _lies_in(draft: PartDraft, around: Box, ratio: float) -> bool:
     box = _box([draft])
-    spare = _SPARE * float(around.size.max())
+    spare = ratio * float(around.size.max())
     return box is not None and bool(np.all(box.low >= around.low - spare) and np.all(box.high <= around.high + spare))
 
 

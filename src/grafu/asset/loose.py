@@ -4,7 +4,8 @@ A mesh that holds the handles of several doors and drawers becomes a part for ea
 """
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 
@@ -14,14 +15,38 @@ from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.point_distance import point_triangle_distances
 from grafu.vocabulary import PartLabel
 
-_TINY = 0.01  # of the whole's largest side: a screw, no part
-_TOUCH = 0.002  # of it: this near, a screw lies on a board
-_SEEN = 16  # corners of a screw that are measured
-_WHOLE = 0.5  # of the whole's box: what fills more names the piece and not a part of it
+
+@final
+@dataclass(frozen=True, slots=True)
+class LooseConfig:
+    """Which shells of a part become parts of their own, and which serve a door or drawer.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1, or no corner is measured.
+    """
+
+    tiny: float = 0.01
+    """A shell smaller than this is a screw, no part (fraction of the largest side of all)."""
+    touch: float = 0.002
+    """This near, a screw lies on a board (fraction of the largest side of all)."""
+    seen: int = 16
+    """How many corners of a screw are measured."""
+    whole: float = 0.5
+    """What fills more than this of the box around all names the piece, and not a part of it (fraction)."""
+    handle_reach: float = 0.01
+    """How far a handle may stand off its front (fraction of the largest side of all)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "seen")
+        require_ratios(self, "tiny", "touch", "whole", "handle_reach")
+
+
+_DEFAULT = LooseConfig()
 
 
 def shell_count(surfaces: Sequence[Surface]) -> int:
@@ -35,7 +60,10 @@ def _allow(_: int) -> None:
 
 
 def loose_parts(
-    parts: Sequence[Part], held: Collection[str] = (), allow: Callable[[int], None] = _allow
+    parts: Sequence[Part],
+    held: Collection[str] = (),
+    allow: Callable[[int], None] = _allow,
+    config: LooseConfig = _DEFAULT,
 ) -> tuple[Part, ...]:
     """Returns the parts taken apart into their connected shells, those that are `held` (ids) as they are.
 
@@ -49,19 +77,21 @@ def loose_parts(
     found: list[tuple[Part, list[tuple[Surface, ...]]]] = []
     made = 0
     for part in parts:
-        found.append((part, [part.surfaces] if part.id in held else _shells(part, whole, _more(allow, made))))
+        found.append((part, [part.surfaces] if part.id in held else _shells(part, whole, _more(allow, made), config)))
         made += len(found[-1][1])
     ids = iter(unique_ids((part.id, part.label is PartLabel.HANDLE) for part, shells in found for _ in shells))
     return tuple(
-        _renamed(part, next(ids), shells_of, whole) if len(shells) > 1 else replace(part, id=next(ids))
+        _renamed(part, next(ids), shells_of, config.whole * whole.volume)
+        if len(shells) > 1
+        else replace(part, id=next(ids))
         for part, shells in found
         for shells_of in shells
     )
 
 
-def _renamed(part: Part, name: str, surfaces: tuple[Surface, ...], whole: Box) -> Part:
+def _renamed(part: Part, name: str, surfaces: tuple[Surface, ...], largest: float) -> Part:
     label, by = part.label, part.labelled_by
-    if part.box.volume > _WHOLE * whole.volume:
+    if part.box.volume > largest:
         label, by = PartLabel.UNKNOWN, "none"
     return replace(part, id=name, surfaces=surfaces, label=label, labelled_by=by)
 
@@ -70,13 +100,13 @@ def _more(allow: Callable[[int], None], made: int) -> Callable[[int], None]:
     return lambda count: allow(made + count)
 
 
-def _shells(part: Part, whole: Box, allow: Callable[[int], None]) -> list[tuple[Surface, ...]]:
+def _shells(part: Part, whole: Box, allow: Callable[[int], None], config: LooseConfig) -> list[tuple[Surface, ...]]:
     """Returns the surfaces of each shell of a part, tiny ones with those that they touch."""
     numbers = shell_numbers(part.mesh)
     count = int(numbers.max()) + 1
     if count == 1:
         return [part.surfaces]
-    numbers = _with_hosts(part.mesh, numbers, float(whole.size.max()), allow)
+    numbers = _with_hosts(part.mesh, numbers, float(whole.size.max()), allow, config)
     allow(len(np.unique(numbers)))
     return [faces_of_part(part, faces) for faces in _by_number(numbers) if len(faces)]
 
@@ -95,23 +125,25 @@ def faces_of_part(part: Part, faces: Indices) -> tuple[Surface, ...]:
     return tuple(selected(surface, faces[a:b] - start) for surface, start, a, b in spans if b > a)
 
 
-def _with_hosts(mesh: TriangleMesh, numbers: Indices, size: float, allow: Callable[[int], None]) -> Indices:
+def _with_hosts(
+    mesh: TriangleMesh, numbers: Indices, size: float, allow: Callable[[int], None], config: LooseConfig
+) -> Indices:
     """Returns for each face the number of its shell, or of the shell that its own, a tiny one, touches."""
     corners_of, faces_of = mesh.triangles, _by_number(numbers)
     low, high = _bounds(corners_of, faces_of)
-    is_large = (high - low).max(axis=1) >= _TINY * size
+    is_large = (high - low).max(axis=1) >= config.tiny * size
     large = np.flatnonzero(is_large)
     allow(len(large))
     host = np.arange(len(faces_of))
     for k in np.flatnonzero(~is_large):
         apart = np.maximum(low[large] - high[k], low[k] - high[large])
-        near = large[(apart <= _TOUCH * size).all(axis=1)]
+        near = large[(apart <= config.touch * size).all(axis=1)]
         corners = corners_of[faces_of[k]].reshape(-1, 3)
-        seen = corners[:: -(-len(corners) // _SEEN)]
+        seen = corners[:: -(-len(corners) // config.seen)]
         triangles = {n: corners_of[faces_of[n]] for n in near}
         inside = {n: bool(np.all((seen >= low[n]) & (seen <= high[n]))) for n in near}
         gaps = {n: 0.0 if inside[n] else _gap(seen, triangles[n]) for n in near}
-        touched = [n for n in near if gaps[n] <= _TOUCH * size]
+        touched = [n for n in near if gaps[n] <= config.touch * size]
         host[k] = min(touched, key=lambda n: (_gap(seen, triangles[n]), n), default=k)
     return host[numbers].astype(np.int64)
 
@@ -127,10 +159,7 @@ def _gap(points: np.ndarray, triangles: np.ndarray) -> float:
     return float(point_triangle_distances(points, triangles).min())
 
 
-_HANDLE_REACH = 0.01  # of the whole's largest side: how far a handle may stand off its front
-
-
-def with_split_handles(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:
+def with_split_handles(parts: tuple[Part, ...], config: LooseConfig = _DEFAULT) -> tuple[tuple[Part, ...], list[str]]:
     """Returns the parts, each handle whose shells lie on several doors and drawers split between them, and notes.
 
     Every shell goes to the door or drawer that is nearest to its middle. A handle in one piece stays whole.
@@ -138,7 +167,7 @@ def with_split_handles(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[
     fronts = [part for part in parts if part.label.is_movable]
     if len(fronts) < 2:
         return parts, []
-    reach = _HANDLE_REACH * float(Box.enclosing(part.box for part in parts).size.max())
+    reach = config.handle_reach * float(Box.enclosing(part.box for part in parts).size.max())
     taken = {part.id for part in parts}
     found: list[Part] = []
     notes: list[str] = []

@@ -29,6 +29,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
 
 EXPECTED = "a PartNet-Mobility file in the data set's own form; fetch the model again"
 
@@ -172,9 +173,27 @@ def _vector(holder: JsonObject, key: str) -> tuple[float, ...] | None:
 
 
 CONVENTION = Convention("the data set (PartNet-Mobility)", up="+Y", front="+Z", normalised=True)
-_ALONG = 0.99  # of a direction along an axis
-_ON_FLOOR, _CENTRED = 0.05, 0.15  # fractions of a side: how far what stands on 0, or about it, may lie off
 _TABLES = frozenset({"table", "desk"})
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class StandingConfig:
+    """What tells which way up the meshes of a `mobility.urdf` are.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    along: float = 0.99
+    """Least part of a direction along an axis (cosine)."""
+    on_floor: float = 0.05
+    """How far what stands on 0 may lie off it (fraction of the side) ..."""
+    centred: float = 0.15
+    """... and the middle of what stands about 0 (fraction of the side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
 
 
 def is_partnet_mobility(folder: Path) -> bool:
@@ -204,26 +223,26 @@ def read_partnet_mobility(folder: Path, options: LoadOptions, files: ModelFiles 
     return Reading("partnet-mobility", parts, convention, annotation, _furniture(folder, files), said)
 
 
-def _convention(found: UrdfBodies, parts: tuple[Part, ...]) -> Convention:
+def _convention(found: UrdfBodies, parts: tuple[Part, ...], config: StandingConfig = StandingConfig()) -> Convention:
     """Returns what the files say of their coordinates: the data set's, or those of another maker's URDF of that name.
 
     The data set's base joint turns its meshes, which are Y up, to stand on Z. Another maker's URDF is Z up, unless all
     its meshes are glTF and stand on y = 0 rather than on z = 0.
     """
     up = np.array(found.up)
-    if up[1] > _ALONG or not parts:
+    if up[1] > config.along or not parts:
         return CONVENTION
     is_gltf = all(visual.file.lower().endswith((".glb", ".gltf")) for visual in found.visuals)
-    if up[2] > _ALONG and is_gltf and _stands_on_y(Box.enclosing(part.box for part in parts)):
+    if up[2] > config.along and is_gltf and _stands_on_y(Box.enclosing(part.box for part in parts), config):
         return Convention("the meshes, which stand on y = 0 (glTF in a URDF)", up="+Y", unit=1.0)
     axis = int(np.argmax(np.abs(up)))
-    stated = spelled(axis, bool(up[axis] > 0)) if abs(up[axis]) > _ALONG else None
+    stated = spelled(axis, bool(up[axis] > 0)) if abs(up[axis]) > config.along else None
     return Convention(URDF_CONVENTION.origin, up=stated, unit=1.0, usual_up="+Z")
 
 
-def _stands_on_y(whole: Box) -> bool:
-    lies = np.abs(whole.low) <= _ON_FLOOR * whole.size
-    centred = np.abs(whole.center) <= _CENTRED * whole.size
+def _stands_on_y(whole: Box, config: StandingConfig) -> bool:
+    lies = np.abs(whole.low) <= config.on_floor * whole.size
+    centred = np.abs(whole.center) <= config.centred * whole.size
     return bool(lies[1] and centred[2] and not lies[2])
 
 

@@ -17,17 +17,46 @@ from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.vocabulary import PartLabel
 
-# Fractions of the object's diagonal: how far a piece may stand out of the outline, and how far it may lie from it.
-_STAND_OUT, _TOUCH = 0.01, 0.004
-# A door's frame may have this fraction of its pane's face.
-_LEAF = 0.2
-# A drawer or door named as a whole that is only a front: its thickness as a fraction of its next side.
-_PLATE = 0.25
-# What sits on a front: its face as a fraction of the front's.
-_SMALL = 0.12
+
+@final
+@dataclass(frozen=True, slots=True)
+class PieceConfig:
+    """Which pieces belong to one door or drawer, and which part a handle rides on.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    stand_out: float = 0.01
+    """How far a piece may stand out of the outline of its front (fraction of the object's diagonal) ..."""
+    touch: float = 0.004
+    """... and lie from it (fraction of the object's diagonal)."""
+    leaf: float = 0.2
+    """Smallest face of a door's frame (fraction of its pane's)."""
+    plate: float = 0.25
+    """Largest thickness of what is called a whole door or drawer and is only a front (fraction of its next side)."""
+    small: float = 0.12
+    """Largest face of what sits on a front (fraction of the front's)."""
+    reach: float = 0.01
+    """How far a handle may stand off what carries it: modelling gaps, not real ones (metres)."""
+    alike: float = 0.1
+    """Gaps that differ by less are one: a door wins over a frame that the handle touches as closely (fraction of
+    `reach`)."""
+    points: int = 300
+    """Points of a handle that are measured, about ..."""
+    faces: int = 3000
+    """... from as many faces of what may carry it."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "reach", "points", "faces")
+        require_ratios(self, "stand_out", "touch", "leaf", "plate", "small", "alike")
+
+
+_DEFAULT = PieceConfig()
 
 
 @final
@@ -48,29 +77,34 @@ class _Host:
         return float(max(np.delete(beyond, self.axis).max(), 0.0))
 
 
-def with_joined_pieces(parts: tuple[Part, ...], whole: Box) -> tuple[tuple[Part, ...], list[str]]:
+def with_joined_pieces(
+    parts: tuple[Part, ...], whole: Box, config: PieceConfig = _DEFAULT
+) -> tuple[tuple[Part, ...], list[str]]:
     """Returns the parts of an unannotated input with the pieces of one door or drawer joined, and notes on that.
 
     Args:
         parts: labelled parts in any one frame.
         whole: the box around them, for tolerances.
+        config: the tolerances.
     """
     hosts: dict[str, list[Part]] = {}
     for label in (PartLabel.DRAWER, PartLabel.DOOR):
         named = [p for p in parts if p.label is label]
         pieces = [p for p in named if is_piece(p.source.name)]
-        plates = [p for p in named if p not in pieces and _is_plate(p.box)] if pieces else []
-        for piece, host in _pairs(pieces, plates, label, whole.diagonal):
+        plates = [p for p in named if p not in pieces and _is_plate(p.box, config)] if pieces else []
+        for piece, host in _pairs(pieces, plates, label, whole.diagonal, config):
             hosts.setdefault(host.id, []).append(piece)
     joined = {piece.id: host for host, members in hosts.items() for piece in members}
     kept = tuple(with_pieces(p, hosts.get(p.id, []), joined) for p in parts if p.id not in joined)
-    held = _held(kept, whole.diagonal)
+    held = _held(kept, whole.diagonal, config)
     kept = tuple(replace(p, label=PartLabel.HANDLE, rides_on=held[p.id]) if p.id in held else p for p in kept)
     notes = [f"{in_words(members)} joined to {host}" for host, members in hosts.items()]
     return kept, notes
 
 
-def _pairs(pieces: list[Part], plates: list[Part], label: PartLabel, size: float) -> list[tuple[Part, Part]]:
+def _pairs(
+    pieces: list[Part], plates: list[Part], label: PartLabel, size: float, config: PieceConfig
+) -> list[tuple[Part, Part]]:
     """Returns each piece that belongs to a front, with it: to a piece that is one, or to a plate named as a whole."""
     own = [p for p in pieces if label is PartLabel.DOOR or _is_front(p)]
     fronts = {p.id: _Host(p, _faces(p)) for p in (*own, *plates)}
@@ -79,14 +113,14 @@ def _pairs(pieces: list[Part], plates: list[Part], label: PartLabel, size: float
     taken: set[str] = set()
     for piece in sorted(pieces, key=lambda p: _face_area(p.box)):
         others = [f for f in ranked if f.part.id not in taken and f.part is not piece]
-        host = _host(piece, others, size, touching=piece.id in fronts)
+        host = _host(piece, others, size, config, touching=piece.id in fronts)
         if host is not None:
             pairs.append((piece, host))
             taken.add(piece.id)
     return _followed(pairs)
 
 
-def _held(parts: tuple[Part, ...], size: float) -> dict[str, str]:
+def _held(parts: tuple[Part, ...], size: float, config: PieceConfig) -> dict[str, str]:
     """Returns, for each small part that is called a door or drawer but sits on one, the front that it sits on.
 
     The bar and the posts of a handle are often called as what they belong to. They touch the front or each other, lie
@@ -94,14 +128,14 @@ def _held(parts: tuple[Part, ...], size: float) -> dict[str, str]:
     """
     moving = [p for p in parts if p.label.is_movable]
     found: dict[str, str] = {}
-    for front in sorted((p for p in moving if _is_plate(p.box)), key=lambda p: -_face_area(p.box)):
+    for front in sorted((p for p in moving if _is_plate(p.box, config)), key=lambda p: -_face_area(p.box)):
         seen = _Host(front, front.box.thin_axis)
-        small = [p for p in moving if p.id not in found and _face_area(p.box) <= _SMALL * _face_area(front.box)]
-        small = [p for p in small if seen.misses(p) <= _TOUCH * size and not _in_plane(front.box, p.box)]
+        small = [p for p in moving if p.id not in found and _face_area(p.box) <= config.small * _face_area(front.box)]
+        small = [p for p in small if seen.misses(p) <= config.touch * size and not _in_plane(front.box, p.box)]
         reached = [front]
         while reached:
             last = reached.pop()
-            near = [p for p in small if p.id not in found and last.box.overlaps(p.box, _TOUCH * size)]
+            near = [p for p in small if p.id not in found and last.box.overlaps(p.box, config.touch * size)]
             found |= dict.fromkeys((p.id for p in near), front.id)
             reached += near
     return found
@@ -126,22 +160,22 @@ def _is_front(part: Part) -> bool:
     return bool({"front", "face"} & set(spoken(part.source.name)))
 
 
-def _is_plate(box: Box) -> bool:
+def _is_plate(box: Box, config: PieceConfig) -> bool:
     sides = np.sort(box.size)
-    return bool(sides[0] <= _PLATE * sides[1])
+    return bool(sides[0] <= config.plate * sides[1])
 
 
-def _host(piece: Part, fronts: list[_Host], size: float, touching: bool) -> Part | None:
+def _host(piece: Part, fronts: list[_Host], size: float, config: PieceConfig, touching: bool) -> Part | None:
     """Returns the front that covers the piece, the nearest of several, or None; it may have to touch the piece."""
-    covering = [f for f in fronts if f.misses(piece) <= _STAND_OUT * size and _may_hold(f.part, piece)]
+    covering = [f for f in fronts if f.misses(piece) <= config.stand_out * size and _may_hold(f.part, piece, config)]
     best = min(covering, key=lambda f: f.gap(piece) + f.misses(piece), default=None)
-    if best is None or (touching and best.gap(piece) > _TOUCH * size):
+    if best is None or (touching and best.gap(piece) > config.touch * size):
         return None
     return best.part
 
 
-def _may_hold(front: Part, piece: Part) -> bool:
-    return front.label is not PartLabel.DOOR or _face_area(front.box) >= _LEAF * _face_area(piece.box)
+def _may_hold(front: Part, piece: Part, config: PieceConfig) -> bool:
+    return front.label is not PartLabel.DOOR or _face_area(front.box) >= config.leaf * _face_area(piece.box)
 
 
 def _faces(front: Part) -> int:
@@ -168,52 +202,51 @@ def in_words(members: Sequence[Part]) -> str:
     return names if len(members) <= 4 else f"{names} and {len(members) - 4} more"
 
 
-# How far a handle may stand off what carries it, in metres: modelling gaps, not real ones.
-REACH = 0.01
-_MOST_POINTS, _MOST_FACES = 300, 3000
-
-
-def with_attached(parts: tuple[Part, ...], reach: float = REACH) -> tuple[Part, ...]:
+def with_attached(parts: tuple[Part, ...], config: PieceConfig = _DEFAULT) -> tuple[Part, ...]:
     """Returns the parts, each handle that rides on nothing yet set to ride on the nearest door or drawer in reach.
 
     A handle that lies nearer to a static part than to any door or drawer rides on nothing.
 
     Args:
         parts: labelled parts in the object frame.
-        reach: the largest gap in metres that counts as contact.
+        config: the largest gap that counts as contact.
     """
     loose = [p for p in parts if p.label is PartLabel.HANDLE and p.rides_on is None]
     others = [p for p in parts if p.label is not PartLabel.HANDLE]
     if not loose or not any(p.label.is_movable for p in others):
         return parts
-    carriers = {p.id: _carrier(p, others, reach) for p in loose}
+    carriers = {p.id: _carrier(p, others, config) for p in loose}
     return tuple(replace(p, rides_on=carriers[p.id]) if p.id in carriers else p for p in parts)
 
 
-def _carrier(handle: Part, others: list[Part], reach: float) -> str | None:
+def _carrier(handle: Part, others: list[Part], config: PieceConfig) -> str | None:
+    reach = config.reach
     near = [p for p in others if handle.box.overlaps(p.box, reach)]
     movable = [p for p in near if p.label.is_movable]
     if len(near) <= 1 or not movable:
         return movable[0].id if movable else None
-    points = _points(handle.mesh)
+    points = _points(handle.mesh, config.points)
     region = handle.box.grown(reach)
-    gaps = {p.id: surface_gap(points, p.mesh, region) for p in near}
+    gaps = {p.id: surface_gap(points, p.mesh, region, config.faces) for p in near}
     # Rounding decides nothing: a door wins over a frame that touches the handle as closely.
     best = min(movable, key=lambda p: gaps[p.id])
     nearest = min(gaps.values())
-    return best.id if gaps[best.id] <= min(reach, nearest + 0.1 * reach) else None
+    return best.id if gaps[best.id] <= min(reach, nearest + config.alike * reach) else None
 
 
-def _points(mesh: TriangleMesh) -> np.ndarray:
+def _points(mesh: TriangleMesh, most: int) -> np.ndarray:
     points = np.vstack([mesh.vertices[np.unique(mesh.faces)], mesh.triangles.mean(axis=1)])
-    return points[:: max(1, len(points) // _MOST_POINTS)]
+    return points[:: max(1, len(points) // most)]
 
 
-def surface_gap(points: np.ndarray, mesh: TriangleMesh, region: Box) -> float:
-    """Returns the least distance of the points from those faces of the mesh whose boxes reach into `region`."""
+def surface_gap(points: np.ndarray, mesh: TriangleMesh, region: Box, most: int = _DEFAULT.faces) -> float:
+    """Returns the least distance of the points from those faces of the mesh whose boxes reach into `region`.
+
+    Of many faces about `most` are measured.
+    """
     low, high = triangle_bounds(mesh.triangles)
     faces = mesh.triangles[np.all((low <= region.high) & (high >= region.low), axis=1)]
-    faces = faces[:: max(1, len(faces) // _MOST_FACES)]
+    faces = faces[:: max(1, len(faces) // most)]
     if not len(faces):
         return float("inf")
     least = np.inf

@@ -16,25 +16,55 @@ from grafu.asset.names import spoken
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 
 BODY: Final = PartLabel.SIDE_PANEL
 """What a body in one piece is labelled, as in what the network was trained on: it carries hinges and rails."""
-# Fractions of the object's sides.
-_WHOLE = 0.85  # a part that takes this much of each of them is the body, if it holds others
-_BODY = 0.5  # what is called a cabinet, a desk, a bed, and takes this much of each, is
-_SPARE = 0.02  # how far what a body holds may stand out of it
-# Fractions of the object's largest side.
-_STRIP = 0.025  # the second largest side of a door or drawer
-_FITTING, _GRASPED = 0.25, 0.45  # that of a hinge or a rail, and of a handle
-_PLATE, _OUTSIDE = 0.07, 0.06  # how thick a front is, and how far it may lie from the outside
-_TOUCH = 0.01  # how far a button may stand off the panel that it sits on
 _CONTROLS = word_set("button buttons switch dial display")
 _BUTTONS = ("button", "buttons")
-# A control panel beside a door: fractions of the door's height and width.
-_AS_HIGH, _NEXT, _NARROWER = 0.85, 0.06, 0.6
-# A top is a plate: the fraction that its thickness may have of its width.
-_THICK = 0.35
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class PlausibilityConfig:
+    """Which shapes deny what a name states.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    whole: float = 0.85
+    """What takes this much of each of the object's sides is the body, if it holds others (fraction)."""
+    body: float = 0.5
+    """What is called a cabinet, a desk or a bed, and takes this much of each, is the body (fraction)."""
+    spare: float = 0.02
+    """How far what a body holds may stand out of it (fraction of the object's largest side) ..."""
+    alike: float = 0.98
+    """... and what takes this much of each of the body's sides is the body again (fraction)."""
+    strip: float = 0.025
+    """Second largest side of a door or drawer at least (fraction of the object's largest side)."""
+    fitting: float = 0.25
+    """That of a hinge or a rail at most (fraction of the object's largest side) ..."""
+    grasped: float = 0.45
+    """... and of a handle (fraction of the object's largest side)."""
+    plate: float = 0.07
+    """Largest thickness of a front (fraction of the object's largest side) ..."""
+    outside: float = 0.06
+    """... and how far it may lie from the outside (fraction of the object's largest side)."""
+    touch: float = 0.01
+    """How far a button may stand off the panel that it sits on (fraction of the object's largest side)."""
+    as_high: float = 0.85
+    """A control panel beside a door has at least this much of its height, and the door of the panel's (fraction) ..."""
+    next_to: float = 0.06
+    """... is this far from it at most (fraction of the door's width) ..."""
+    narrower: float = 0.6
+    """... and at most this wide (fraction of the door's width)."""
+    thick: float = 0.35
+    """Largest thickness of a top (fraction of its middle side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
 
 
 @final
@@ -45,6 +75,7 @@ class _Scene:
     whole: Box
     low: np.ndarray
     high: np.ndarray
+    config: PlausibilityConfig
 
     @property
     def extent(self) -> float:
@@ -56,20 +87,24 @@ class _Scene:
 
     def held(self, box: Box) -> int:
         """Returns how many other parts, more than specks, lie in a box."""
-        spare = _SPARE * self.extent
+        spare = self.config.spare * self.extent
         inside = np.all(self.low >= box.low - spare, axis=1) & np.all(self.high <= box.high + spare, axis=1)
         sides = np.sort(self.high - self.low, axis=1)
-        others = (sides[:, 1] > _STRIP * self.extent) & np.any(self.high - self.low < 0.98 * box.size, axis=1)
+        others = (sides[:, 1] > self.config.strip * self.extent) & np.any(
+            self.high - self.low < self.config.alike * box.size, axis=1
+        )
         return int((inside & others).sum())
 
 
-def with_plausible_labels(parts: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:
+def with_plausible_labels(
+    parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()
+) -> tuple[tuple[Part, ...], list[str]]:
     """Returns the parts with the labels that their names give but their shapes deny taken back, and notes on that."""
     if not parts:
         return parts, []
     boxes = [part.box for part in parts]
     low, high = np.array([b.low for b in boxes]), np.array([b.high for b in boxes])
-    scene = _Scene(Box(low.min(axis=0), high.max(axis=0)), low, high)
+    scene = _Scene(Box(low.min(axis=0), high.max(axis=0)), low, high, config)
     controls = _controls(parts)
     found = tuple(_judged(part, scene) for part in parts)
     found = tuple(_of_controls(part, controls, scene) for part in found)
@@ -85,12 +120,14 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
     """Returns an unlabelled panel on which buttons or a display sit as one that is static."""
     if part.label is not PartLabel.UNKNOWN or "panel" not in spoken(part.source.name) or not controls:
         return part
-    if _is_body(part.box, scene) or not any(part.box.overlaps(box, _TOUCH * scene.extent) for box in controls):
+    if _is_body(part.box, scene) or not any(
+        part.box.overlaps(box, scene.config.touch * scene.extent) for box in controls
+    ):
         return part
     return replace(part, label=PartLabel.MISC, labelled_by="name")
 
 
-def with_control_panels(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+def with_control_panels(parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()) -> tuple[Part, ...]:
     """Returns the parts with narrow unlabelled fronts beside a door, with buttons on them, as pieces of the body.
 
     That is how microwaves are built: the control panel is as high as the door, in its plane, and less wide.
@@ -98,10 +135,10 @@ def with_control_panels(parts: tuple[Part, ...]) -> tuple[Part, ...]:
     controls, doors = _controls(parts), [part.box for part in parts if part.label is PartLabel.DOOR]
     if not controls or not doors:
         return parts
-    touch = _TOUCH * max(float(np.max(part.box.size)) for part in parts)
+    touch = config.touch * max(float(np.max(part.box.size)) for part in parts)
 
     def judged(part: Part) -> Part:
-        is_free = part.label is PartLabel.UNKNOWN and any(_is_narrow_beside(part.box, door) for door in doors)
+        is_free = part.label is PartLabel.UNKNOWN and any(_is_narrow_beside(part.box, door, config) for door in doors)
         is_panel = is_free and any(part.box.overlaps(box, touch) for box in controls)
         return replace(part, label=BODY, labelled_by="name") if is_panel else part
 
@@ -114,15 +151,15 @@ def _controls(parts: tuple[Part, ...]) -> list[Box]:
     return [part.box for part, said in named if any(w in _CONTROLS or w.endswith(_BUTTONS) for w in said)]
 
 
-def _is_narrow_beside(box: Box, door: Box) -> bool:
+def _is_narrow_beside(box: Box, door: Box, config: PlausibilityConfig) -> bool:
     """Whether a box continues a door's in one direction of its plane, less far than the door itself reaches."""
     thin = door.thin_axis
     common = np.minimum(box.high, door.high) - np.maximum(box.low, door.low)  # negative: a gap
     for along in (k for k in range(3) if k != thin):
         other = 3 - thin - along
-        is_as_high = common[other] >= _AS_HIGH * max(box.size[other], door.size[other])
-        is_next = -_NEXT * door.size[along] <= common[along] <= _NEXT * door.size[along]
-        if is_as_high and is_next and common[thin] > 0 and box.size[along] <= _NARROWER * door.size[along]:
+        is_as_high = common[other] >= config.as_high * max(box.size[other], door.size[other])
+        is_next = abs(common[along]) <= config.next_to * door.size[along]
+        if is_as_high and is_next and common[thin] > 0 and box.size[along] <= config.narrower * door.size[along]:
             return True
     return False
 
@@ -142,20 +179,20 @@ def _judged(part: Part, scene: _Scene) -> Part:
 
 def _label(part: Part, scene: _Scene) -> PartLabel:
     """Returns the label that name and shape agree on."""
-    box = part.box
+    box, config = part.box, scene.config
     second = float(np.sort(box.size)[1]) / scene.extent
     if part.label.is_movable:
         blurred = sense_of(part.source.name).is_blurred
         if _is_body(box, scene):
             return BODY
-        return PartLabel.MISC if second < _STRIP or (blurred and not _is_front(box, scene)) else part.label
+        return PartLabel.MISC if second < config.strip or (blurred and not _is_front(box, scene)) else part.label
     if part.label is PartLabel.HANDLE:
-        return PartLabel.UNKNOWN if second > _GRASPED else part.label
+        return PartLabel.UNKNOWN if second > config.grasped else part.label
     if part.label is PartLabel.MISC and sense_of(part.source.name).is_fitting:
-        return PartLabel.UNKNOWN if second > _FITTING else part.label
+        return PartLabel.UNKNOWN if second > config.fitting else part.label
     if part.label is PartLabel.TOP_PANEL:
         sides = np.sort(box.size)
-        return PartLabel.UNKNOWN if sides[0] > _THICK * sides[1] and second > _STRIP else part.label
+        return PartLabel.UNKNOWN if sides[0] > config.thick * sides[1] and second > config.strip else part.label
     if part.label is PartLabel.UNKNOWN:
         return _of_container(part, scene)
     return part.label
@@ -168,9 +205,9 @@ def _of_container(part: Part, scene: _Scene) -> PartLabel:
         return PartLabel.UNKNOWN
     if sense.mention is not None and _is_front(part.box, scene):
         return sense.mention
-    is_body = bool(np.all(scene.ratios(part.box) >= _BODY)) and scene.held(part.box) > 0
+    is_body = bool(np.all(scene.ratios(part.box) >= scene.config.body)) and scene.held(part.box) > 0
     sides = np.sort(part.box.size)
-    is_case = is_appliance(part.source.name) and sides[0] > _THICK * sides[1]
+    is_case = is_appliance(part.source.name) and sides[0] > scene.config.thick * sides[1]
     if is_body or is_case:
         return BODY
     is_panel = is_appliance(part.source.name) and "panel" in spoken(part.source.name)
@@ -178,7 +215,7 @@ def _of_container(part: Part, scene: _Scene) -> PartLabel:
 
 
 def _is_body(box: Box, scene: _Scene) -> bool:
-    return bool(np.all(scene.ratios(box) >= _WHOLE)) and scene.held(box) > 0
+    return bool(np.all(scene.ratios(box) >= scene.config.whole)) and scene.held(box) > 0
 
 
 def _is_front(box: Box, scene: _Scene) -> bool:
@@ -186,4 +223,5 @@ def _is_front(box: Box, scene: _Scene) -> bool:
     thin = box.thin_axis
     sides = np.sort(box.size) / scene.extent
     gap = min(box.low[thin] - scene.whole.low[thin], scene.whole.high[thin] - box.high[thin]) / scene.extent
-    return bool(sides[0] <= _PLATE and sides[1] >= 2 * _STRIP and gap <= _OUTSIDE)
+    config = scene.config
+    return bool(sides[0] <= config.plate and sides[1] >= 2 * config.strip and gap <= config.outside)

@@ -10,9 +10,9 @@ and half of all faces but the front be covered. What a drawer takes of a room, w
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
-from typing import Any, Literal
+from typing import Any, Literal, final
 
 import numpy as np
 import trimesh
@@ -20,6 +20,7 @@ import trimesh
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
 from grafu.geometry.arrays import Mat4, Points, vec3
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, heading_of, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix
@@ -27,42 +28,71 @@ from grafu.metrics.bodies import largest_side
 from grafu.vocabulary import PartLabel
 
 _MANAGER: Any = trimesh.collision.CollisionManager  # untyped
-_STEPS = 30  # points along the object's longest side
-LEAST = 0.25  # metres, along each axis: smaller rooms are pigeonholes
-LEAST_RATIO = 0.2  # of the largest side: no room needs to be larger in a model of another scale
-_MOST_TRIED = 40  # candidates that are looked at one by one
-_ACROSS, _COVERED = 7, 0.5  # rays along each side of a face, and the fraction of them that meets a wall there
-_LEAF = 0.15  # of the next longer side: thinner sliders are doors
 
 
-def empty_rooms(articulated: ArticulatedObject) -> list[Box]:
+@final
+@dataclass(frozen=True, slots=True)
+class RoomSearchConfig:
+    """What counts as an empty room.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    steps: int = 30
+    """Points along the object's longest side."""
+    least: float = 0.25
+    """Smaller rooms, along any axis, are pigeonholes (metres) ..."""
+    least_ratio: float = 0.2
+    """... and no room needs to be larger than this in a model of another scale (fraction of the largest side)."""
+    tried: int = 40
+    """Candidates that are looked at one by one."""
+    middle: float = 0.45
+    """Half the side of the cube in a room's middle that must be empty (fraction of the least room)."""
+    across: int = 7
+    """Rays along each side of a face ..."""
+    span: float = 0.8
+    """... over this much of it (fraction) ..."""
+    beyond: float = 1.1
+    """... that meet a wall where it stands at most this far from the middle (ratio to where the face lies)."""
+    covered: float = 0.5
+    """Fraction of the rays that must do so."""
+    leaf: float = 0.15
+    """What slides and is thinner than this is a door (fraction of its next larger side)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "least_ratio", "middle", "span", "covered", "leaf")
+
+
+def empty_rooms(articulated: ArticulatedObject, config: RoomSearchConfig = RoomSearchConfig()) -> list[Box]:
     """Returns rooms that nothing furnishes, as boxes in metres (object frame), the largest first; none overlap."""
     extent = largest_side(articulated)
     still = articulated.link(articulated.root).mesh
     moving = [articulated.link(joint.child).mesh for joint in articulated.joints]
     if extent <= 0 or not len(still.faces):
         return []
-    least = min(LEAST, LEAST_RATIO * extent)
+    least = min(config.least, config.least_ratio * extent)
     whole = merge_meshes([still, *moving])
-    points = _points(whole.box, extent / _STEPS)
-    points = points[~_taken(points, articulated)]
+    points = _points(whole.box, extent / config.steps)
+    points = points[~_taken(points, articulated, config.leaf)]
     rooms = _seen_from(points, RayCaster(still), RayCaster(merge_meshes(moving)), whole.box, least)
     manager, everything = _MANAGER(), RayCaster(whole)
     manager.add_object("", whole.to_trimesh())
     found: list[Box] = []
-    for room in sorted(rooms, key=lambda box: -float(box.size.prod()))[:_MOST_TRIED]:
-        if any(room.overlaps(other) for other in found) or _taken(room.center[None], articulated).any():
+    for room in sorted(rooms, key=lambda box: -float(box.size.prod()))[: config.tried]:
+        if any(room.overlaps(other) for other in found) or _taken(room.center[None], articulated, config.leaf).any():
             continue
-        half = np.full(3, 0.45 * least)
+        half = np.full(3, config.middle * least)
         cube = TriangleMesh.box_mesh(Box.from_center(room.center, half)).to_trimesh()
-        if not manager.in_collision_single(cube) and _is_enclosed(room, everything):
+        if not manager.in_collision_single(cube) and _is_enclosed(room, everything, config):
             found.append(room)
     return found
 
 
-def _is_enclosed(room: Box, everything: RayCaster) -> bool:
+def _is_enclosed(room: Box, everything: RayCaster, config: RoomSearchConfig) -> bool:
     """Whether surfaces cover at least half of five faces of a room: posts and rails are no walls."""
-    steps = np.linspace(-0.8, 0.8, _ACROSS)
+    steps = np.linspace(-config.span, config.span, config.across)
     covered = []
     for axis in range(3):
         ratios = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -70,8 +100,8 @@ def _is_enclosed(room: Box, everything: RayCaster) -> bool:
         origins[:, [k for k in range(3) if k != axis]] += ratios * np.delete(room.half, axis)
         for sign in (-1.0, 1.0):
             found = everything.along(origins, sign * np.eye(3)[axis])
-            covered.append(float((found <= 1.1 * room.half[axis]).mean()))
-    return sum(ratio >= _COVERED for ratio in covered) >= len(covered) - 1
+            covered.append(float((found <= config.beyond * room.half[axis]).mean()))
+    return sum(ratio >= config.covered for ratio in covered) >= len(covered) - 1
 
 
 def _points(box: Box, step: float) -> Points:
@@ -79,19 +109,19 @@ def _points(box: Box, step: float) -> Points:
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _taken(points: Points, articulated: ArticulatedObject) -> np.ndarray:
-    zones = [_taken_by(points, joint, articulated.link(joint.child).mesh) for joint in articulated.joints]
+def _taken(points: Points, articulated: ArticulatedObject, leaf: float) -> np.ndarray:
+    zones = [_taken_by(points, joint, articulated.link(joint.child).mesh, leaf) for joint in articulated.joints]
     return np.any(zones, axis=0) if zones else np.zeros(len(points), dtype=bool)
 
 
-def _taken_by(points: Points, joint: Joint, mesh: TriangleMesh) -> np.ndarray:
+def _taken_by(points: Points, joint: Joint, mesh: TriangleMesh, leaf: float) -> np.ndarray:
     """Returns which points lie in a drawer or anywhere before or behind it; none for doors, sliding ones too."""
     if not joint.kind.slides or not len(mesh.faces):
         return np.zeros(len(points), dtype=bool)
     axis = int(np.abs(joint.axis.direction).argmax())
     size = mesh.box.size
     across = [k for k in range(3) if k != axis]
-    is_leaf = min(size[across]) < _LEAF * np.sort(size)[1] and int(np.argmin(size)) in across
+    is_leaf = min(size[across]) < leaf * np.sort(size)[1] and int(np.argmin(size)) in across
     if is_leaf:
         return np.zeros(len(points), dtype=bool)
     inside = (points[:, across] >= mesh.box.low[across]) & (points[:, across] <= mesh.box.high[across])

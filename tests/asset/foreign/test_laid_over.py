@@ -289,7 +289,7 @@ def test_thousands_of_copies_of_a_part_are_not_all_compared(monkeypatch: pytest.
 
     monkeypatch.setattr(agreement._Shape, "distances", counted)
     require_same_joints(attach_motions(CABINET, replace(foreign, parts=(*foreign.parts, *copies))), CABINET)
-    assert compared[0] <= agreement._TRIED * len(CABINET.parts) * 30  # some thirty frames
+    assert compared[0] <= agreement.AgreementConfig().tried * len(CABINET.parts) * 30  # some thirty frames
 
 
 def test_bodies_of_a_long_chain_are_those_that_carry_its_parts() -> None:

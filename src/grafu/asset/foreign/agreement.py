@@ -15,6 +15,7 @@ from grafu.asset.foreign.motions import ForeignMotions, ForeignPart
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Mat4, Points, Scalars
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import invert, scale_of, transform_points
@@ -22,20 +23,48 @@ from grafu.vocabulary import PartLabel
 
 Boxes = Float[np.ndarray, "_ 2 3"]  # low and high corners
 
-_ASKED = 64  # points of each of the asset's parts
-_DRAWN = 30_000  # points of the whole prediction, spread evenly: a part is as finely drawn as any other
-_LEAST_DRAWN, _MOST_CORNERS = 100, 5_000
-_FAR = 0.05  # fraction of the object's size beyond which a point is simply elsewhere
-# The weight of a part's likeness to the whole predicted part, as fractions of the size.
-_LOOSE_BOX, _LOOSE_MESH = 0.02, 1e-4
-_SLACK = 0.005  # fraction of the size by which boxes are grown before they are compared: sheets have volume then
-_REGRESSED = 0.1  # up to which boxes that lie apart are still taken in order: regressed ones err by 0.06 to 0.08
-_FEW = 100  # points that are as quickly taken all
-_TRIED = 100  # predicted parts that are compared with one of the asset's: those that may be likest, by their boxes
-_UNMATCHED = 0.25  # what a predicted body that covers no part adds, in fractions of the size
 
-LEAST_OVERLAP = 0.3
-"""The mean overlap of bodies below which a prediction is held to be that of another object."""
+@final
+@dataclass(frozen=True, slots=True)
+class AgreementConfig:
+    """How predicted parts are compared with an asset's.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    asked: int = 64
+    """Points of each of the asset's parts."""
+    drawn: int = 30_000
+    """Points of the whole prediction, spread evenly: a part is as finely drawn as any other ..."""
+    least_drawn: int = 100
+    """... but at least so many points of each ..."""
+    most_corners: int = 5_000
+    """... and at most so many of its own corners."""
+    far: float = 0.05
+    """Beyond this a point is simply elsewhere (fraction of the object's largest side)."""
+    loose_box: float = 0.02
+    """Weight of a part's likeness to the whole predicted part where that is a box (fraction of the largest side) ..."""
+    loose_mesh: float = 1e-4
+    """... and where it is a mesh (fraction of the largest side)."""
+    slack: float = 0.005
+    """By how much boxes are grown before they are compared: sheets have volume then (fraction of the largest side)."""
+    regressed: float = 0.1
+    """Boxes up to this far apart are still taken in order: regressed ones err by 0.06 to 0.08 (fraction of the largest
+    side)."""
+    tried: int = 100
+    """Predicted parts that are compared with one of the asset's: those that may be likest, by their boxes."""
+    unmatched: float = 0.25
+    """What a predicted body that covers no part adds to the residual (fraction of the largest side)."""
+    least_overlap: float = 0.3
+    """Mean overlap of bodies below which a prediction is held to be that of another object (fraction)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "far", "loose_box", "loose_mesh", "slack", "regressed", "unmatched", "least_overlap")
+
+
+_FEW = 100  # points that are as quickly taken all
 
 
 @final
@@ -63,16 +92,17 @@ def label_disagrees(label: PartLabel, foreign: PartLabel, moves: bool) -> bool:
 class Comparison:
     """An asset and a prediction, sampled once, to be compared in many frames."""
 
-    def __init__(self, asset: Asset, foreign: ForeignMotions) -> None:
-        self.asset, self.foreign = asset, foreign
+    def __init__(self, asset: Asset, foreign: ForeignMotions, config: AgreementConfig = AgreementConfig()) -> None:
+        self.asset, self.foreign, self.config = asset, foreign, config
         self._outlines = {part.name: _outline(part.mesh) for part in foreign.parts}
         self.points = np.vstack(list(self._outlines.values()))
-        self._asked = [_points_of(part.mesh, _ASKED) for part in asset.parts]
+        self._asked = [_points_of(part.mesh, config.asked) for part in asset.parts]
         self._boxes = [part.box for part in asset.parts]
         area = sum((part.mesh.area for part in foreign.parts if not part.is_box), start=0.0)
-        self._shapes = [_Shape(part, area) for part in foreign.parts]
+        self._shapes = [_Shape(part, area, config) for part in foreign.parts]
         self._theirs = np.array([[part.mesh.box.low, part.mesh.box.high] for part in foreign.parts])
-        self._looseness = np.array([_LOOSE_BOX if part.is_box else _LOOSE_MESH for part in foreign.parts])
+        looseness = (config.loose_box if part.is_box else config.loose_mesh for part in foreign.parts)
+        self._looseness = np.array([*looseness])
         self._contradicted = np.array([[self._disagrees(mine, part) for part in foreign.parts] for mine in asset.parts])
 
     def agreement(self, T_object_foreign: Mat4) -> Agreement:
@@ -85,8 +115,10 @@ class Comparison:
         covered = self._covered(part_of)
         for body in self._bodies:
             mine, theirs = covered.get(body), self._foreign_box(body, T_object_foreign)
-            residuals.append(_faces_apart(mine, theirs) / self.asset.extent if mine else _UNMATCHED)
-            overlaps.append(mine.intersection_over_union(theirs, _SLACK * self.asset.extent) if mine else 0.0)
+            residuals.append(_faces_apart(mine, theirs) / self.asset.extent if mine else self.config.unmatched)
+            overlaps.append(
+                mine.intersection_over_union(theirs, self.config.slack * self.asset.extent) if mine else 0.0
+            )
         return Agreement(part_of, float(np.mean(residuals)), float(np.mean(overlaps)))
 
     def matched_boxes(self, agreed: Agreement, T_object_foreign: Mat4) -> list[tuple[Box, Box]]:
@@ -107,7 +139,7 @@ class Comparison:
     def whole_overlap(self, T_object_foreign: Mat4) -> float:
         """Returns the intersection over union of the two as a whole."""
         whole = Box.around(transform_points(T_object_foreign, self.points))
-        return whole.intersection_over_union(self.asset.box, _SLACK * self.asset.extent)
+        return whole.intersection_over_union(self.asset.box, self.config.slack * self.asset.extent)
 
     def _disagrees(self, mine: Part, theirs: ForeignPart) -> bool:
         moves = self.foreign.body_of[theirs.name] is not None
@@ -128,27 +160,27 @@ class Comparison:
         """Returns what comes of taking predicted parts for the asset's in order, or None where that fits nothing."""
         pairs = self._ordered_boxes(T)
         residual = float(np.mean([_faces_apart(a, b) for a, b in pairs])) / self.asset.extent if pairs else 1.0
-        if residual > _REGRESSED:
+        if residual > self.config.regressed:
             return None
-        slack = _SLACK * self.asset.extent
+        slack = self.config.slack * self.asset.extent
         overlap = float(np.mean([a.intersection_over_union(b, slack) for a, b in pairs]))
         part_of = tuple(self._order[k].name if k in self._order else None for k in range(len(self._boxes)))
-        return Agreement(part_of, residual, max(overlap, LEAST_OVERLAP))
+        return Agreement(part_of, residual, max(overlap, self.config.least_overlap))
 
     def _covering(self, T: Mat4) -> tuple[str, ...]:
         T_foreign_object, extent = invert(T), self.asset.extent / scale_of(T)
         corners = [transform_points(T_foreign_object, box.corners()) for box in self._boxes]
         mine = np.array([[c.min(axis=0), c.max(axis=0)] for c in corners])
-        gaps, unlike = _gaps(mine, self._theirs), 1.0 - _overlaps(mine, self._theirs, _SLACK * extent)
+        gaps, unlike = _gaps(mine, self._theirs), 1.0 - _overlaps(mine, self._theirs, self.config.slack * extent)
         small = extent * self._looseness * (unlike + self._contradicted)
         found = []
         for k, points in enumerate(self._asked):
             there = transform_points(T_foreign_object, points)
             best, cost = 0, np.inf
-            for f in np.argsort(gaps[k] + small[k], kind="stable")[:_TRIED].tolist():
+            for f in np.argsort(gaps[k] + small[k], kind="stable")[: self.config.tried].tolist():
                 if gaps[k, f] + small[k, f] >= cost:  # no point is nearer than the boxes are
                     continue
-                own = float(self._shapes[f].distances(there, _FAR * extent).mean()) + small[k, f]
+                own = float(self._shapes[f].distances(there, self.config.far * extent).mean()) + small[k, f]
                 best, cost = (f, own) if own < cost else (best, cost)
             found.append(self.foreign.parts[best].name)
         return tuple(found)
@@ -168,10 +200,11 @@ class Comparison:
 class _Shape:
     """A predicted part as something that points lie on, or in."""
 
-    def __init__(self, part: ForeignPart, area: float) -> None:
+    def __init__(self, part: ForeignPart, area: float, config: AgreementConfig) -> None:
         self._box = part.mesh.box
-        count = max(_LEAST_DRAWN, int(_DRAWN * part.mesh.area / area)) if area > 0 else _LEAST_DRAWN
-        self._tree = None if part.is_box else cKDTree(_points_of(part.mesh, count, _MOST_CORNERS))
+        least = config.least_drawn
+        count = max(least, int(config.drawn * part.mesh.area / area)) if area > 0 else least
+        self._tree = None if part.is_box else cKDTree(_points_of(part.mesh, count, config.most_corners))
 
     def distances(self, points: Points, far: float) -> Scalars:
         """Returns how far points lie from the part, at most `far`."""
