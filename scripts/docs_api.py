@@ -21,9 +21,9 @@ for joint in result.joints:
 result.with_hinge("door_1", side="right").save("results/sideboard", formats=["glb", "urdf"])
 ```
 
-Paths are `str` or `Path`. An argument of a wrong type is a `TypeError`; everything else that a user can mend is a
+Paths are `str` or `Path`. An argument of a wrong type raises a `TypeError`; everything else that a user can mend is a
 `grafu.FunctionalizationError` with one line ([errors](errors.md)). Values are frozen: a change gives a new result, and
-makes again only what it touches. More in [examples](../examples/README.md).
+recomputes only what it affects. More in [examples](../examples/README.md).
 """
 METHODS = ("joint", "with_motion", "with_hinge", "with_rail", "with_handle", "with_label", "without", "save")
 

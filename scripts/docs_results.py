@@ -19,10 +19,10 @@ LEAD = """\
 
 <!-- drawn by scripts/docs.py from docs/figures.json -->
 
-On the 17 development models of PartNet-Mobility that the project is measured on (12 pieces of storage furniture, 5
-tables, 50 parts that count). They are not part of the project, nothing was trained on them, but the generator and the
-realization were developed on them, so the figures are optimistic. What each number means:
-[evaluation](evaluation.md). The command:
+These are the figures of 17 development models of PartNet-Mobility (12 pieces of storage furniture, 5 tables, 50 parts
+that count). The models are not part of the project and nothing was trained on them, but the generator and the
+realization were developed with them, so the figures are optimistic. [Evaluation](evaluation.md) states what each number
+means. The command:
 
     {command}
 
@@ -65,4 +65,4 @@ def _wrong(table: dict[str, Any]) -> str:
     lines = ["## What is wrong", ""]
     found = [row for row in table["rows"] if row["faults"] and row["method"] != "annotation"]
     lines += [f"- `{row['method']}`, {row['model']}: {row['faults']}." for row in found]
-    return "\n".join([*lines, *(() if found else ("Nothing, of rule and network as built.",)), ""])
+    return "\n".join([*lines, *(() if found else ("No model has a fault, with rule or network.",)), ""])

@@ -20,24 +20,25 @@ HEAD = """\
 
 <!-- drawn by scripts/docs.py from the tables in src/grafu/synth -->
 
-What the generator of [synthetic furniture](synthetic.md) draws, and how often. That page lists the families. Numbers
+What the generator of [synthetic furniture](synthetic.md) samples, and how often. That page lists the families. Numbers
 are per cent unless stated otherwise; an empty cell means never. The reason for each number is beside it in the code.
 What each family decides for itself (sizes, layouts) is in its own module.
 """
 TRADITIONS_HEAD = f"""\
 ## Traditions
 
-One piece is built in one tradition, so that what goes together in real furniture is drawn together: a shaker leaf on a
-hairpin leg is rare. Each family names the traditions that it comes in ([families]({SYNTH}/families/table.py)), and may
-narrow a table. Thicknesses are those of boards as they are sold, and the round numbers of simple models on
+One piece is built in one tradition, so that what goes together in real furniture is sampled together: a shaker leaf on
+a hairpin leg is rare. Each family names the traditions that it comes in ([families]({SYNTH}/families/table.py)), and
+may narrow a table. Thicknesses are those of boards as they are sold, and the round numbers of simple models on
 modelling sites; fractions follow what is sold and what the real development models show
 ([traditions]({SYNTH}/sampling/traditions.py)). Thicknesses are given as least · median · most.
 """
 STYLE_HEAD = f"""\
 ## Doors and handles
 
-A hinge is drawn first and the handle follows it, so that a handle indicates the side of the hinge as often as in real
-furniture ([style]({SYNTH}/sampling/style.py), [carpentry]({SYNTH}/sampling/carpentry.py)). The position is drawn once
+The side of the hinge is sampled first and the handle follows it, so that a handle indicates the side of the
+hinge as often as in real furniture ([style]({SYNTH}/sampling/style.py),
+[carpentry]({SYNTH}/sampling/carpentry.py)). The position is sampled once
 for each piece. Reach: on the free edge, as near to the hand as the door allows; middle and corner: of the free edge;
 top line: horizontal in the middle of the upper or lower edge, which does not depend on the hinge; middle line: in the
 middle of the door.
@@ -45,15 +46,16 @@ middle of the door.
 MODELLING_HEAD = f"""\
 ## Modelling styles
 
-A modeller who draws one panel as a sheet does so all over the model. So a style is drawn first, and it makes the rest
+A person who models one panel as a sheet does so in the whole model. So a style is sampled first; it makes the rest
 likely or not ([modelling styles]({SYNTH}/noise/modelling_styles.py)). The fractions come from the seventeen development
-models, which are few, and are widened to what other sources are known to have. Chances are per model; that of sheets is
-for each group of panels, that of loose objects for each kind, both times the factors below.
+models, which are few, and are widened to what other sources are known to have. Chances are per model. The
+chance of sheets is per group of panels, that of loose objects per kind of object; both are multiplied by the factors
+below.
 """
 MISSING_HEAD = """\
 ## Missing parts
 
-Of the parts that a whole piece has, these are not in the model as it was modelled. What carries a door, a drawer or a
+These parts of the whole piece are left out of the model. What carries a door, a drawer or a
 handle stays, and so does a top that something stands on. Cases under a common worktop never have a top
 of their own, push-to-open fronts never a handle; the repaired version holds what a completion would add.
 """
@@ -79,7 +81,7 @@ CHOICES = {
 LENGTHS = {"panel": "panels, mm", "front": "fronts, mm", "back": "backs, mm"}
 SPANS = {"gap": ("gaps, mm", 1e3), "overhang": ("overhang of tops, mm", 1e3), "opening": ("doors open, degrees", 1.0)}
 RATIOS = {
-    "bare": "drawn with the fewest parts",
+    "bare": "modelled with the fewest parts",
     "plain_drawers": "plain drawers beside the doors' leaf",
     "framed": "face frame",
     "moulded": "moulding",
@@ -179,9 +181,8 @@ def modelling_tables() -> str:
     head = ("style", *(column.replace("_", " ") for column in columns), *MASKINGS)
     factors = [(kind, f"{factor:g}") for kind, factor in modelling_styles.LOOSE_WEIGHT.items()]
     sheets = [(label.value, f"{factor:g}") for label, factor in modelling_styles.SHEETS.items()]
-    return "\n".join(
-        [table(head, rows), table(("loose objects", "factor"), factors), table(("drawn as sheets", "factor"), sheets)]
-    )
+    found = [table(("loose objects", "factor"), factors), table(("modelled as sheets", "factor"), sheets)]
+    return "\n".join([table(head, rows), *found])
 
 
 def missing_table() -> str:
@@ -203,7 +204,7 @@ def missing_table() -> str:
 def wording_tables() -> str:
     """Returns wording, what is joined, faces, density, and the rates of whole models."""
     models = {
-        "every face drawn from both sides": modelling_styles.BOTH_SIDES,
+        "every face double-sided": modelling_styles.BOTH_SIDES,
         "the same, where edges are finely rounded": modelling_styles.FINE_BOTH_SIDES,
         "parts in random order": modelling_styles.SHUFFLED,
         "stretched by up to a tenth": modelling_styles.STRETCHED * (1 - modelling_styles.WIDELY),
@@ -213,7 +214,7 @@ def wording_tables() -> str:
         "rotated by up to four degrees": modelling_styles.YAWED,
         "one front ajar": modelling_styles.AJAR,
         "one label wrong": modelling_styles.MISLABELLED,
-        "of face frames: drawn as bars": cutting.FRAME_IN_BARS,
+        "of face frames: modelled as bars": cutting.FRAME_IN_BARS,
     }
     texts = [
         ratio_table({name: ratio for name, (_, ratio) in naming.STYLES.items()}),

@@ -142,8 +142,8 @@ are drawn from there: a figure that is changed by hand is refused by `make check
     make figures FIGURES="--quick"                                      # few models: do all commands work?
 
 `{models}` is the folder of real models that `GRAFU_MODELS` names, `{out}` a folder below `build/figures`. A command
-that ended is not run again for the same code and weights; one that was stopped is resumed where possible. Figures that
-are `carried over` were in a page before this list was kept, and were not printed again since.
+that finished is not run again for the same code and weights; one that was stopped is resumed where possible. Figures
+that are `carried over` were in a page before this list existed, and have not been printed since.
 
 """
 SCRIPTS = """
@@ -155,8 +155,7 @@ SCRIPTS = """
   the value.
 * A table of such figures: one row in `tables` of `scripts/stated/drawn.py`, and its marks in the page.
 * A number of the code: a line in `scripts/stated/constants.py` (or `constants_built.py`), the words of the
-  page with `{}` for
-  the number, and the value.
+  page with `{}` for the number, and the value.
 * What is no figure but looks like one (a definition, an example): `<!-- no figure: why -->` in the same
   paragraph, or in the line above a table.
 

@@ -58,7 +58,7 @@ def load(
 
     Raises:
         TypeError: if an argument has a wrong type.
-        AssetError: if the input cannot be read, is one part only, holds several pieces, which are split, and none is
+        AssetError: if the input cannot be read, has only one part, is split into several pieces and none is
             chosen, or an argument contradicts it.
         OptionError: if `labels`, `parts` or `pieces` is another word.
     """

@@ -95,7 +95,7 @@ class AxisRecord(ReportRecord):
 class CouplingRecord(ReportRecord):
     """A joint follows another, its leader: value = multiplier x the leader's value + offset."""
 
-    leader: str = Field(description="the joint that it follows; of stated joints the part that this one moves")
+    leader: str = Field(description="the joint that it follows; for a stated joint, the part that its leader moves")
     multiplier: float = Field(description="how far it moves for each unit of the leader's value")
     offset: float = Field(description="its value where the leader's is 0, radians or metres")
 
@@ -105,9 +105,9 @@ class ClearanceRecord(ReportRecord):
 
     part: str = Field(description="what was cut")
     kind: str = Field(description="joined, closed, trimmed (the moving part), eased (shrunk), carved (a static part)")
-    amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the surface")
+    amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the removed area")
     share: Ratio = Field(
-        description="fraction removed: carved: the larger of the next two; eased: of the volume; trimmed: of a side"
+        description="fraction removed; carved: the larger of the next two; eased: of the volume; trimmed: of a side"
     )
     surface_share: Ratio = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
     volume_share: Ratio = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
@@ -143,7 +143,7 @@ class JointRecord(ReportRecord):
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
     parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not stated")
     follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
-    grasp: Grasp = Field(description="how it can be grasped; what follows a leader and has no grasp: by the leader's")
+    grasp: Grasp = Field(description="how it can be grasped; a follower without a grasp: how its leader can be")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="anything else worth knowing")
 
@@ -163,7 +163,7 @@ class SkippedRecord(ReportRecord):
 
     request: str = Field(description="the part that was to move, or what was to be added")
     reason: Reason | Literal["not added"] = Field(
-        description="the cause of a joint; `not added` for what was to be added, save what is too complex"
+        description="for a joint, its cause; for an addition `not added`, unless it was too complex"
     )
     detail: str = Field(description="what was found, in words")
     what: Asked | None = Field(
@@ -191,7 +191,7 @@ class MotionRecord(ReportRecord):
 
 
 class GuessRecord(ReportRecord):
-    """A decision of the motion source that a motion rests on; what the user stated is none."""
+    """A decision of the motion source that a motion rests on; what the user stated is no guess."""
 
     part: str = Field(description="the part")
     question: Question = Field(
