@@ -22,6 +22,7 @@ STAGES = {  # in their order, with what an artist calls them
     "parse": "finding what touches",
     "complete": "finding what moves",
     "plan": "planning joints",
+    "close": "closing drawers that are drawn open",
     "body": "building the body",
     "realize": "fitting hinges and rails",
     "fittings": "fitting handles and shelves",

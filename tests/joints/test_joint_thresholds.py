@@ -13,6 +13,7 @@ from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, P
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
+    ClosingConfig,
     DrawerConfig,
     FlankConfig,
     RailConfig,
@@ -34,6 +35,7 @@ REASONS = {
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "_MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
+    "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "coupled.py": {"_ALIKE": TOLERANCE},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
@@ -53,9 +55,9 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, DrawerConfig, DrawnConfig, FlankConfig, FootingConfig,
-    HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig,
-    TimeConfig,
+    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, FlankConfig,
+    FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
+    RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

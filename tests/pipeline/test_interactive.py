@@ -28,7 +28,7 @@ def run(folder: Path, source: Path, settings: dict) -> tuple[int, list[str]]:
 def test_everything_comes_back(tmp_path):
     code, said = run(tmp_path, SAMPLE, {"joints": {"door_1": {"count": 3}}})
     assert code == 0
-    stages = ["load", "parse", "complete", "plan", "body", "realize", "fittings", "write"]
+    stages = ["load", "parse", "complete", "plan", "close", "body", "realize", "fittings", "write"]
     assert said == [f"stage {name}" for name in stages]
     made = unpacked((tmp_path / "object.packed").read_bytes())
     report = Report.model_validate_json((tmp_path / "report.json").read_text())

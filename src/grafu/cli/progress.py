@@ -29,6 +29,7 @@ _STAGES: Final = MappingProxyType(
         "parse": "finding what touches",
         "complete": "deciding what moves",
         "plan": "deciding what is built",
+        "close": "closing drawers that are drawn open",
         "body": "adding tops and drawer boxes",
         "realize": "placing hinges and rails, and opening them",
         "fittings": "adding handles and shelves",

@@ -64,7 +64,7 @@ def sweep(
     A part that already collides at rest has a free opening of 0, and `ratio` tells whether that passes.
     """
     values = opening_values(reach, poses)
-    blocked = [_blockers(body, motion(v), obstacles) for v in values]
+    blocked = [blockers_at(body, motion(v), obstacles) for v in values]
     hits = [k for k, names in enumerate(blocked) if names]
     free = reach if not hits else float(values[hits[0] - 1]) if hits[0] else 0.0
     names = tuple(sorted({name for found in blocked for name in found}))
@@ -79,10 +79,10 @@ def free_opening(
     It stops at the first blocked pose, unless that is the first of all.
     """
     values = opening_values(reach, poses)
-    if _blockers(body, motion(0.0), obstacles):
-        hits = [bool(_blockers(body, motion(v), obstacles)) for v in values]
+    if blockers_at(body, motion(0.0), obstacles):
+        hits = [bool(blockers_at(body, motion(v), obstacles)) for v in values]
         return 0.0, sum(hits) / poses
-    first = next((k for k, v in enumerate(values) if _blockers(body, motion(v), obstacles)), None)
+    first = next((k for k, v in enumerate(values) if blockers_at(body, motion(v), obstacles)), None)
     return (reach, 0.0) if first is None else (float(values[first - 1]), 0.0)
 
 
@@ -95,7 +95,7 @@ def all_blockers(
 
 def is_free(body: SweptBody, motion: PoseFunction, reach: float, obstacles: Sequence[Obstacle], poses: int) -> bool:
     """Whether no pose from 0 to `reach` collides; stops at the first that does (far poses, then near ones)."""
-    return not any(_blockers(body, motion(v), obstacles) for v in opening_values(reach, poses)[::-1])
+    return not any(blockers_at(body, motion(v), obstacles) for v in opening_values(reach, poses)[::-1])
 
 
 def widest_free(
@@ -106,7 +106,7 @@ def widest_free(
     It stays `short` of the collision, a fraction of `reach`: at its limit a part touches nothing. A collision at rest
     does not count: it cannot be avoided by opening less.
     """
-    free = _before_first(lambda value: bool(_blockers(body, motion(value), obstacles)), reach, poses)
+    free = _before_first(lambda value: bool(blockers_at(body, motion(value), obstacles)), reach, poses)
     return free if free == reach else max(free - short * reach, 0.0)
 
 
@@ -142,7 +142,7 @@ def widest_above(mesh: TriangleMesh, axis: Axis, reach: float, floor: float, pos
     return _before_first(dips, reach, poses)
 
 
-def _blockers(body: SweptBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
+def blockers_at(body: SweptBody, T: Mat4, obstacles: Sequence[Obstacle]) -> list[str]:
     """Returns the ids of what the body, posed at T, cuts into."""
     body.place(T)
     return [obstacles[k].id for k in body.penetrated([o.collider for o in obstacles])]

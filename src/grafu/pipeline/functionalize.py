@@ -19,6 +19,7 @@ from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.joints.closing import closed_plan
 from grafu.joints.config import PlanConfig, RealizationConfig
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
@@ -184,13 +185,7 @@ def functionalize(
     stated, drawers = len(asset.stated_joints), config.realization.drawer
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
     asset = with_moving(corrected(asset, config.labels), config.motions, config.labels, drawers)
-    if isinstance(source, ForeignMotions):
-        foreign = source
-        asset = stages.timed("match", lambda: attach_motions(asset, foreign))
-        chosen = MotionSource(source.source)
-    else:
-        chosen = choose_source(asset, source, config.weights)
-        _require_attached(asset, chosen)
+    asset, chosen = _with_source(asset, source, config.weights, stages)
     motion = _motion(chosen, config.weights)
     if not motion.reads_annotation:
         asset = asset.without_annotation()
@@ -206,6 +201,8 @@ def functionalize(
     plan = with_choices(
         plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery, requested
     )
+    close = partial(cache.value, "close", closed_plan, plan, asset, config.realization)  # drawers drawn open
+    plan = stages.timed("close", close, lambda _: plan)
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, config.additions.of_body, drawers)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
@@ -231,6 +228,17 @@ def functionalize(
         stated,
         frozenset(config.motions),
     )
+
+
+def _with_source(
+    asset: Asset, source: MotionSource | ForeignMotions, weights: Path | None, stages: Stages
+) -> tuple[Asset, MotionSource]:
+    """Returns the asset with the motions that another system predicted, if any, and the source to use."""
+    if isinstance(source, ForeignMotions):
+        return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
+    chosen = choose_source(asset, source, weights)
+    _require_attached(asset, chosen)
+    return asset, chosen
 
 
 def _as_built(

@@ -15,8 +15,7 @@ from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
 from grafu.articulation.physics import JointDynamics, physics_of
 from grafu.export.usd.config import UsdConfig
-from grafu.export.usd.looks import Siblings, UsdLooks, identifier
-from grafu.export.usd.meshes import add_collision, add_surface, quaternion
+from grafu.export.usd.surfaces import Siblings, UsdLooks, add_collision, add_surface, identifier, quaternion
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
