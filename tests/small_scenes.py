@@ -46,7 +46,7 @@ def drawer(gap: float = 0.0125, wall: float = 0.02) -> Asset:
     walls = [
         box("side_left", (-w - wall, -0.2, 0.0), (-w, 0.25, 0.2)),
         box("side_right", (w, -0.2, 0.0), (w + wall, 0.25, 0.2)),
-        box("back", (-w, 0.23, 0.0), (w, 0.25, 0.2)),
+        box("back", (-w, 0.23, 0.0), (w, 0.25, 0.5)),  # half a metre: furniture of usual size
     ]
     body = box("drawer", (-0.2, -0.2, 0.02), (0.2, 0.2, 0.17))
     return scene(*walls, body, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))

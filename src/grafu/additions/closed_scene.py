@@ -83,7 +83,7 @@ class ClosedScene:
 
 def closed_scene(scene: Scene, plan: RealizationPlan, drawers: DrawerConfig = DrawerConfig()) -> ClosedScene:
     """Returns a scene with every moving body of a plan closed, once for all steps; parts without faces are left out."""
-    return scene.once(_closed, plan.joints, drawers)
+    return scene.once(_closed, plan.joints, drawers if scene.metre == 1.0 else drawers.at_scale(scene.metre))
 
 
 def _closed(scene: Scene, joints: tuple[JointRequest, ...], drawers: DrawerConfig) -> ClosedScene:

@@ -111,6 +111,7 @@ def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
 
 
 def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
+    config = config.of_rails(scene.metre)
     search = drawer_search(request, scene, config)
     if search is None:
         return Refusal(request.moving, Reason.UNSUPPORTED, "it slides up or down; rails carry level drawers")

@@ -39,7 +39,7 @@ def _motions(
             door = door_search(request, scene, config)
             yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
             continue
-        drawer = drawer_search(request, scene, config)
+        drawer = drawer_search(request, scene, config.of_rails(scene.metre))
         if drawer is not None:
             yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
 

@@ -1,6 +1,6 @@
 """Tolerances, sizes and counts of joints. Lengths marked (extent) are fractions of the object's largest side."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import radians
 from typing import final
 
@@ -106,7 +106,7 @@ class BlockConfig:
     rest: float = 0.1
     """The block ends where this fraction of the rays that meet it have done so: not all of its face need rest on it."""
     lap: float = 2e-4
-    """How deep a block is inset at both ends, so that it holds (metres)."""
+    """How deep a block is inset at both ends, so that it holds (metres; of rails: on furniture of usual size)."""
     near: float = 0.1
     """Static parts farther from a piece of hardware than this do not carry it (extent)."""
 
@@ -223,3 +223,10 @@ class RealizationConfig:
         require_ratios(self, "no_hardware_width")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")
+
+    def of_rails(self, metre: float) -> "RealizationConfig":
+        """Returns the config for the rails of a model on which a metre is `metre` metres long."""
+        if metre == 1.0:
+            return self
+        block = replace(self.block, lap=metre * self.block.lap)
+        return replace(self, rail=self.rail.at_scale(metre), drawer=self.drawer.at_scale(metre), block=block)

@@ -1,6 +1,9 @@
-"""What counts as a drawer, sizes of rails, and the places at which the room for them is measured."""
+"""What counts as a drawer, sizes of rails, and the places at which the room for them is measured.
 
-from dataclasses import dataclass
+Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
+"""
+
+from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -29,6 +32,11 @@ class BodyConfig:
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "met_ratio", "long")
+
+    def at_scale(self, metre: float) -> "BodyConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("outside", "even")
+        return replace(self, **{name: metre * getattr(self, name) for name in lengths})
 
 
 @final
@@ -116,6 +124,11 @@ class DrawerConfig:
         require_positive(self, "thickest_board", "stands_out")
         require_ratios(self, "shallow", "slat", "shortest", "flat", "level")
 
+    def at_scale(self, metre: float) -> "DrawerConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("thickest_board", "stands_out")
+        return replace(self, body=self.body.at_scale(metre), **{name: metre * getattr(self, name) for name in lengths})
+
 
 @final
 @dataclass(frozen=True)
@@ -163,6 +176,15 @@ class FlankConfig:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "margin", "margin_height", "inside_width", "met", "ahead_length", "highest")
 
+    def at_scale(self, metre: float) -> "FlankConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("inside", "ahead", "taller")
+        return replace(
+            self,
+            thinner=tuple(metre * length for length in self.thinner),
+            **{name: metre * getattr(self, name) for name in lengths},
+        )
+
 
 @final
 @dataclass(frozen=True)
@@ -205,6 +227,15 @@ class BehindConfig:
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "inset", "shallow", "deep", "narrow", "span", "as_deep")
+
+    def at_scale(self, metre: float) -> "BehindConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        lengths = ("start", "overlap", "air")
+        return replace(
+            self,
+            near=tuple(metre * length for length in self.near),
+            **{name: metre * getattr(self, name) for name in lengths},
+        )
 
 
 @final
@@ -272,3 +303,14 @@ class RailConfig:
     def __post_init__(self) -> None:
         require_positive(self, *(set(self.__dataclass_fields__) - {"footing", "flank", "behind"}))
         require_ratios(self, "dynamic_reach", "most_inset", "travel", "around")
+
+    def at_scale(self, metre: float) -> "RailConfig":
+        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+        dividers = ("divider", "thinnest_divider", "divider_air")
+        lengths = ("thinnest", "lowest", "common", *dividers, "least_travel")
+        return replace(
+            self,
+            flank=self.flank.at_scale(metre),
+            behind=self.behind.at_scale(metre),
+            **{name: metre * getattr(self, name) for name in lengths},
+        )

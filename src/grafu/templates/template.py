@@ -171,6 +171,10 @@ class RailSize:
     height: float
     thickness: float
 
+    def scaled(self, factor: float) -> "RailSize":
+        """Returns all three sizes times `factor`."""
+        return RailSize(self.length * factor, self.height * factor, self.thickness * factor)
+
 
 @final
 @dataclass(frozen=True)
@@ -192,6 +196,14 @@ class RailTemplate:
     def __post_init__(self) -> None:
         if not 0 < self.range <= self.size.length:
             raise TemplateError(f"the range of rail template `{self.id}` must be in (0, its length]: got {self.range}")
+
+    def scaled(self, factor: float) -> "RailTemplate":
+        """Returns the template with all lengths times `factor`."""
+        size, T = self.size.scaled(factor), np.diag([factor, factor, factor, 1.0])
+        support = None if self.support is None else self.support.transformed(T)
+        static, dynamic = self.static.transformed(T), self.dynamic.transformed(T)
+        reach = min(factor * self.range, size.length)
+        return replace(self, static=static, dynamic=dynamic, range=reach, size=size, support=support)
 
 
 @final
@@ -216,6 +228,12 @@ class RailModel:
     mechanism: MechanismClass
     natural: RailSize
     build: Callable[[RailSize], RailTemplate]
+
+    def built(self, size: RailSize, metre: float) -> RailTemplate:
+        """Returns the template for a model on which a metre is `metre` metres long: screws and sheets are in scale."""
+        if metre == 1.0:
+            return self.build(size)
+        return self.build(size.scaled(1 / metre)).scaled(metre)
 
 
 @final

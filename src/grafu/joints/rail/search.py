@@ -141,7 +141,10 @@ def carried_mesh(request: JointRequest, scene: Scene, config: DrawerConfig = Dra
 def drawer_search(
     request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
 ) -> DrawerSearch | None:
-    """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle."""
+    """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle.
+
+    The config is in the scale of the scene (`RealizationConfig.of_rails`).
+    """
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
     lying = slides_in_its_plane(mesh, direction, config.drawer)
