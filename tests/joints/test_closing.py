@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 from grafu.joints.closing import closed_plan
@@ -18,7 +20,7 @@ from grafu.joints.plan import JointChoice, RealizationPlan
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
-from small_scenes import box, scene, sliding
+from small_scenes import box, hinged, scene, sliding
 
 FORWARD = (0.0, -1.0, 0.0)
 CASE = (
@@ -78,6 +80,21 @@ def test_an_open_drawer_is_closed_level_with_one_of_its_size():
     bare = scene(*CASE[:2], CASE[-1], *two, joints=tuple(sliding(part.id, FORWARD) for part in two))
     assert opening_of(bare, "drawer_2") == pytest.approx(0.13, abs=TOLERANCE)
     assert opening_of(bare) == 0.0
+
+
+def test_a_front_in_the_plane_of_closed_fronts_around_it_stays():
+    """The case stands back behind all fronts, and what moves beside a drawer is level with it."""
+    beside = [
+        box(f"door_{k}", (s * 0.33 - 0.12, -0.25, 0.0), (s * 0.33 + 0.12, -0.23, 0.42)) for k, s in ((1, -1), (2, 1))
+    ]
+    back = tuple(moved(part, translation(np.array([0.0, 0.06, 0.0]))) for part in CASE)
+    joints = (
+        sliding("drawer", FORWARD),
+        *(hinged(part.id, Axis(part.box.low, vec3(0.0, 0.0, -1.0))) for part in beside),
+    )
+    closed = drawer("drawer", 0.03, 0.0)
+    assert opening_of(scene(*back, closed, joints=joints[:1])) == pytest.approx(0.06, abs=TOLERANCE)
+    assert opening_of(scene(*back, *beside, closed, joints=joints)) == 0.0
 
 
 def test_what_lies_in_the_way_leaves_it_open():

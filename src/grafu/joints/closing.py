@@ -5,7 +5,7 @@ lies on what stands around its opening, or until its front is level with that on
 but for the runners that it is drawn on, leaves it as it is drawn.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
@@ -16,7 +16,7 @@ from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box, widest_free
@@ -38,10 +38,17 @@ def closed_plan(plan: RealizationPlan, asset: Asset, config: RealizationConfig) 
     """
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(plan.joints), asset.extent)
     drawers = {d.request.moving: d for d in _drawers(plan.joints, scene, config)}
-    openings = {name: _drawn_opening(drawer, drawers.values()) for name, drawer in drawers.items()}
-    found = {name: opening for name, opening in openings.items() if opening > 0}
+    found = _openings(drawers, drawers.values())
+    closed = tuple(name for name in scene.moving_bodies if name not in found)
+    found = _openings({name: replace(drawers[name], closed=closed) for name in found}, drawers.values())
     joints = tuple(_ajar(r, found[r.moving]) if r.moving in found else r for r in plan.joints)
     return replace(plan, joints=joints) if found else plan
+
+
+def _openings(drawers: Mapping[str, "_Drawer"], all_drawers: Iterable["_Drawer"]) -> dict[str, float]:
+    """Returns how far those drawers stand open that do, by the id of the moving part."""
+    openings = {name: _drawn_opening(drawer, all_drawers) for name, drawer in drawers.items()}
+    return {name: opening for name, opening in openings.items() if opening > 0}
 
 
 def _ajar(request: JointRequest, opening: float) -> JointRequest:
@@ -53,7 +60,10 @@ def _ajar(request: JointRequest, opening: float) -> JointRequest:
 @final
 @dataclass(frozen=True, eq=False)
 class _Drawer:
-    """A drawer as it is drawn; `front` is how far ahead its front's face lies along its slide, metres."""
+    """A drawer as it is drawn; `front` is how far ahead its front's face lies along its slide, metres.
+
+    `closed` are the moving bodies that are known to be drawn closed: their fronts stand around its own.
+    """
 
     request: JointRequest
     scene: Scene
@@ -61,6 +71,7 @@ class _Drawer:
     frame: DrawerFrame
     body: SweptBody
     front: float
+    closed: tuple[str, ...] = ()
 
     @property
     def closing(self) -> ClosingConfig:
@@ -87,6 +98,13 @@ class _Drawer:
         """What stands where it would be pushed to."""
         box = swept_box(self.scene.moving_mesh(self.request.moving).box, self.inwards, self.frame.depth)
         return in_the_way(self.scene.static_obstacles, box)
+
+    @cached_property
+    def around(self) -> TriangleMesh:
+        """What stands around it: static parts and closed moving bodies."""
+        scene = self.scene
+        meshes = [part.mesh for part in scene.static_parts] + [scene.moving_mesh(name) for name in self.closed]
+        return mesh_near(meshes, scene.moving_mesh(self.request.moving).box.grown(self.frame.depth))
 
     @cached_property
     def at_rest(self) -> frozenset[str]:
@@ -146,7 +164,7 @@ def _drawn_opening(drawer: _Drawer, drawers: Iterable[_Drawer]) -> float:
         return 0.0
     around = [drawer.front - level for level in _frame_levels(drawer) if np.isfinite(level)]
     sides = drawer.closing.sides
-    if sum(abs(ahead) < drawer.closing.flush * drawer.scene.metre for ahead in around) >= sides:
+    if sum(ahead < drawer.closing.flush * drawer.scene.metre for ahead in around) >= sides:
         return 0.0
     is_told = len(around) >= sides and not _is_by_design(drawer, drawers, min(around))
     level = _level_with_frame(drawer, min(around)) if is_told else 0.0
@@ -156,7 +174,7 @@ def _drawn_opening(drawer: _Drawer, drawers: Iterable[_Drawer]) -> float:
 def _is_by_design(drawer: _Drawer, drawers: Iterable[_Drawer], ahead: float) -> bool:
     """Whether a front that stands a little ahead of its case has another front in its plane: all are drawn so."""
     config, metre = drawer.closing, drawer.scene.metre
-    others = (other for other in drawers if other is not drawer and other.is_parallel(drawer))
+    others = (o for o in drawers if o.request.moving != drawer.request.moving and o.is_parallel(drawer))
     in_plane = any(abs(other.front - drawer.front) < config.plane * metre for other in others)
     return in_plane and ahead < config.plainly * metre
 
@@ -211,7 +229,7 @@ def _frame_levels(drawer: _Drawer, sense: float = 1.0) -> Sequence[float]:
     """
     frame, config = drawer.frame, drawer.closing
     metre, depth = drawer.scene.metre, drawer.frame.depth
-    rays = RayCaster(drawer.scene.static_mesh_near(drawer.scene.moving_mesh(drawer.request.moving).box, depth))
+    rays = RayCaster(drawer.around)
     start = depth  # ahead of the front
     found = []
     for across, up in _SIDES:

@@ -73,7 +73,8 @@ class ClosingConfig:
     shallowest: float = 0.1
     """What is less deep is no drawer (metres on furniture of usual size)."""
     flush: float = 0.003
-    """What a front is level with lies so near to its face (metres on furniture of usual size)."""
+    """How far a front stands ahead of what is beside it at most, to be level with it (metres on furniture of usual
+    size)."""
     plane: float = 0.0005
     """How near to one plane the faces of fronts lie that are drawn alike (metres on furniture of usual size)."""
     plainly: float = 0.05
