@@ -18,13 +18,12 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
-from grafu.joints.config import RealizationConfig
+from grafu.joints.config import ClosingConfig, RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box, widest_free
 from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.joints.rail.search import drawer_search
-from grafu.joints.rail_config import ClosingConfig, DrawerConfig
 from grafu.scene.scene import Obstacle, Scene
 
 _ALONG = np.linspace(-0.4, 0.4, 5)
@@ -75,7 +74,7 @@ class _Drawer:
 
     @property
     def closing(self) -> ClosingConfig:
-        return self.config.drawer.closing
+        return self.config.closing
 
     @property
     def least(self) -> float:
@@ -136,14 +135,14 @@ def _drawers(requests: Iterable[JointRequest], scene: Scene, config: Realization
         if is_stated or not request.kind.slides or request.moving not in scene.parts:
             continue
         search = drawer_search(request, scene, config)
-        if search is not None and _is_drawer(search.frame, scene, config.drawer):
-            front = _front_level(search.mesh, search.frame, config.drawer.closing)
+        if search is not None and _is_drawer(search.frame, scene, config):
+            front = _front_level(search.mesh, search.frame, config.closing)
             yield _Drawer(request, scene, config, search.frame, search.body, front)
 
 
-def _is_drawer(frame: DrawerFrame, scene: Scene, config: DrawerConfig) -> bool:
+def _is_drawer(frame: DrawerFrame, scene: Scene, config: RealizationConfig) -> bool:
     """Whether what slides is a drawer with some depth: no sliding door, no button."""
-    is_upright = abs(float(frame.rotation[2, 2])) > config.level
+    is_upright = abs(float(frame.rotation[2, 2])) > config.drawer.level
     return is_upright and frame.depth >= config.closing.shallowest * scene.metre
 
 
