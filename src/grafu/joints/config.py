@@ -124,7 +124,7 @@ class ClosingConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    least: float = 0.008
+    least: float = 0.015
     """What is less open is closed (metres on furniture of usual size)."""
     least_ratio: float = 0.02
     """What is less open is closed (fraction of the drawer's depth)."""
