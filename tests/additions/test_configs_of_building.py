@@ -53,7 +53,7 @@ POSITIVE = [
     (FlankConfig, "taller"),
     (FootingConfig, "thinnest"),
     (HingeConfig, "tongue"),
-    (PinConfig, "widest_strip"),
+    (PinConfig, "widest_seam"),
     (PivotConfig, "plate"),
     (SurveyConfig, "even"),
     (InteriorConfig, "touch"),
