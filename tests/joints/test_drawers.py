@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from grafu.asset.edit import yawed
-from grafu.asset.part import Asset, Part
-from grafu.geometry.axis import Axis
+from grafu.asset.part import Part
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -172,31 +171,3 @@ def test_mere_fronts_on_both_sides_of_a_table_hang_from_its_top():
     found = installed(realized(scene(top, *fronts, joints=joints)))
     assert found.keys() == {"drawer_1", "drawer_2"}
     assert all(not outcome.restricted and outcome.mount == "table_top" for outcome in found.values())
-
-
-def tall(case_height: float) -> Asset:
-    """The drawer of `drawer` in a case whose largest side is its height."""
-    asset = drawer()
-    post = box("post", (-0.2, 0.26, 0.0), (0.2, 0.28, case_height))
-    return scene(*asset.parts, post, joints=asset.joints)
-
-
-def scaled(asset: Asset, factor: float) -> Asset:
-    T = np.diag([factor, factor, factor, 1.0])
-    parts = (replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts)
-    joints = (replace(j, axis=Axis(factor * np.asarray(j.axis.point), j.axis.direction)) for j in asset.joints)
-    return scene(*parts, joints=tuple(replace(j, upper=factor * j.upper) for j in joints))
-
-
-@pytest.mark.parametrize(("height", "factor"), [(4.0, 10.0), (0.5, 0.1)])
-def test_a_model_in_another_scale_gets_the_same_rails_in_its_own(height: float, factor: float):
-    usual = tall(height)
-    plain, other = realized(usual), realized(scaled(usual, factor))
-    before, after = installed(plain)["drawer"], installed(other)["drawer"]
-    assert (after.template, after.count, after.mechanism) == (before.template, before.count, before.mechanism)
-    assert after.opening == pytest.approx(factor * before.opening, rel=1e-6)
-    for mine, theirs in zip(hardware(other, "drawer"), hardware(plain, "drawer"), strict=True):
-        assert [v.name for v in mine] == [v.name for v in theirs]
-        assert len(mine) >= 2
-        for one, usual_one in zip(mine, theirs, strict=True):
-            np.testing.assert_allclose(one.mesh.vertices, factor * usual_one.mesh.vertices, atol=1e-6 * factor)

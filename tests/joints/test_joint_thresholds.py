@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from grafu.joints.config import BlockConfig, ClearanceConfig, ClosingConfig, PlanConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import BlockConfig, ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
+    ClosingConfig,
     DrawerConfig,
     FlankConfig,
     RailConfig,

@@ -9,6 +9,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.config import at_scale
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame, drawer_frame
 from grafu.joints.rail.search import carried_mesh, slides_in_its_plane
@@ -83,7 +84,7 @@ class ClosedScene:
 
 def closed_scene(scene: Scene, plan: RealizationPlan, drawers: DrawerConfig = DrawerConfig()) -> ClosedScene:
     """Returns a scene with every moving body of a plan closed, once for all steps; parts without faces are left out."""
-    return scene.once(_closed, plan.joints, drawers if scene.metre == 1.0 else drawers.at_scale(scene.metre))
+    return scene.once(_closed, plan.joints, at_scale(drawers, scene.metre))
 
 
 def _closed(scene: Scene, joints: tuple[JointRequest, ...], drawers: DrawerConfig) -> ClosedScene:

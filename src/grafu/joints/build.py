@@ -49,7 +49,8 @@ def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     opening = request.choice.opening if request.coupling is None else request.reference
     if opening is not None and request.kind.turns:
         config = replace(config, door_opening=max(config.door_opening, opening))
-    return _BUILDERS[request.type](request, scene, gallery, config)
+    metre = scene.metre
+    return _BUILDERS[request.type](request, scene, gallery.at_scale(metre), config.at_scale(metre))
 
 
 def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
@@ -111,7 +112,6 @@ def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
 
 
 def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
-    config = config.of_rails(scene.metre)
     search = drawer_search(request, scene, config)
     if search is None:
         return Refusal(request.moving, Reason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
@@ -166,7 +166,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     held_by = scene.static_obstacles_of(request.holders)
-    if not any(o.collider.box.overlaps(box, config.contact * scene.metre) for o in held_by):
+    if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in held_by):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < config.least_opening:

@@ -34,12 +34,13 @@ def expected_motions(
 def _motions(
     requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
 ) -> Iterator[tuple[str, JointMotion]]:
+    config = config.at_scale(scene.metre)
     for request in requests:
         if request.kind.turns:
             door = door_search(request, scene, config)
             yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
             continue
-        drawer = drawer_search(request, scene, config.of_rails(scene.metre))
+        drawer = drawer_search(request, scene, config)
         if drawer is not None:
             yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
 

@@ -18,12 +18,13 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
-from grafu.joints.config import ClosingConfig, RealizationConfig
+from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box, widest_free
 from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.joints.rail.search import drawer_search
+from grafu.joints.rail_config import ClosingConfig
 from grafu.scene.scene import Obstacle, Scene
 
 _ALONG = np.linspace(-0.4, 0.4, 5)
@@ -134,7 +135,7 @@ def _drawers(requests: Iterable[JointRequest], scene: Scene, config: Realization
         is_stated = request.drawn_at > 0 or request.coupling is not None or request.parent
         if is_stated or not request.kind.slides or request.moving not in scene.parts:
             continue
-        search = drawer_search(request, scene, config)
+        search = drawer_search(request, scene, config.at_scale(scene.metre))
         if search is not None and _is_drawer(search.frame, scene, config):
             front = _front_level(search.mesh, search.frame, config.closing)
             yield _Drawer(request, scene, config, search.frame, search.body, front)

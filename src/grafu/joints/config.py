@@ -1,12 +1,16 @@
 """Tolerances, sizes and counts of joints. Lengths marked (extent) are fractions of the object's largest side."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, is_dataclass, replace
 from math import radians
-from typing import final
+from types import MappingProxyType
+from typing import Any, TypeVar, cast, final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
-from grafu.joints.hinge_config import HingeConfig
-from grafu.joints.rail_config import DrawerConfig, RailConfig
+from grafu.joints.hinge_config import FootingConfig, HingeConfig, PivotConfig, SurveyConfig
+from grafu.joints.rail_config import BehindConfig, BodyConfig, ClosingConfig, DrawerConfig, FlankConfig, RailConfig
+
+T = TypeVar("T")
 
 
 @final
@@ -106,67 +110,13 @@ class BlockConfig:
     rest: float = 0.1
     """The block ends where this fraction of the rays that meet it have done so: not all of its face need rest on it."""
     lap: float = 2e-4
-    """How deep a block is inset at both ends, so that it holds (metres; of rails: on furniture of usual size)."""
+    """How deep a block is inset at both ends, so that it holds (metres on furniture of usual size)."""
     near: float = 0.1
     """Static parts farther from a piece of hardware than this do not carry it (extent)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "face", "rest")
-
-
-@final
-@dataclass(frozen=True)
-class ClosingConfig:
-    """When a drawer counts as drawn open, and where it is closed.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
-    """
-
-    least: float = 0.015
-    """What is less open is closed (metres on furniture of usual size)."""
-    least_ratio: float = 0.02
-    """What is less open is closed (fraction of the drawer's depth)."""
-    widest: float = 0.9
-    """How far open a drawer is drawn at most (fraction of its depth)."""
-    alike: float = 0.03
-    """By how much the sides of drawers of one size differ at most (fraction of each side)."""
-    parallel: float = 0.99
-    """Least cosine between the directions of drawers that open alike."""
-    faces_front: float = 0.7
-    """Least cosine between the opening direction and the normal of a face that looks ahead."""
-    front_area: float = 0.25
-    """Least area of a front's face (fraction of the drawer's outline)."""
-    beside: float = 0.03
-    """How far beyond a drawer's outline a drawn runner reaches at most (metres on furniture of usual size)."""
-    runner: float = 0.6
-    """Height of a drawn runner at most (fraction of the drawer's height)."""
-    front_thickness: tuple[float, float] = (0.003, 0.06)
-    """Thinnest and thickest front that lies on what stands around it (metres on furniture of usual size)."""
-    sides: int = 2
-    """On how many sides of a front something stands at least, to close it level with that."""
-    shallowest: float = 0.1
-    """What is less deep is no drawer (metres on furniture of usual size)."""
-    flush: float = 0.003
-    """How far a front stands ahead of what is beside it at most, to be level with it (metres on furniture of usual
-    size)."""
-    plane: float = 0.0005
-    """How near to one plane the faces of fronts lie that are drawn alike (metres on furniture of usual size)."""
-    plainly: float = 0.05
-    """How far ahead of its case a front stands at most, to be drawn so by design where others are in its plane (metres
-    on furniture of usual size)."""
-    proud: float = 0.02
-    """How far a front that could be pushed in stands ahead of what is around it at least, to count as open (metres on
-    furniture of usual size)."""
-    offsets: tuple[float, ...] = (0.004, 0.012, 0.024)
-    """How far beside a front it is looked for what stands around it (metres on furniture of usual size)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, "least", "beside", "proud", "flush", "plane", "plainly", "shallowest", "sides")
-        require_ratios(self, "least_ratio", "widest", "alike", "parallel", "faces_front", "front_area", "runner")
-        if not 0 < self.front_thickness[0] < self.front_thickness[1] or min(self.offsets) <= 0:
-            raise ValueError("`front_thickness` must rise and `offsets` be above 0")
 
 
 @final
@@ -181,9 +131,9 @@ class RealizationConfig:
     depth: float = 0.0004
     """Penetration that counts as a touch (extent): 0.4 mm on one metre; the official swing test warns at 0.5."""
     contact: float = 0.012
-    """Widest seam across which two faces count as contacting (metres on furniture of usual size); official: 10 mm."""
-    flush: float = 0.002
-    """Largest step between two faces that count as flush (metres on furniture of usual size); official: 4 mm."""
+    """Widest seam across which two faces count as contacting (extent); official: 10 mm."""
+    flush: float = 0.006
+    """Largest step between two faces that count as flush (extent); official: 4 mm."""
     anchor: float = 0.001
     """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (extent)."""
     bridge: float = 0.6
@@ -280,9 +230,37 @@ class RealizationConfig:
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")
 
-    def of_rails(self, metre: float) -> "RealizationConfig":
-        """Returns the config for the rails of a model on which a metre is `metre` metres long."""
-        if metre == 1.0:
-            return self
-        block = replace(self.block, lap=metre * self.block.lap)
-        return replace(self, rail=self.rail.at_scale(metre), drawer=self.drawer.at_scale(metre), block=block)
+    def at_scale(self, metre: float) -> "RealizationConfig":
+        """Returns the config for a model on which a metre is `metre` metres long; it is to be asked for once."""
+        return at_scale(self, metre)
+
+
+_LENGTHS: Mapping[type, tuple[str, ...]] = MappingProxyType(
+    {
+        BlockConfig: ("lap",),
+        HingeConfig: ("two_up_to", "one_more_per", "radius", "smallest", "leaf_margin", "tongue", "lap"),
+        SurveyConfig: ("even", "rounding"),
+        PivotConfig: ("disc_inset", "start", "plate", "plate_play", "plate_reach", "plate_end"),
+        FootingConfig: ("thinnest",),
+        DrawerConfig: ("thickest_board", "stands_out"),
+        BodyConfig: ("outside", "even"),
+        RailConfig: ("thinnest", "lowest", "common", "divider", "thinnest_divider", "divider_air", "least_travel"),
+        FlankConfig: ("inside", "ahead", "taller", "thinner"),
+        BehindConfig: ("start", "overlap", "air", "near"),
+    }
+)
+"""Fields that are lengths on furniture of usual size; other such lengths are multiplied where they are used."""
+
+
+def at_scale(config: T, metre: float) -> T:
+    """Returns a config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
+    if metre == 1.0:
+        return config
+    whole, changed = cast(Any, config), dict[str, object]()
+    for name in whole.__dataclass_fields__:
+        value = getattr(whole, name)
+        if is_dataclass(value):
+            changed[name] = at_scale(value, metre)
+        elif name in _LENGTHS.get(type(config), ()):
+            changed[name] = tuple(metre * v for v in value) if isinstance(value, tuple) else metre * value
+    return cast(T, replace(whole, **changed))

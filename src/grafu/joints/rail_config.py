@@ -1,9 +1,9 @@
 """What counts as a drawer, sizes of rails, and the places at which the room for them is measured.
 
-Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
+Lengths are metres on furniture of usual size; see `RealizationConfig.at_scale` for models in another scale.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -33,10 +33,59 @@ class BodyConfig:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "met_ratio", "long")
 
-    def at_scale(self, metre: float) -> "BodyConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("outside", "even")
-        return replace(self, **{name: metre * getattr(self, name) for name in lengths})
+
+@final
+@dataclass(frozen=True)
+class ClosingConfig:
+    """When a drawer counts as drawn open, and where it is closed.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    least: float = 0.015
+    """What is less open is closed (metres on furniture of usual size)."""
+    least_ratio: float = 0.02
+    """What is less open is closed (fraction of the drawer's depth)."""
+    widest: float = 0.9
+    """How far open a drawer is drawn at most (fraction of its depth)."""
+    alike: float = 0.03
+    """By how much the sides of drawers of one size differ at most (fraction of each side)."""
+    parallel: float = 0.99
+    """Least cosine between the directions of drawers that open alike."""
+    faces_front: float = 0.7
+    """Least cosine between the opening direction and the normal of a face that looks ahead."""
+    front_area: float = 0.25
+    """Least area of a front's face (fraction of the drawer's outline)."""
+    beside: float = 0.03
+    """How far beyond a drawer's outline a drawn runner reaches at most (metres on furniture of usual size)."""
+    runner: float = 0.6
+    """Height of a drawn runner at most (fraction of the drawer's height)."""
+    front_thickness: tuple[float, float] = (0.003, 0.06)
+    """Thinnest and thickest front that lies on what stands around it (metres on furniture of usual size)."""
+    sides: int = 2
+    """On how many sides of a front something stands at least, to close it level with that."""
+    shallowest: float = 0.1
+    """What is less deep is no drawer (metres on furniture of usual size)."""
+    flush: float = 0.003
+    """How far a front stands ahead of what is beside it at most, to be level with it (metres on furniture of usual
+    size)."""
+    plane: float = 0.0005
+    """How near to one plane the faces of fronts lie that are drawn alike (metres on furniture of usual size)."""
+    plainly: float = 0.05
+    """How far ahead of its case a front stands at most, to be drawn so by design where others are in its plane (metres
+    on furniture of usual size)."""
+    proud: float = 0.02
+    """How far a front that could be pushed in stands ahead of what is around it at least, to count as open (metres on
+    furniture of usual size)."""
+    offsets: tuple[float, ...] = (0.004, 0.012, 0.024)
+    """How far beside a front it is looked for what stands around it (metres on furniture of usual size)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "least", "beside", "proud", "flush", "plane", "plainly", "shallowest", "sides")
+        require_ratios(self, "least_ratio", "widest", "alike", "parallel", "faces_front", "front_area", "runner")
+        if not 0 < self.front_thickness[0] < self.front_thickness[1] or min(self.offsets) <= 0:
+            raise ValueError("`front_thickness` must rise and `offsets` be above 0")
 
 
 @final
@@ -68,11 +117,6 @@ class DrawerConfig:
     def __post_init__(self) -> None:
         require_positive(self, "thickest_board", "stands_out")
         require_ratios(self, "shallow", "slat", "shortest", "flat", "level")
-
-    def at_scale(self, metre: float) -> "DrawerConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("thickest_board", "stands_out")
-        return replace(self, body=self.body.at_scale(metre), **{name: metre * getattr(self, name) for name in lengths})
 
 
 @final
@@ -121,15 +165,6 @@ class FlankConfig:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "margin", "margin_height", "inside_width", "met", "ahead_length", "highest")
 
-    def at_scale(self, metre: float) -> "FlankConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("inside", "ahead", "taller")
-        return replace(
-            self,
-            thinner=tuple(metre * length for length in self.thinner),
-            **{name: metre * getattr(self, name) for name in lengths},
-        )
-
 
 @final
 @dataclass(frozen=True)
@@ -172,15 +207,6 @@ class BehindConfig:
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(self, "inset", "shallow", "deep", "narrow", "span", "as_deep")
-
-    def at_scale(self, metre: float) -> "BehindConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("start", "overlap", "air")
-        return replace(
-            self,
-            near=tuple(metre * length for length in self.near),
-            **{name: metre * getattr(self, name) for name in lengths},
-        )
 
 
 @final
@@ -248,14 +274,3 @@ class RailConfig:
     def __post_init__(self) -> None:
         require_positive(self, *(set(self.__dataclass_fields__) - {"footing", "flank", "behind"}))
         require_ratios(self, "dynamic_reach", "most_inset", "travel", "around")
-
-    def at_scale(self, metre: float) -> "RailConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        dividers = ("divider", "thinnest_divider", "divider_air")
-        lengths = ("thinnest", "lowest", "common", *dividers, "least_travel")
-        return replace(
-            self,
-            flank=self.flank.at_scale(metre),
-            behind=self.behind.at_scale(metre),
-            **{name: metre * getattr(self, name) for name in lengths},
-        )

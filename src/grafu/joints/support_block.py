@@ -1,7 +1,6 @@
 """Support blocks: prisms that bridge the gap between a piece of hardware and what carries it; which part that is.
 
-A block starts at a rectangle (a snap plane) and is extruded until it meets a surface; rays say how far that is, and
-how much of a leaf lies on one.
+A block starts at a rectangle (a snap plane) and is extruded until it meets a surface; rays say how far that is.
 """
 
 from collections.abc import Iterable
@@ -19,10 +18,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
 from grafu.joints.config import BlockConfig
-from grafu.joints.hinge_config import FootingConfig
 from grafu.joints.plan import JointRequest
 from grafu.scene.scene import Scene
-from grafu.templates.template import HingeSize, SnapPlane
 from grafu.vocabulary import PartLabel
 
 WOOD = Material("support block", base_color=(0.42, 0.31, 0.2, 1.0), roughness=0.85)
@@ -76,29 +73,6 @@ def shortest_bridge(
     found = [(footing, footing.gap(target, reach, config)) for footing in footings]
     reached = [(footing, gap) for footing, gap in found if np.isfinite(gap)]
     return min(reached, key=lambda pair: pair[1], default=None)
-
-
-def resting_width(snap: SnapPlane, size: HingeSize, target: RayCaster, metre: float, config: FootingConfig) -> float:
-    """Returns the widest leaf, measured from the pin, of which enough lies on one plane of its part; 0: none.
-
-    Leaves are let into what stands before that plane by their thickness, and no deeper. `metre` is as in `Scene`.
-    """
-    play = config.resting * metre
-    steps = (np.arange(config.samples) + 0.5) / config.samples
-    outwards = size.radius + steps * (size.leaf - size.radius)
-    across, along = (side.ravel() for side in np.meshgrid(2 * outwards / size.leaf - 1, 2 * steps - 1, indexing="ij"))
-    start = snap.center + across[:, None] * snap.u + along[:, None] * snap.v - (size.thickness + play) * snap.normal
-    distances = target.along(start, snap.normal).reshape(config.samples, config.samples)
-    near = distances[distances <= size.thickness + play + config.thickest * metre]
-    if not len(near):
-        return 0.0
-    plane = max(float(np.quantile(near, config.first)), size.thickness + play)
-    rests = (distances <= plane + play).mean(axis=1)
-    enough = np.flatnonzero(np.cumsum(rests) >= config.rests * np.arange(1, config.samples + 1))
-    if not len(enough):
-        return 0.0
-    last = int(enough[-1]) + 1
-    return size.leaf if last == config.samples else size.radius + last / config.samples * (size.leaf - size.radius)
 
 
 def nearest_part(hardware: Visual, scene: Scene, request: JointRequest, config: BlockConfig) -> str:

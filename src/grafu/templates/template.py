@@ -161,6 +161,12 @@ class HingeTemplate:
         if not 0 < self.range < 2 * np.pi:
             raise TemplateError(f"the range of hinge `{self.id}` must be in (0, 2 pi) radians: got {self.range}")
 
+    def scaled(self, factor: float) -> "HingeTemplate":
+        """Returns the template with all lengths times `factor`."""
+        T = np.diag([factor, factor, factor, 1.0])
+        static, dynamic = self.static.transformed(T), self.dynamic.transformed(T)
+        return replace(self, static=static, dynamic=dynamic, size=self.size.scaled(factor))
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -217,6 +223,14 @@ class HingeModel:
     natural: HingeSize
     build: Callable[[HingeSize], HingeTemplate]
 
+    def at_scale(self, metre: float) -> "HingeModel":
+        """Returns the template for furniture on which a metre is `metre` metres long, screws in scale."""
+        return replace(
+            self,
+            natural=self.natural.scaled(metre),
+            build=lambda size: self.build(size.scaled(1 / metre)).scaled(metre),
+        )
+
 
 @final
 @dataclass(frozen=True)
@@ -229,11 +243,13 @@ class RailModel:
     natural: RailSize
     build: Callable[[RailSize], RailTemplate]
 
-    def built(self, size: RailSize, metre: float) -> RailTemplate:
-        """Returns the template for a model on which a metre is `metre` metres long: screws and sheets are in scale."""
-        if metre == 1.0:
-            return self.build(size)
-        return self.build(size.scaled(1 / metre)).scaled(metre)
+    def at_scale(self, metre: float) -> "RailModel":
+        """Returns the template for furniture on which a metre is `metre` metres long, screws in scale."""
+        return replace(
+            self,
+            natural=self.natural.scaled(metre),
+            build=lambda size: self.build(size.scaled(1 / metre)).scaled(metre),
+        )
 
 
 @final
@@ -252,6 +268,13 @@ class Gallery:
     def hinges_of(self, mechanism: MechanismClass) -> tuple[HingeModel, ...]:
         """Returns the hinges of one class, best first."""
         return tuple(h for h in self.hinges if h.mechanism is mechanism)
+
+    def at_scale(self, metre: float) -> "Gallery":
+        """Returns the gallery for furniture on which a metre is `metre` metres long; it is to be asked for once."""
+        if metre == 1.0:
+            return self
+        hinges = tuple(model.at_scale(metre) for model in self.hinges)
+        return replace(self, hinges=hinges, rails=tuple(model.at_scale(metre) for model in self.rails))
 
     def extended(self, other: "Gallery") -> "Gallery":
         """Returns both galleries as one; the other's templates come first."""

@@ -22,7 +22,7 @@ from grafu.joints.config import BlockConfig
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
 from grafu.joints.hinge_config import FootingConfig, HingeConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
-from grafu.joints.support_block import METAL, Footing, block, resting_width, shortest_bridge
+from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
 from grafu.scene.border import BorderFrame, part_axes
 from grafu.scene.scene import JointMotion, Obstacle, Scene
 from grafu.templates.template import SnapPlane
@@ -78,9 +78,6 @@ _POSES = 11
 
 FLOOR = "the floor"
 """What strikes a hinge that reaches below what the furniture stands on; no part has this name."""
-PACKED, HANGING, LOOSE = "a thick block", "a leaf in the air", "a disc beside what carries it"
-"""What speaks against a hinge as if others struck it: a block too thick, too little below a leaf, a pivot too wide."""
-FLAWS = frozenset((FLOOR, PACKED, HANGING, LOOSE))
 
 
 @final
@@ -116,13 +113,12 @@ class InstalledHinge:
     """One hinge with its support blocks, found to hold on both sides and to cut into no part.
 
     `struck_by` names the other moving bodies that would run into it along their path, and its own where its ends cut
-    into one another; besides, what speaks against it (`FLAWS`). `packed` is the length of its longest support block.
+    into one another.
     """
 
     static: tuple[Visual, ...]
     dynamic: tuple[Visual, ...]
     struck_by: tuple[str, ...] = ()
-    packed: float = 0.0
 
     @property
     def static_meshes(self) -> list[TriangleMesh]:
@@ -141,27 +137,7 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
     static = _anchored_static(hinge, pin, site) if dynamic else None
     if static is None or dynamic is None:
         return None
-    found = judged_hinge(InstalledHinge(static.visuals, dynamic.visuals, packed=max(static.block, dynamic.block)), site)
-    return found and replace(found, struck_by=(*found.struck_by, *_flaws(found, hinge, pin, site)))
-
-
-def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, site: Site) -> Iterator[str]:
-    """Yields what speaks against a hinge on its own parts."""
-    footing = site.config.footing
-    if installed.packed > footing.thickest * site.scene.metre:
-        yield PACKED
-    if resting_leaf(hinge, pin, site) < hinge.template.size.leaf:
-        yield HANGING
-
-
-def resting_leaf(hinge: FittedHinge, pin: PinCandidate, site: Site) -> float:
-    """Returns how wide the leaves may be, at most as they are, for enough of each to lie on its part; 0: none."""
-    T, size = hinge.T_object_template, hinge.template.size
-    ends = [(hinge.template.dynamic.snap, site.door_rays)]
-    ends += [] if pin.inset else [(hinge.template.static.snap, site.static_rays)]
-    return min(
-        resting_width(snap.transformed(T), size, rays, site.scene.metre, site.config.footing) for snap, rays in ends
-    )
+    return judged_hinge(InstalledHinge(static, dynamic), site)
 
 
 def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
@@ -222,43 +198,34 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
     return any(body.penetrates(n.at_rest) for n in site.neighbours)
 
 
-@final
-@dataclass(frozen=True)
-class _Hold:
-    """One end of a hinge with what bridges it to its part, and how long that block is (metres)."""
-
-    visuals: tuple[Visual, ...]
-    block: float = 0.0
-
-
-def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> _Hold | None:
+def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.inset:
         tongue = _tongue(hinge, pin, site)
         held = site.scene.is_near_static(tongue.mesh, site.anchor, site.holders)
-        return _Hold((hinge.static, tongue)) if held else None
+        return (hinge.static, tongue) if held else None
     if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.holders):
-        return _Hold((hinge.static,))
+        return (hinge.static,)
     snap = hinge.template.static.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.static, snap, site.static_rays, site)
 
 
-def _anchored_dynamic(hinge: FittedHinge, site: Site) -> _Hold | None:
+def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | None:
     """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
     if MeshCollider(hinge.dynamic.mesh).is_within(site.anchor, MeshCollider(site.door)):
-        return _Hold((hinge.dynamic,))
+        return (hinge.dynamic,)
     reach = min(site.config.footing.door_reach * site.frame.width, site.reach)
     snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=reach))
 
 
-def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> _Hold | None:
+def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:
     """Returns an end with the shortest support block that reaches the target."""
     bridge = shortest_bridge(_footings(end, snap, site.frame, site.config.footing), target, site.reach, site.block)
     if bridge is None:
         return None
     footing, length = bridge
-    return _Hold((end, block("support_hinge", footing, length, site.block, METAL)), length)
+    return (end, block("support_hinge", footing, length, site.block, METAL))
 
 
 def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame, config: FootingConfig) -> Iterator[Footing]:

@@ -15,6 +15,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.candidates import (
+    MAKESHIFT,
     PinCandidate,
     Tolerances,
     barrel_radius,
@@ -36,7 +37,7 @@ from grafu.joints.limits import (
     widest_free,
 )
 from grafu.joints.plan import PIVOT, JointRequest
-from grafu.scene.border import BorderFrame, border_frame, part_axes, without_handle
+from grafu.scene.border import BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Obstacle, Scene
 
 
@@ -122,13 +123,17 @@ class DoorSearch:
 
     @cached_property
     def slim(self) -> list[JudgedPin]:
-        """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams."""
+        """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams.
+
+        An inset one holds by a tongue of half a millimetre: it comes after the pivots.
+        """
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return []
         tol = replace(
             self._tolerances, radius=max(self.config.hinge.slim * self._tolerances.radius, self.config.hinge.smallest)
         )
-        return self._judged(self._ruled_pins(tol))
+        pins = self._ruled_pins(tol)
+        return self._judged([replace(pin, preference=MAKESHIFT) if pin.inset else pin for pin in pins])
 
     @property
     def expected_axis(self) -> Axis:
@@ -170,9 +175,9 @@ class DoorSearch:
 
     @property
     def _tolerances(self) -> Tolerances:
-        metre = self.scene.metre
+        extent = self.scene.extent
         radius = barrel_radius(self.frame, self.config.hinge) * self.request.choice.scale
-        return Tolerances(self.config.contact * metre, self.config.flush * metre, radius)
+        return Tolerances(self.config.contact * extent, self.config.flush * extent, radius)
 
     def in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
@@ -185,18 +190,17 @@ class DoorSearch:
         return choice.mechanism in (None, pin.mechanism) and choice.template != PIVOT
 
     def _all_in_order(self) -> Iterator[JudgedPin]:
-        """Yields all pins: those of a hinge class that leave the door free, slim ones, pivots, then everything by rank.
+        """Yields all pins: those of a hinge class that leave the door free, then slim ones, then everything by rank.
 
-        What is no board turns about the axis that was asked for, if anything can carry it there. Inset leaves, which
-        show edge-on between a door and what it lies on, come after the pivots.
+        What is no board turns about the axis that was asked for, if anything can carry it there.
         """
-        first = [judged for judged in (*self.ruled, *self.slim) if judged.is_clear and not judged.pin.inset]
+        first = [judged for judged in self.ruled if judged.is_clear]
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             first = [judged for judged in self.others if judged.pin.is_pivot]
         yield from first
-        pivots = [judged for judged in self.others if judged.is_clear and judged.pin.is_pivot and judged not in first]
-        yield from pivots
-        rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in pivots)
+        slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.inset]
+        yield from slim
+        rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in slim)
         yield from sorted(rest, key=lambda j: j.rank)
 
     def best(self) -> JudgedPin:
@@ -258,8 +262,7 @@ def door_search(
 ) -> DoorSearch:
     """Returns the search for one request; what is `ignored` does not count as an obstacle."""
     part = scene.parts[request.moving]
-    around, drawn = config.hinge.survey, border_frame(part.mesh, request.axis)
-    frame = without_handle(drawn, part.mesh, around.front, around.front_rays, around.rounding)
+    frame = border_frame(part.mesh, request.axis)
     most = config.door_opening if _is_stated(request) else _most_opening(frame, config)
     wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(

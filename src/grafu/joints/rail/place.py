@@ -189,7 +189,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     for model in gallery.rails:
         if choice.mechanism not in (None, model.mechanism) or not choice.takes(model.id):
             continue
-        for spot in rail_spots(model, region, gaps, search.config.rail_ratio, search.config.rail, search.scene.metre):
+        for spot in rail_spots(model, region, gaps, search.config.rail_ratio, search.config.rail):
             placed = _with_hardware(model, spot, region, search)
             if placed is not None:
                 return placed
@@ -198,7 +198,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
 
 def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> Placement | None:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
-    template = model.built(spot.size, search.scene.metre)
+    template = model.build(spot.size)
     upper = search.travel(template.range)
     if upper < search.config.least_opening * search.wanted:
         return None

@@ -79,20 +79,20 @@ def _gaps(
 
 
 def rail_spots(
-    model: RailModel, body: BodyRegion, gaps: FlankGaps, ratio: float, config: RailConfig, metre: float = 1.0
+    model: RailModel, body: BodyRegion, gaps: FlankGaps, ratio: float, config: RailConfig
 ) -> Iterator[RailSpot]:
     """Yields spots for one model, best first: at full thickness and inset, at the middle of the flank, then elsewhere.
 
-    `ratio` is the rail's length over the body's (supplement, Scaling), `metre` how long a metre is on the model.
+    `ratio` is the rail's length over the body's (supplement, Scaling).
     """
     flank = body.top - body.bottom
     length = ratio * body.length
     y = body.front + length / 2 if body.is_front_only else body.back - length / 2
-    for thickness in _thicknesses(metre * model.natural.thickness, gaps, config):
+    for thickness in _thicknesses(model.natural.thickness, gaps, config):
         tight = (thickness - min(max(gaps.nearer, 0.0), thickness)) / 2
         inset = min(max(tight, config.dynamic_reach * thickness - gaps.passage, 0.0), config.most_inset * thickness)
         slender = config.flank.slender * thickness + config.flank.taller
-        highest = min(metre * model.natural.height, config.flank.highest * flank, slender)
+        highest = min(model.natural.height, config.flank.highest * flank, slender)
         height = max(highest, min(config.lowest, flank))
         for z in _heights_on(model, body, height, config.flank):
             size = RailSize(length, height, thickness)
