@@ -121,9 +121,13 @@ def joints() -> Iterator[Sentence]:
     """Yields what docs/joints.md, templates.md and exports.md repeat."""
     page = "joints.md"
     yield page, "smaller by {} of the largest side on each side", (BUILT.depth,)
-    yield page, "a face beside the door within {} of the largest side", (BUILT.contact,)
-    yield page, "a face behind the border within {} of the largest side", (BUILT.contact,)
-    yield page, "both fronts flush within {} of it", (BUILT.flush,)
+    pin, footing = BUILT.hinge.pin, BUILT.hinge.footing
+    yield page, "a face beside the door within {:g} barrel radii", (pin.widest_seam,)
+    yield page, "a face behind the border within {:g} radii, at most {:g} wider", (pin.widest_seam, pin.widest_strip)
+    yield page, "a face beside the door within {:g} mm", (1000 * BUILT.contact,)
+    yield page, "both fronts flush within {:g} mm", (1000 * BUILT.flush,)
+    yield page, "one plane of its part, within {:g} mm", (1000 * footing.resting,)
+    yield page, "less than {} of a leaf rests, or with a block over {:g} mm", (footing.rests, 1000 * footing.thickest)
     yield page, "at most the template's and {} degrees", (round(degrees(BUILT.door_opening)),)
     hinge = BUILT.hinge
     yield page, "2 hinges up to {} m and one more per {} m", (hinge.two_up_to, hinge.one_more_per)

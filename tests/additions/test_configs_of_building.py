@@ -53,6 +53,7 @@ POSITIVE = [
     (FlankConfig, "taller"),
     (FootingConfig, "thinnest"),
     (HingeConfig, "tongue"),
+    (PinConfig, "widest_seam"),
     (PinConfig, "widest_strip"),
     (PivotConfig, "plate"),
     (SurveyConfig, "even"),

@@ -166,7 +166,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     held_by = scene.static_obstacles_of(request.holders)
-    if not any(o.collider.box.overlaps(box, config.contact * scene.extent) for o in held_by):
+    if not any(o.collider.box.overlaps(box, config.contact * scene.metre) for o in held_by):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < config.least_opening:

@@ -131,9 +131,9 @@ class RealizationConfig:
     depth: float = 0.0004
     """Penetration that counts as a touch (extent): 0.4 mm on one metre; the official swing test warns at 0.5."""
     contact: float = 0.012
-    """Widest seam across which two faces count as contacting (extent); official: 10 mm."""
-    flush: float = 0.006
-    """Largest step between two faces that count as flush (extent); official: 4 mm."""
+    """Widest seam across which two faces count as contacting (metres on furniture of usual size); official: 10 mm."""
+    flush: float = 0.002
+    """Largest step between two faces that count as flush (metres on furniture of usual size); official: 4 mm."""
     anchor: float = 0.001
     """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (extent)."""
     bridge: float = 0.6

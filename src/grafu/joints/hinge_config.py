@@ -18,6 +18,10 @@ class SurveyConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    front: float = 0.1
+    """How much of what is seen of a door from in front its front is at least; less is a handle (fraction)."""
+    front_rays: int = 48
+    """Number of rays along each side of the door by which this is measured."""
     heights: int = 7
     """Number of heights along the border at which rays are cast."""
     met_at: int = 2
@@ -47,19 +51,21 @@ class SurveyConfig:
     even_behind: float = 0.1
     """Gaps behind the door that differ by less than this and `rounding` are those of one face (in boards)."""
     rounding: float = 1e-4
-    """What is added to that for doors without thickness (metres)."""
+    """What is added to that for doors without thickness, and by how much a front must stand out to count (metres)."""
     edge: tuple[float, ...] = (0.02, 0.1, 0.3, 0.6)
     """Distances behind the door at which a panel that stands edge-on is sought (in boards)."""
     edge_inwards: float = 3.0
     """How far from the border inwards the edge of such a panel lies at most (in boards)."""
     reach: float = 4.0
     """How wide a gap around the door is looked across (in widest seams)."""
+    aside: tuple[float, ...] = (0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0)
+    """Distances from the border outwards to which the face behind the door is followed, ascending (in boards)."""
     outside: tuple[float, ...] = (0.25, 0.6, 1.0)
     """Depths in what stands behind the door at which its outer side is measured (in boards)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "ends", "start", "start_width")
+        require_ratios(self, "front", "ends", "start", "start_width")
 
 
 @final
@@ -89,6 +95,8 @@ class PivotConfig:
     """How far inside the door's end rays to the static body start (fraction of the border's length)."""
     tubes: tuple[float, ...] = (1.5, 3.0, 5.0, 8.0)
     """Radii within which corners of tubes and sockets are sought, which rays pass through (in radii of the pin)."""
+    widest: float = 2.0
+    """Widest disc at the end of a door, as long as anything else carries the door (in radii of the pin)."""
     tube_reach: float = 0.25
     """How far apart such corners may be along the axis, where `reach` is less (fraction of the border's length)."""
     plate: float = 0.002
@@ -128,8 +136,10 @@ class PinConfig:
     """Width of a leaf that lies on an edge or in a seam (fraction of their depth)."""
     front_leaf: float = 0.3
     """Largest width of a leaf that lies on a door's front (fraction of the width)."""
-    widest_strip: float = 3.0
-    """Widest strip of the frame beside an overlay door that has its leaves behind it (in widest seams)."""
+    widest_seam: float = 3.0
+    """Widest seam with leaves in it (in radii)."""
+    widest_strip: float = 4.0
+    """Widest strip of the frame beside an overlay door that has its leaves behind it (in radii)."""
     corner_strip: float = 3.0
     """Narrowest such strip that has room for a hinge in the corner between door and frame (in radii)."""
     pivot: float = 0.06
@@ -174,10 +184,20 @@ class FootingConfig:
     """Longest block between a hinge and its door (fraction of the door's width)."""
     tongue: float = 0.4
     """Half the height of an inset leaf's tongue, and half its thickness (fraction of the leaf's)."""
+    thickest: float = 0.005
+    """Thickest block below a leaf, as long as anything else carries the door (metres on furniture of usual size)."""
+    resting: float = 0.001
+    """How far below a leaf what it rests on lies at most (metres on furniture of usual size)."""
+    rests: float = 0.8
+    """How much of a leaf rests on its part at least, as long as anything else carries the door (fraction)."""
+    first: float = 0.1
+    """How much of a leaf may lie nearer to its part than the plane that it rests on (fraction)."""
+    samples: int = 10
+    """Number of places along each side of a leaf at which this is measured."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "thinnest")
-        require_ratios(self, "snap", "side", "door_reach", "tongue")
+        require_positive(self, "thinnest", "thickest", "resting", "samples")
+        require_ratios(self, "snap", "side", "door_reach", "tongue", "rests", "first")
 
 
 @final
@@ -254,7 +274,6 @@ class HingeConfig:
     """A part thicker than this fraction of its width is no door panel."""
     nearly: float = 0.05
     """A pin that leaves this fraction of the wanted opening blocked is still as good as free."""
-
     survey: SurveyConfig = SurveyConfig()
     """Of what lies around a border."""
     carriers: float = 0.25
@@ -265,7 +284,6 @@ class HingeConfig:
     """How far a door is to open where nothing states it (radians)."""
     least_opening: float = radians(30)
     """How far a door is to open at least, whatever is stated (radians)."""
-
     footing: FootingConfig = FootingConfig()
     """Of what holds hinges."""
     pin: PinConfig = PinConfig()

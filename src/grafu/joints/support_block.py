@@ -1,6 +1,7 @@
 """Support blocks: prisms that bridge the gap between a piece of hardware and what carries it; which part that is.
 
-A block starts at a rectangle (a snap plane) and is extruded until it meets a surface; rays say how far that is.
+A block starts at a rectangle (a snap plane) and is extruded until it meets a surface; rays say how far that is, and
+how much of a leaf lies on one.
 """
 
 from collections.abc import Iterable
@@ -8,18 +9,22 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat3, Points, Vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
 from grafu.joints.config import BlockConfig
+from grafu.joints.hinge_config import FootingConfig
 from grafu.joints.plan import JointRequest
 from grafu.scene.scene import Scene
+from grafu.templates.template import HingeSize, SnapPlane
 from grafu.vocabulary import PartLabel
 
 WOOD = Material("support block", base_color=(0.42, 0.31, 0.2, 1.0), roughness=0.85)
@@ -73,6 +78,41 @@ def shortest_bridge(
     found = [(footing, footing.gap(target, reach, config)) for footing in footings]
     reached = [(footing, gap) for footing, gap in found if np.isfinite(gap)]
     return min(reached, key=lambda pair: pair[1], default=None)
+
+
+def resting_width(
+    snap: SnapPlane, pin: Axis, size: HingeSize, target: RayCaster, metre: float, config: FootingConfig
+) -> float:
+    """Returns the widest leaf, measured from the pin, of which enough lies on one plane of its part; 0: none.
+
+    Leaves are let into what stands before that plane by their thickness, and no deeper. The snap plane may lie
+    anywhere on its leaf, with its extents in either order and sense. `metre` is as in `Scene`.
+    """
+    play = config.resting * metre
+    steps = (np.arange(config.samples) + 0.5) / config.samples
+    start = _on_leaf(snap, pin, size, steps) - (size.thickness + play) * snap.normal
+    distances = target.along(start, snap.normal).reshape(config.samples, config.samples)
+    near = distances[distances <= size.thickness + play + config.thickest * metre]
+    if not len(near):
+        return 0.0
+    plane = max(float(np.quantile(near, config.first)), size.thickness + play)
+    rests = (distances <= plane + play).mean(axis=1)
+    enough = np.flatnonzero(np.cumsum(rests) >= config.rests * np.arange(1, config.samples + 1))
+    if not len(enough):
+        return 0.0
+    last = int(enough[-1]) + 1
+    return size.leaf if last == config.samples else size.radius + last / config.samples * (size.leaf - size.radius)
+
+
+def _on_leaf(snap: SnapPlane, pin: Axis, size: HingeSize, steps: Float[np.ndarray, " k"]) -> Points:
+    """Returns points of the plane of a leaf, the nearest to the pin first; `steps` are fractions along each side."""
+    away = snap.center - pin.point
+    below_pin = pin.point + (away @ snap.normal) * snap.normal + (away @ pin.direction) * pin.direction
+    outwards = np.cross(pin.direction, snap.normal)
+    outwards *= np.copysign(1.0, outwards @ away)
+    across = size.radius + steps * (size.leaf - size.radius)
+    x, z = (side.ravel()[:, None] for side in np.meshgrid(across, (steps - 0.5) * size.length, indexing="ij"))
+    return np.asarray(below_pin + x * outwards + z * pin.direction)
 
 
 def nearest_part(hardware: Visual, scene: Scene, request: JointRequest, config: BlockConfig) -> str:

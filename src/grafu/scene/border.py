@@ -5,7 +5,7 @@ opening axis, right-handed. The origin lies on the hinge border's front edge at 
 0 <= x <= width, -thickness <= y <= 0, |z| <= length / 2.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -14,6 +14,7 @@ from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_a
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
 
 _THIN_BOARD = 0.008
@@ -97,3 +98,21 @@ def _framed(mesh: TriangleMesh, x: Vec3, z: Vec3) -> BorderFrame:
     origin = vec3(float(local.low[0]), float(local.high[1]), float(local.center[2]))
     width, thickness, length = (float(s) for s in local.size)
     return BorderFrame(rotation @ origin, rotation, width, thickness, length)
+
+
+def without_handle(frame: BorderFrame, mesh: TriangleMesh, ratio: float, rays: int, play: float) -> BorderFrame:
+    """Returns the frame with its front where a fraction of what is seen of the door from in front is reached.
+
+    A handle that belongs to the door's mesh stands out of that. So many rays are cast along each side; fronts that
+    differ by less than `play`, metres, are one.
+    """
+    steps = (np.arange(rays) + 0.5) / rays
+    x, z = (side.ravel() for side in np.meshgrid(steps * frame.width, (steps - 0.5) * frame.length))
+    start = frame.to_object(np.column_stack([x, np.full(len(x), frame.board), z]))
+    depths = RayCaster(mesh).along(start, frame.direction(0.0, -1.0, 0.0)) - frame.board
+    met = np.sort(depths[np.isfinite(depths)])
+    stands_out = float(met[int(ratio * len(met))]) if len(met) else 0.0
+    if not play < stands_out < frame.thickness:
+        return frame
+    origin = frame.to_object(vec3(0.0, -stands_out, 0.0)[None])[0]
+    return replace(frame, origin=origin, thickness=frame.thickness - stands_out)

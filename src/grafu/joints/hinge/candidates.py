@@ -36,9 +36,9 @@ class PinCandidate:
 
     `leaf_room` is how far a leaf may reach from the pin before it leaves the narrower of its two faces, `radius` that
     of the barrel, for which the pin's place is right; `preference`
-    orders classes (lower is better: C, F, P as in the paper, then makeshift mounts). `inset` states that the static
-    leaf is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends carry the
-    door.
+    orders classes (lower is better: C, F, P as in the paper, then pivots, then makeshift mounts). `inset` states that
+    the static leaf is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends
+    carry the door.
     """
 
     mechanism: MechanismClass
@@ -67,7 +67,8 @@ _Rule = Callable[[BorderFrame, BorderSurvey, Tolerances, PinConfig], PinCandidat
 
 def _contact_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """C beside an inset door: the leaves lie in the seam, the barrel in front of it."""
-    if not (s.side_gap <= tol.contact and s.side_top <= config.proud * tol.radius):
+    seam = min(tol.contact, config.widest_seam * tol.radius)
+    if not (s.side_gap <= seam and s.side_top <= config.proud * tol.radius):
         return None
     depth = min(frame.board, s.side_depth) if s.side_depth > 0 else frame.board
     room = tol.radius + config.edge_leaf * depth
@@ -75,9 +76,13 @@ def _contact_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config:
 
 
 def _contact_behind(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
-    """C behind an overlay door: the leaves lie between its back and the carcass, the barrel beside both."""
+    """C behind an overlay door: the leaves lie between its back and the carcass, the barrel beside both.
+
+    Where the carcass is wider than the door, the barrel stands beside it, off the door by that much.
+    """
     strip = max(0.0, -s.side_face)
-    if not (s.back_gap <= tol.contact and strip <= config.widest_strip * tol.contact):
+    seam = min(tol.contact, config.widest_seam * tol.radius)
+    if not (s.back_gap <= seam and strip <= config.widest_strip * tol.radius):
         return None
     room = tol.radius + strip + max(config.edge_leaf * s.back_width, 2 * tol.radius)
     y = -frame.thickness - max(s.back_gap, 0.0) / 2
@@ -113,8 +118,8 @@ def _corner_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: 
 
 def _corner_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
     """P in the corner between an overlay door's edge and the frame that it lies on."""
-    strip = -s.side_face
-    if not (s.back_gap <= tol.contact and np.isfinite(strip) and strip >= config.corner_strip * tol.radius):
+    strip = max(s.beside_width, -s.side_face if np.isfinite(s.side_face) else 0.0)
+    if not (s.back_gap <= tol.contact and strip >= config.corner_strip * tol.radius):
         return None
     y = -frame.thickness - max(s.back_gap, 0.0) + tol.radius
     room = min(strip - tol.radius, frame.board)
@@ -122,11 +127,15 @@ def _corner_side(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: P
 
 
 def _inset_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
-    """C at a door's front edge, its static leaf inset in what stands behind: for doors that meet over one divider."""
+    """C at a door's front edge, its static leaf inset in what stands behind: for doors that meet over one divider.
+
+    Elsewhere the leaf shows edge-on between the door and what it lies on: a last resort.
+    """
     if not np.isfinite(s.back_gap):
         return None
     room = tol.radius + config.edge_leaf * frame.board
-    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, 3, inset=True)
+    preference = 3 if s.meets else MAKESHIFT
+    return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, preference, inset=True)
 
 
 _RULES: tuple[_Rule, ...] = (
@@ -214,9 +223,14 @@ def hinge_size(
     length = min(wanted, config.spacing * frame.length / (count + 1))
     leaf = min(scale * model.natural.leaf, pin.leaf_room)
     thickness = min(scale * model.natural.thickness, config.leaf_thickness * radius)
-    if leaf < config.narrowest_leaf * radius + config.leaf_margin or length < 2 * radius:
+    if not is_leaf(leaf, radius, config) or length < 2 * radius:
         return None
     return HingeSize(length, leaf, thickness, radius)
+
+
+def is_leaf(width: float, radius: float, config: HingeConfig) -> bool:
+    """Whether a leaf so wide, metres from the pin, reaches far enough beyond a barrel of a radius."""
+    return width >= config.narrowest_leaf * radius + config.leaf_margin
 
 
 def fit_hinge(model: HingeModel, size: HingeSize, frame: BorderFrame, pin: PinCandidate, z: float) -> FittedHinge:

@@ -14,6 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -22,7 +23,7 @@ from grafu.joints.config import BlockConfig
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
 from grafu.joints.hinge_config import FootingConfig, HingeConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
-from grafu.joints.support_block import METAL, Footing, block, shortest_bridge
+from grafu.joints.support_block import METAL, Footing, block, resting_width, shortest_bridge
 from grafu.scene.border import BorderFrame, part_axes
 from grafu.scene.scene import JointMotion, Obstacle, Scene
 from grafu.templates.template import SnapPlane
@@ -78,6 +79,9 @@ _POSES = 11
 
 FLOOR = "the floor"
 """What strikes a hinge that reaches below what the furniture stands on; no part has this name."""
+PACKED, HANGING, LOOSE = "a thick block", "a leaf in the air", "a disc beside what carries it"
+"""What speaks against a hinge as if others struck it: a block too thick, too little below a leaf, a pivot too wide."""
+FLAWS = frozenset((FLOOR, PACKED, HANGING, LOOSE))
 
 
 @final
@@ -113,12 +117,13 @@ class InstalledHinge:
     """One hinge with its support blocks, found to hold on both sides and to cut into no part.
 
     `struck_by` names the other moving bodies that would run into it along their path, and its own where its ends cut
-    into one another.
+    into one another; besides, what speaks against it (`FLAWS`). `packed` is the length of its longest support block.
     """
 
     static: tuple[Visual, ...]
     dynamic: tuple[Visual, ...]
     struck_by: tuple[str, ...] = ()
+    packed: float = 0.0
 
     @property
     def static_meshes(self) -> list[TriangleMesh]:
@@ -137,7 +142,26 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
     static = _anchored_static(hinge, pin, site) if dynamic else None
     if static is None or dynamic is None:
         return None
-    return judged_hinge(InstalledHinge(static, dynamic), site)
+    found = judged_hinge(InstalledHinge(static.visuals, dynamic.visuals, packed=max(static.block, dynamic.block)), site)
+    return found and replace(found, struck_by=(*found.struck_by, *_flaws(found, hinge, pin, site)))
+
+
+def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, site: Site) -> Iterator[str]:
+    """Yields what speaks against a hinge on its own parts."""
+    footing = site.config.footing
+    if installed.packed > footing.thickest * site.scene.metre:
+        yield PACKED
+    if resting_leaf(hinge, pin, site) < hinge.template.size.leaf:
+        yield HANGING
+
+
+def resting_leaf(hinge: FittedHinge, pin: PinCandidate, site: Site) -> float:
+    """Returns how wide the leaves may be, at most as they are, for enough of each to lie on its part; 0: none."""
+    T, size = hinge.T_object_template, hinge.template.size
+    pin_line, metre, config = Axis(T[:3, 3], T[:3, 2]), site.scene.metre, site.config.footing
+    ends = [(hinge.template.dynamic.snap, site.door_rays)]
+    ends += [] if pin.inset else [(hinge.template.static.snap, site.static_rays)]
+    return min(resting_width(snap.transformed(T), pin_line, size, rays, metre, config) for snap, rays in ends)
 
 
 def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
@@ -198,34 +222,43 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
     return any(body.penetrates(n.at_rest) for n in site.neighbours)
 
 
-def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> tuple[Visual, ...] | None:
+@final
+@dataclass(frozen=True)
+class _Hold:
+    """One end of a hinge with what bridges it to its part, and how long that block is (metres)."""
+
+    visuals: tuple[Visual, ...]
+    block: float = 0.0
+
+
+def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> _Hold | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.inset:
         tongue = _tongue(hinge, pin, site)
         held = site.scene.is_near_static(tongue.mesh, site.anchor, site.holders)
-        return (hinge.static, tongue) if held else None
+        return _Hold((hinge.static, tongue)) if held else None
     if site.scene.is_near_static(hinge.static.mesh, site.anchor, site.holders):
-        return (hinge.static,)
+        return _Hold((hinge.static,))
     snap = hinge.template.static.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.static, snap, site.static_rays, site)
 
 
-def _anchored_dynamic(hinge: FittedHinge, site: Site) -> tuple[Visual, ...] | None:
+def _anchored_dynamic(hinge: FittedHinge, site: Site) -> _Hold | None:
     """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
     if MeshCollider(hinge.dynamic.mesh).is_within(site.anchor, MeshCollider(site.door)):
-        return (hinge.dynamic,)
+        return _Hold((hinge.dynamic,))
     reach = min(site.config.footing.door_reach * site.frame.width, site.reach)
     snap = hinge.template.dynamic.snap.transformed(hinge.T_object_template)
     return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=reach))
 
 
-def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> tuple[Visual, ...] | None:
+def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> _Hold | None:
     """Returns an end with the shortest support block that reaches the target."""
     bridge = shortest_bridge(_footings(end, snap, site.frame, site.config.footing), target, site.reach, site.block)
     if bridge is None:
         return None
     footing, length = bridge
-    return (end, block("support_hinge", footing, length, site.block, METAL))
+    return _Hold((end, block("support_hinge", footing, length, site.block, METAL)), length)
 
 
 def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame, config: FootingConfig) -> Iterator[Footing]:

@@ -10,17 +10,27 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import final
 
+import numpy as np
+
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.mesh import merge_meshes
-from grafu.joints.hinge.candidates import PIVOTS, PinCandidate, fit_hinge, hinge_heights, hinge_size
-from grafu.joints.hinge.hardware import FLOOR, InstalledHinge, Site, install, judged_hinge
+from grafu.joints.hinge.candidates import (
+    PIVOTS,
+    PinCandidate,
+    fit_hinge,
+    hinge_heights,
+    hinge_size,
+    is_leaf,
+    turns_about_itself,
+)
+from grafu.joints.hinge.hardware import FLAWS, FLOOR, LOOSE, InstalledHinge, Site, install, judged_hinge, resting_leaf
 from grafu.joints.hinge.pivot import pivot_ends
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
 from grafu.joints.limits import in_the_way
 from grafu.joints.plan import PIVOT
 from grafu.joints.report import Placement
 from grafu.joints.support_block import nearest_part
-from grafu.templates.template import Gallery, HingeModel
+from grafu.templates.template import Gallery, HingeModel, HingeSize
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
@@ -65,21 +75,24 @@ def _placed(search: DoorSearch, gallery: Gallery, count: int) -> Placement | Non
 
 
 def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None:
-    """Returns the first whole placement that the fewest joints that stand would run into."""
+    """Returns the first whole placement that the fewest joints that stand would run into, wide and sound at best."""
     least: Placement | None = None
     for one in tries:
         placement = one.whole()
-        if placement is None:
-            continue
-        hit = _built_ones(placement.struck_by, search)
-        if least is None or len(hit) < len(_built_ones(least.struck_by, search)):
+        if placement is not None and (least is None or _drawbacks(placement, search) < _drawbacks(least, search)):
             least = placement
-        if not hit:
+        if least is not None and not any(_drawbacks(least, search)):
             break
     if least is None:
         return None
     hits = (f"{name} runs into its hardware" for name in _built_ones(least.struck_by, search))
     return replace(least, notes=tuple(hits))
+
+
+def _drawbacks(placement: Placement, search: DoorSearch) -> tuple[int, bool, bool, int]:
+    """Returns how many joints that stand run into it, whether it opens too little or is loose, and how many flaws."""
+    is_narrow, flaws = placement.upper < search.config.restricted * search.wanted, FLAWS & {*placement.struck_by}
+    return len(_built_ones(placement.struck_by, search)), is_narrow, LOOSE in flaws, len(flaws)
 
 
 def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
@@ -97,10 +110,10 @@ def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> 
             templates[other.struck_by].append(name)
     notes = []
     for struck_by, which in templates.items():
-        others = ["its own door" if name == moving else name for name in struck_by if name != FLOOR]
+        others = ["its own door" if name == moving else name for name in struck_by if name not in FLAWS]
         why = [f"stand in the way of {', '.join(others)}"] if others else []
         why += ["reach below the floor"] if FLOOR in struck_by else []
-        notes.append(f"{' or '.join(which)} would {' and '.join(why)}")
+        notes += [f"{' or '.join(which)} would {' and '.join(why)}"] if why else []
     return replace(placement, notes=tuple(notes))
 
 
@@ -140,11 +153,24 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     door = search.scene.parts[search.request.moving].mesh
     ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
-    held = [hinge for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)]
-    free = [hinge for hinge in held if not {*hinge.struck_by} - {FLOOR}]
+    held = [
+        _as_disc(hinge, judged, site, search) for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)
+    ]
+    free = [hinge for hinge in held if not {*hinge.struck_by} - FLAWS]
     if held:
         placement = _placement(judged, PIVOT, upper, free or held, search)
         yield _Try(placement, lambda: placement)
+
+
+def _as_disc(hinge: InstalledHinge, judged: JudgedPin, site: Site, search: DoorSearch) -> InstalledHinge:
+    """Returns a pivot with its flaw, if any: no static part carries it, or it is wide to reach one beside the door."""
+    points = search.frame.to_border(hinge.dynamic[0].mesh.vertices)
+    is_wide = float(np.ptp(points[:, 0])) > 2 * search.config.hinge.pivot.widest * judged.pin.radius
+    is_carried = site.scene.is_near_static(merge_meshes(hinge.static_meshes), site.anchor, site.holders)
+    about_itself = turns_about_itself(search.frame, search.request.axis, search.config.hinge)
+    if about_itself or (is_carried and not is_wide):
+        return hinge
+    return replace(hinge, struck_by=(*hinge.struck_by, LOOSE))
 
 
 def _is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
@@ -198,6 +224,7 @@ def _installed(
     size = hinge_size(model, search.frame, pin, count, search.config.hinge, search.request.choice.scale)
     if size is None:
         return
+    size = _on_material(model, size, pin, site, count, search)
     taken: list[float] = []
     for z in hinge_heights(search.frame.length, count):
         levels = [float(z) + ratio * search.frame.length for ratio in _HEIGHT_SHIFTS]
@@ -209,6 +236,16 @@ def _installed(
             return
         taken.append(found[0])
         yield found[1]
+
+
+def _on_material(
+    model: HingeModel, size: HingeSize, pin: PinCandidate, site: Site, count: int, search: DoorSearch
+) -> HingeSize:
+    """Returns the size with leaves no wider than what they rest on; as it is where that is too narrow for any."""
+    heights = hinge_heights(search.frame.length, count)
+    widest = [resting_leaf(fit_hinge(model, size, search.frame, pin, float(z)), pin, site) for z in heights]
+    leaf = min((width for width in widest if is_leaf(width, size.radius, search.config.hinge)), default=size.leaf)
+    return replace(size, leaf=leaf)
 
 
 def _first_unstruck(hinges: Iterator[tuple[float, InstalledHinge]]) -> tuple[float, InstalledHinge] | None:

@@ -15,7 +15,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.candidates import (
-    MAKESHIFT,
+    PIVOTS,
     PinCandidate,
     Tolerances,
     barrel_radius,
@@ -27,17 +27,9 @@ from grafu.joints.hinge.candidates import (
 )
 from grafu.joints.hinge.hardware import Neighbour, neighbours_of
 from grafu.joints.hinge.survey import BorderSurvey, survey
-from grafu.joints.limits import (
-    all_blockers,
-    free_opening,
-    in_the_way,
-    sweep,
-    swept_box,
-    widest_above,
-    widest_free,
-)
+from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
 from grafu.joints.plan import PIVOT, JointRequest
-from grafu.scene.border import BorderFrame, border_frame, part_axes
+from grafu.scene.border import BorderFrame, border_frame, part_axes, without_handle
 from grafu.scene.scene import Obstacle, Scene
 
 
@@ -123,17 +115,13 @@ class DoorSearch:
 
     @cached_property
     def slim(self) -> list[JudgedPin]:
-        """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams.
-
-        An inset one holds by a tongue of half a millimetre: it comes after the pivots.
-        """
+        """The pins of the hinge classes for barrels of half the size, best first: they keep within narrow seams."""
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return []
         tol = replace(
             self._tolerances, radius=max(self.config.hinge.slim * self._tolerances.radius, self.config.hinge.smallest)
         )
-        pins = self._ruled_pins(tol)
-        return self._judged([replace(pin, preference=MAKESHIFT) if pin.inset else pin for pin in pins])
+        return self._judged(self._ruled_pins(tol))
 
     @property
     def expected_axis(self) -> Axis:
@@ -171,13 +159,21 @@ class DoorSearch:
 
     def _survey(self, tol: Tolerances) -> BorderSurvey:
         config = self.config.hinge.survey
-        return survey(self.frame, self.static_rays, config.reach * tol.contact, config)
+        found = survey(self.frame, self.static_rays, config.reach * tol.contact, config)
+        return replace(found, meets=self._meets(tol.contact))
+
+    def _meets(self, seam: float) -> bool:
+        """Whether another moving body, closed, stands within a seam, metres, beside the hinge border."""
+        frame = self.frame
+        corners = [(x, y, z) for x in (-seam, 0.0) for y in (-frame.thickness, 0.0) for z in (-0.5, 0.5)]
+        beside = Box.around(frame.to_object(np.array(corners) * (1.0, 1.0, frame.length)))
+        return any(body.collider.box.overlaps(beside, 0.0) for body in self.neighbours)
 
     @property
     def _tolerances(self) -> Tolerances:
-        extent = self.scene.extent
+        metre = self.scene.metre
         radius = barrel_radius(self.frame, self.config.hinge) * self.request.choice.scale
-        return Tolerances(self.config.contact * extent, self.config.flush * extent, radius)
+        return Tolerances(self.config.contact * metre, self.config.flush * metre, radius)
 
     def in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
@@ -190,17 +186,19 @@ class DoorSearch:
         return choice.mechanism in (None, pin.mechanism) and choice.template != PIVOT
 
     def _all_in_order(self) -> Iterator[JudgedPin]:
-        """Yields all pins: those of a hinge class that leave the door free, then slim ones, then everything by rank.
+        """Yields all pins: those of a hinge class that leave the door free, slim ones, pivots, then everything by rank.
 
-        What is no board turns about the axis that was asked for, if anything can carry it there.
+        What is no board turns about the axis that was asked for, if anything can carry it there. Inset leaves come
+        after the pivots, except between doors that meet.
         """
-        first = [judged for judged in self.ruled if judged.is_clear]
+        slim = (judged for judged in self.slim if not judged.pin.inset)
+        first = [judged for judged in (*self.ruled, *slim) if judged.is_clear and judged.pin.preference < PIVOTS]
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             first = [judged for judged in self.others if judged.pin.is_pivot]
         yield from first
-        slim = [judged for judged in self.slim if judged.is_clear and not judged.pin.inset]
-        yield from slim
-        rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in slim)
+        pivots = [judged for judged in self.others if judged.is_clear and judged.pin.is_pivot and judged not in first]
+        yield from pivots
+        rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in pivots)
         yield from sorted(rest, key=lambda j: j.rank)
 
     def best(self) -> JudgedPin:
@@ -262,7 +260,8 @@ def door_search(
 ) -> DoorSearch:
     """Returns the search for one request; what is `ignored` does not count as an obstacle."""
     part = scene.parts[request.moving]
-    frame = border_frame(part.mesh, request.axis)
+    around, drawn = config.hinge.survey, border_frame(part.mesh, request.axis)
+    frame = without_handle(drawn, part.mesh, around.front, around.front_rays, around.rounding)
     most = config.door_opening if _is_stated(request) else _most_opening(frame, config)
     wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(

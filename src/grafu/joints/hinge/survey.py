@@ -22,8 +22,8 @@ class BorderSurvey:
     `side_gap`: from the border outwards (-x) to a face beside the door. `side_top`: the y of that neighbour's front,
     how far it stands out beyond the door's front. `back_gap`: from the door's back (-y) to a face behind the border.
     `side_face`: the x of the outer face of what stands behind the door. `back_width`: how far (+x) the face behind
-    reaches from the border inwards. `side_depth`: how deep (-y, from the door's front) the face beside the door
-    reaches.
+    reaches from the border inwards, `beside_width` how far it goes on outwards (-x). `side_depth`: how deep (-y, from
+    the door's front) the face beside the door reaches. `meets`: whether another moving body stands beside the border.
     """
 
     side_gap: float
@@ -32,6 +32,8 @@ class BorderSurvey:
     back_gap: float
     back_width: float
     side_face: float
+    beside_width: float
+    meets: bool = False
 
 
 def survey(frame: BorderFrame, body: RayCaster, reach: float, config: SurveyConfig) -> BorderSurvey:
@@ -46,6 +48,7 @@ def survey(frame: BorderFrame, body: RayCaster, reach: float, config: SurveyConf
         back_gap=back_gap,
         back_width=back_width,
         side_face=probe.side_face(back_gap),
+        beside_width=probe.beside_width(back_gap),
     )
 
 
@@ -76,14 +79,15 @@ class _Probe:
         """Returns the y of the front of what stands beside the door, seen from in front of it."""
         if not np.isfinite(side_gap):
             return float("-inf")
-        tops = [self._height_at(-max(side_gap, 0.0) - step * self._frame.board) for step in self._config.in_front]
+        board = self._frame.board
+        tops = [self._height_at(-max(side_gap, 0.0) - step * board, board) for step in self._config.in_front]
         found = [top for top in tops if np.isfinite(top)]
         return float(np.median(found)) if found else float("-inf")
 
-    def _height_at(self, x: float) -> float:
-        """Returns the y at which rays from the front meet the static body at an x."""
+    def _height_at(self, x: float, depth: float) -> float:
+        """Returns the y at which rays from the front meet the static body at an x, down to a depth."""
         start = self._reach
-        distance = self.median_of(self.row(x, start, 0.0, -1.0), start + self._frame.board)
+        distance = self.median_of(self.row(x, start, 0.0, -1.0), start + depth)
         return start - distance
 
     def side_depth(self, side_gap: float) -> float:
@@ -133,3 +137,14 @@ class _Probe:
             faces.append(distance - self._reach)
         found = [x for x in faces if np.isfinite(x)]
         return float(np.median(found)) if found else float("-inf")
+
+    def beside_width(self, back_gap: float) -> float:
+        """Returns how far outwards of the border the face behind the door goes on at one level."""
+        if not np.isfinite(back_gap):
+            return 0.0
+        level = -self._frame.thickness - back_gap
+        play = self._config.even_behind * self._frame.board + self._config.rounding
+        steps = np.array(self._config.aside) * self._frame.board
+        even = np.array([abs(self._height_at(-x, play - level) - level) <= play for x in steps])
+        end = int(np.argmin(even)) if not even.all() else len(even)
+        return float(steps[end - 1]) if end else 0.0
