@@ -16,8 +16,8 @@ from grafu.articulation.physics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.joints.config import RealizationConfig
-from grafu.metrics import tops
 from grafu.metrics.collision import ConnectivityConfig
+from grafu.metrics.tops import DEFAULT_TOP_MEASURE_CONFIG as TOP_MEASURE
 from grafu.templates import user
 from grafu.templates.rails import TRAVEL
 
@@ -59,8 +59,8 @@ def additions() -> Iterator[Sentence]:
         ),
     )
     yield page, "What begins {} to {} mm above the rim", (mm(TOP.outline.slot), mm(TOP.outline.high_slot))
-    yield page, "over all that reaches to within {} % of the height below it", (per_cent(tops._NEAR),)
-    yield page, "that plan lies more than {} % of the height below it", (per_cent(tops._OPEN),)
+    yield page, "over all that reaches to within {} % of the height below it", (per_cent(TOP_MEASURE.near),)
+    yield page, "that plan lies more than {} % of the height below it", (per_cent(TOP_MEASURE.opened),)
     yield page, "where one new top lies over {} % of it", (per_cent(COVERED),)
     yield (
         page,

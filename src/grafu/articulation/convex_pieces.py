@@ -21,16 +21,16 @@ from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import tidy_parts, welded
+from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid
 
 _DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
-_PAST_THE_WALL = 0.0005  # metres: faces on a cut belong to the board that is cut off
+_HULL_CORNERS = 32
 _GRID = 10  # points per side at most: pits narrower than a tenth of the part are filled
 _slice: Any = slice_faces_plane  # trimesh states no types
 _TRIES = 4  # walls of one pit that are tried for a clean cut
-_SPECK = 0.004  # pieces smaller than this (metres) carry no load and stop no hand
 
 
 @final
@@ -38,13 +38,23 @@ _SPECK = 0.004  # pieces smaller than this (metres) carry no load and stop no ha
 class PieceConfig:
     """How finely a mesh is taken apart.
 
-    Pits less deep than `tolerance` metres are filled. At most `most` pieces come of one mesh; without `cuts`, connected
-    parts stay whole.
+    Raises:
+        ValueError: if a number is not above 0.
     """
 
     tolerance: float = 0.02
+    """Pits less deep than this are filled (metres)."""
     most: int = 16
+    """Most pieces of one mesh."""
     cuts: bool = True
+    """Without them, connected parts stay whole."""
+    past_wall: float = 0.0005
+    """How far behind the wall of a pit a cut lies: faces on it belong to the board that is cut off (metres)."""
+    speck: float = 0.004
+    """Pieces with a shorter diagonal carry no load and stop no hand (metres)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "tolerance", "most", "past_wall", "speck")
 
 
 DEFAULT_PIECE_CONFIG = PieceConfig()
@@ -55,8 +65,8 @@ def convex_pieces(mesh: TriangleMesh, config: PieceConfig = DEFAULT_PIECE_CONFIG
 
     Specks of a few millimetres are left out, except where there is nothing else.
     """
-    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config.tolerance), config)]
-    return [piece for piece in pieces if piece.box.diagonal > _SPECK] or pieces[:1]
+    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config))]
+    return [piece for piece in pieces if piece.box.diagonal > config.speck] or pieces[:1]
 
 
 def hull_of(points: Points, least_thickness: float) -> ConvexSolid | None:
@@ -82,18 +92,18 @@ class _Piece:
     """A mesh and, where it bounds a solid, that solid: what is cut from a solid stays one."""
 
     mesh: TriangleMesh
-    tolerance: float
+    config: PieceConfig
     solid: Any = None  # a manifold3d.Manifold
 
     @cached_property
     def pit(self) -> Vec3 | None:
         """The point of the deepest pit, None where every pit is within the tolerance."""
-        mesh, side = self.mesh, float(self.mesh.box.size.max())
-        if side < 2 * self.tolerance or _is_box(mesh):
+        mesh, side, tolerance = self.mesh, float(self.mesh.box.size.max()), self.config.tolerance
+        if side < 2 * tolerance or _is_box(mesh):
             return None
-        points = _inside_hull(mesh, _grid(mesh.box, self.tolerance))
+        points = _inside_hull(mesh, _grid(mesh.box, tolerance), self.config.speck)
         depth = _depths(self.caster, points, side)
-        if not len(depth) or depth.max() <= self.tolerance:
+        if not len(depth) or depth.max() <= tolerance:
             return None
         return points[int(np.argmax(depth))]
 
@@ -107,7 +117,7 @@ class _Piece:
         if self.solid is not None:
             return [self._of_solid(part) for part in self.solid.decompose()]
         parts = ((part, _solid(part) if closed else None) for part, closed in tidy_parts(self.mesh))
-        return [_Piece(part, self.tolerance) if solid is None else self._of_solid(solid) for part, solid in parts]
+        return [_Piece(part, self.config) if solid is None else self._of_solid(solid) for part, solid in parts]
 
     def halves(self, axis: int, sign: float, position: float) -> tuple["_Piece", "_Piece"]:
         """Returns what lies beyond a plane across `axis` (on the side of `sign`), and the rest."""
@@ -118,13 +128,13 @@ class _Piece:
             return self._of_solid(beyond), self._of_solid(rest)
         origin = np.abs(normal) * position
         beyond, rest = _sliced(self.mesh, normal, origin), _sliced(self.mesh, -normal, origin)
-        return _Piece(beyond, self.tolerance), _Piece(rest, self.tolerance)
+        return _Piece(beyond, self.config), _Piece(rest, self.config)
 
     def _of_solid(self, solid: Any) -> "_Piece":
         made = solid.to_mesh()
         vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
         faces = np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)
-        return _Piece(TriangleMesh(vertices, faces), self.tolerance, solid)
+        return _Piece(TriangleMesh(vertices, faces), self.config, solid)
 
 
 def _solid(mesh: TriangleMesh) -> Any:
@@ -136,12 +146,12 @@ def _solid(mesh: TriangleMesh) -> Any:
     return solid if solid.status() == manifold3d.Error.NoError and solid.volume() > 0 else None
 
 
-def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
+def _taken_apart(whole: _Piece) -> list[_Piece]:
     waiting, done = [whole], list[_Piece]()
     while waiting:
         require_time()
         piece = waiting.pop(int(np.argmax([w.mesh.box.diagonal for w in waiting])))  # large ones first: room is scarce
-        parts = _apart_once(piece, config) if len(done) + len(waiting) + 1 < config.most else []
+        parts = _apart_once(piece) if len(done) + len(waiting) + 1 < whole.config.most else []
         if len(parts) > 1:
             waiting += parts
         else:
@@ -149,12 +159,12 @@ def _taken_apart(whole: _Piece, config: PieceConfig) -> list[_Piece]:
     return done
 
 
-def _apart_once(piece: _Piece, config: PieceConfig) -> list[_Piece]:
+def _apart_once(piece: _Piece) -> list[_Piece]:
     """Returns the piece's connected parts or, of a single one, those on both sides of a cut; nothing without a pit."""
     if piece.pit is None:
         return []
     parts = piece.parts()
-    return _cut(parts[0], piece.pit) if len(parts) == 1 and config.cuts else parts
+    return _cut(parts[0], piece.pit) if len(parts) == 1 and piece.config.cuts else parts
 
 
 def _is_box(mesh: TriangleMesh) -> bool:
@@ -170,10 +180,10 @@ def _grid(box: Box, spacing: float) -> Points:
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _inside_hull(mesh: TriangleMesh, points: Points) -> Float[np.ndarray, "k 3"]:
-    """Returns the points inside the hull of a mesh; none where it has no hull."""
+def _inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Float[np.ndarray, "k 3"]:
+    """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull."""
     try:
-        planes = ConvexHull(_thickened(few_corners(mesh.vertices, 32), _SPECK)).equations
+        planes = ConvexHull(_thickened(few_corners(mesh.vertices, _HULL_CORNERS), thickness)).equations
     except (QhullError, ValueError):
         return points[:0]
     return points[np.all(points @ planes[:, :3].T <= -planes[:, 3] - 1e-6, axis=1)]
@@ -196,7 +206,7 @@ def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
     fallback: list[_Piece] = []
     for axis, sign, position in islice(_walls(piece, pit), _TRIES):
         require_time()
-        board, rest = piece.halves(axis, sign, position - sign * _PAST_THE_WALL)
+        board, rest = piece.halves(axis, sign, position - sign * piece.config.past_wall)
         if not len(board.mesh.faces) or not len(rest.mesh.faces):
             continue
         if board.pit is None:

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 
@@ -23,15 +24,40 @@ Counts = Int[np.ndarray, "x y"]
 
 _DIRECTIONS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
 _CELLS = 160  # along the longer side
-_NEAR = 0.1  # of the piece's height: what ends farther below a top does not stand under it
-_LEVEL = 0.1  # of the height: tops that differ by less are one, stepped at most
-_OPEN = 0.06  # of the height: what lies so far below a top does not cover in its place
-_LEAST = 0.15  # of the whole plan: smaller tops lie in niches
-_HOLLOW = 0.5  # of the plan under a top: less is no loss, other boards cover the rest
-_RIM = 0.98  # of what one sees from above lies lower than the rim: mirrors, posts and finials stand higher
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class TopMeasureConfig:
+    """What counts as open from above, and as covered.
+
+    Raises:
+        ValueError: if a number is not a fraction.
+    """
+
+    near: float = 0.1
+    """What ends farther below a top does not stand under it (fraction of the piece's height)."""
+    level: float = 0.1
+    """Tops that differ by less are one, stepped at most (fraction of the height)."""
+    opened: float = 0.06
+    """What lies so far below a top does not cover in its place (fraction of the height)."""
+    least: float = 0.15
+    """Smaller tops lie in niches (fraction of the whole plan)."""
+    hollow: float = 0.5
+    """Less of the plan under a top is no loss: other boards cover the rest (fraction)."""
+    rim: float = 0.98
+    """So much of what one sees from above lies lower than the rim: mirrors and posts stand higher (fraction)."""
+    deep: float = 0.5
+    """A room that is not walled is open where it is this deep (fraction of the rim's height)."""
+    skin: float = 0.001
+    """How deep a top may be inset (fraction of the largest side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__slots__)
+
+
+DEFAULT_TOP_MEASURE_CONFIG = TopMeasureConfig()
 _SIDES = 3  # walls around a room
-_DEEP = 0.5  # of the rim's height
-_SKIN = 0.001  # of the largest side: a top may be inset so deep
 
 
 @final
@@ -40,17 +66,13 @@ class LostTop:
     """What becomes of a top that was taken away: `level` is the height of its face, metres.
 
     `hollow` is the fraction of the plan under it that lies open without it, `covered` the fraction of that plan that
-    new tops lie over at about its height.
+    new tops lie over at about its height. `is_missed` states that most of what it lay over is open without it.
     """
 
     level: float
     hollow: float
     covered: float
-
-    @property
-    def is_missed(self) -> bool:
-        """Whether most of what it lay over is open without it."""
-        return self.hollow >= _HOLLOW
+    is_missed: bool
 
 
 def lost_tops(
@@ -58,11 +80,12 @@ def lost_tops(
     still: Sequence[TriangleMesh],
     moving: Sequence[TriangleMesh],
     added: Sequence[TriangleMesh],
+    config: TopMeasureConfig = DEFAULT_TOP_MEASURE_CONFIG,
 ) -> tuple[LostTop, ...]:
     """Returns what becomes of tops that were taken away, those of one height as one, the highest first.
 
-    `still` and `moving` are what is left, closed, without handles; `added` are the new tops. Tops over less than 15 %
-    of the piece's plan are left out.
+    `still` and `moving` are what is left, closed, without handles; `added` are the new tops. Small tops
+    (`TopMeasureConfig.least`) are left out.
 
     Raises:
         ValueError: if nothing was taken away, or nothing is left.
@@ -73,24 +96,25 @@ def lost_tops(
     rest, covers, new = grid.heights([*still, *moving]), grid.heights(still), [grid.heights([top]) for top in added]
     everything = np.isfinite(np.maximum(rest, grid.heights(taken)))
     found = []
-    for group in _by_level(taken, _LEVEL * grid.height):
+    for group in _by_level(taken, config.level * grid.height):
         own, under = grid.heights(group), grid.undersides(group)
-        near = min(float(mesh.box.low[2]) for mesh in group) - _NEAR * grid.height
+        near = min(float(mesh.box.low[2]) for mesh in group) - config.near * grid.height
         plan = (own > rest) & grid.between(rest >= near, [*still, *moving], near)
-        if plan.sum() < max(_LEAST * everything.sum(), 1.0):
+        if plan.sum() < max(config.least * everything.sum(), 1.0):
             continue
-        hollow = covers[plan] < under[plan] - _OPEN * grid.height
-        least = np.maximum(rest - _SKIN * grid.extent, own - _NEAR * grid.height)[plan]
-        covered = [(top[plan] > least) & (top[plan] <= own[plan] + _NEAR * grid.height) for top in new]
+        hollow = covers[plan] < under[plan] - config.opened * grid.height
+        least = np.maximum(rest - config.skin * grid.extent, own - config.near * grid.height)[plan]
+        covered = [(top[plan] > least) & (top[plan] <= own[plan] + config.near * grid.height) for top in new]
         ratio = float(np.logical_or.reduce(covered).mean()) if covered else 0.0
-        found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), ratio))
+        is_missed = float(hollow.mean()) >= config.hollow
+        found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), ratio, is_missed))
     return tuple(found)
 
 
-def open_ratio(meshes: Sequence[TriangleMesh]) -> float:
+def open_ratio(meshes: Sequence[TriangleMesh], config: TopMeasureConfig = DEFAULT_TOP_MEASURE_CONFIG) -> float:
     """Returns the fraction of the plan of furniture, closed, without handles, that lies open from above.
 
-    There one looks past the rim into a room that is walled on three sides, or down by more than half the height, as
+    There one looks past the rim into a room that is walled on three sides, or far down (`TopMeasureConfig.deep`), as
     between legs. What lies lower but is neither is the desk before its hutch, or the uppermost shelf of a rack.
 
     Raises:
@@ -103,9 +127,9 @@ def open_ratio(meshes: Sequence[TriangleMesh]) -> float:
     plan = grid.between(np.isfinite(rises), meshes, grid.floor)
     if not np.isfinite(rises).any():
         return 0.0
-    rim = float(np.quantile(rises[np.isfinite(rises)], _RIM))
-    walled = grid.walls(meshes, grid.floor + (1 - 0.5 * _OPEN) * rim) >= _SIDES
-    is_open = (rises < (1 - _OPEN) * rim) & (walled | (rises < _DEEP * rim))
+    rim = float(np.quantile(rises[np.isfinite(rises)], config.rim))
+    walled = grid.walls(meshes, grid.floor + (1 - 0.5 * config.opened) * rim) >= _SIDES
+    is_open = (rises < (1 - config.opened) * rim) & (walled | (rises < config.deep * rim))
     return float(is_open[plan].mean())
 
 

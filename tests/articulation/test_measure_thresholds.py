@@ -1,0 +1,65 @@
+"""Thresholds of simulation shapes and of measures are fields of configurations; other numbers have a reason."""
+
+from pathlib import Path
+
+import pytest
+
+from grafu.articulation.convex_pieces import PieceConfig, convex_pieces
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.metrics.tops import TopMeasureConfig
+from module_numbers import named_numbers
+
+SOURCE = Path(__file__).parents[2] / "src" / "grafu"
+
+SAMPLES = "how many rays, cells, poses or directions an algorithm takes"
+TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
+EFFORT = "after how many tries a search ends, or how much is done in a simpler way"
+UNIT = "a unit, a constant of mathematics, or a row of a table"
+MEASURE = "the definition of a measure, as the paper and docs/metrics.md state it"
+PHYSICS = "a constant of physics, or the density of a material"
+
+REASONS = {
+    "articulation": {
+        "articulated_object.py": {"_ALIKE": TOLERANCE},
+        "collision_clearance.py": {"_REST": UNIT},
+        "collision_shapes.py": {"_DENSE": EFFORT},
+        "convex_pieces.py": {"_DIRECTIONS": SAMPLES, "_HULL_CORNERS": SAMPLES, "_GRID": SAMPLES, "_TRIES": EFFORT},
+        "kinematics.py": {"_ALIKE": TOLERANCE},
+        "mass.py": {"_BY_WORD": PHYSICS, "_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "NO_MOMENTS": UNIT},
+        "motion_kind.py": {"_A_LITTLE": SAMPLES, "_DEGREES": UNIT, "_CENTIMETRES": UNIT, "_ROWS": UNIT},
+        "open_together.py": {"_STEPS": SAMPLES},
+        "physics.py": {"GRAVITY": PHYSICS, "(_MASSES, _PIECES, _CLEARANCE, _CONTACTS)": EFFORT},
+    },
+    "metrics": {
+        "collision.py": {"TOLERANT": MEASURE},
+        "graph_accuracy.py": {"NEAR": MEASURE, "_DISTANCE_WEIGHT": MEASURE},
+        "motion.py": {"ANGLE": MEASURE},
+        "panels.py": {"POSES": SAMPLES},
+        "tops.py": {"_DIRECTIONS": SAMPLES, "_CELLS": SAMPLES, "_SIDES": SAMPLES},
+    },
+}
+
+
+@pytest.mark.parametrize("folder", REASONS)
+def test_no_threshold_stands_in_a_module(folder: str) -> None:
+    assert named_numbers(SOURCE / folder) == {name: set(why) for name, why in REASONS[folder].items()}
+
+
+def test_specks_are_what_the_config_states() -> None:
+    boxes = [((0.0, 0.0, 0.0), (0.6, 0.4, 0.02)), ((0.3, 0.2, 0.3), (0.31, 0.21, 0.31))]
+    mesh = merge_meshes([TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high))) for low, high in boxes])
+    diagonal = 0.01 * 3**0.5
+
+    assert len(convex_pieces(mesh, PieceConfig(speck=0.9 * diagonal))) == 2
+    assert len(convex_pieces(mesh, PieceConfig(speck=1.1 * diagonal))) == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "value"),
+    [(PieceConfig, "speck", 0.0), (PieceConfig, "tolerance", -1.0), (TopMeasureConfig, "near", 1.0)],
+)
+def test_a_number_that_makes_no_sense_is_refused(kind: type, name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=f"{kind.__name__}.{name}"):
+        kind(**{name: value})
