@@ -66,11 +66,14 @@ def named_numbers(folder: Path) -> dict[str, set[str]]:
     return {name: names for name, names in found.items() if names}
 
 
-def explained_fields(module: str, kind: str) -> set[str]:
-    """Returns the fields of a class in a source that have a line under them which explains them."""
+def explanations(module: str, kind: str) -> dict[str, str]:
+    """Returns the line under each field of a class in a source that explains it, for fields that have one."""
     found = next(node for node in ast.parse(module).body if isinstance(node, ast.ClassDef) and node.name == kind)
     return {
-        a.target.id
+        a.target.id: str(b.value.value)
         for a, b in zip(found.body, found.body[1:], strict=False)
-        if isinstance(a, ast.AnnAssign) and isinstance(a.target, ast.Name) and isinstance(b, ast.Expr)
+        if isinstance(a, ast.AnnAssign)
+        and isinstance(a.target, ast.Name)
+        and isinstance(b, ast.Expr)
+        and isinstance(b.value, ast.Constant)
     }

@@ -33,7 +33,7 @@ from grafu.segmentation.config import (
     MemberConfig,
     SegmentationConfig,
 )
-from module_numbers import explained_fields, factors_in_functions, floats_in_functions, modules_of, named_numbers
+from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 SOURCES = Path(__file__).parents[1] / "src" / "grafu"
 
@@ -215,7 +215,7 @@ def test_no_threshold_stands_in_a_function(folder: str) -> None:
 def test_every_field_has_a_line_that_explains_it(kind: type) -> None:
     source = inspect.getsource(sys.modules[kind.__module__])
 
-    assert explained_fields(source, kind.__name__) == {field.name for field in fields(kind)}
+    assert set(explanations(source, kind.__name__)) == {field.name for field in fields(kind)}
 
 
 @pytest.mark.parametrize(("kind", "name"), NUMBERS)

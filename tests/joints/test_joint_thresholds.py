@@ -9,7 +9,8 @@ import pytest
 
 from grafu.joints.config import BlockConfig, ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge.survey import SurveyConfig
+from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -19,7 +20,7 @@ from grafu.joints.rail_config import (
     RailConfig,
     RailFootingConfig,
 )
-from module_numbers import explained_fields, factors_in_functions, floats_in_functions, modules_of, named_numbers
+from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
 
@@ -76,7 +77,7 @@ def test_no_threshold_stands_in_a_function(name: str) -> None:
 def test_every_field_has_a_line_that_explains_it(kind: type) -> None:
     source = inspect.getsource(sys.modules[kind.__module__])
 
-    assert explained_fields(source, kind.__name__) == {field.name for field in fields(kind)}
+    assert set(explanations(source, kind.__name__)) == {field.name for field in fields(kind)}
 
 
 @pytest.mark.parametrize(
@@ -93,3 +94,11 @@ def test_a_number_below_0_is_refused(kind: type, name: str) -> None:
 def test_the_number_of_hinges_follows_the_length(length: float, count: int) -> None:
     assert hinge_count(length, HingeConfig()) == count
     assert hinge_count(2 * length, HingeConfig(two_up_to=1.8, one_more_per=1.2)) == count
+
+
+@pytest.mark.parametrize("kind", CONFIGS, ids=lambda kind: kind.__name__)
+def test_what_a_models_scale_multiplies_is_what_is_explained_as_metres(kind: type) -> None:
+    source = inspect.getsource(sys.modules[kind.__module__])
+    lines = explanations(source, kind.__name__)
+
+    assert set(getattr(kind, "LENGTHS", ())) == {name for name, line in lines.items() if "(metres" in line}

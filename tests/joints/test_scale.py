@@ -8,6 +8,7 @@ import pytest
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.geometry.axis import Axis
+from grafu.geometry.config_checks import at_scale
 from grafu.joints.config import RealizationConfig
 from judging import GALLERY, hardware, installed, realized
 from small_scenes import DOOR, box, drawer, hinged, scene
@@ -70,9 +71,9 @@ def test_the_doors_hang_on_three_kinds_of_hardware():
 
 def test_furniture_of_usual_size_has_the_configuration_and_the_templates_as_they_are():
     config = RealizationConfig()
-    assert config.at_scale(1.0) is config
+    assert at_scale(config, 1.0) is config
     assert GALLERY.at_scale(1.0) is GALLERY
-    larger = config.at_scale(2.0)
+    larger = at_scale(config, 2.0)
     assert larger.hinge.radius == 2 * config.hinge.radius
     assert larger.rail.flank.thinner == tuple(2 * length for length in config.rail.flank.thinner)
     assert larger.hinge.radius_ratio == config.hinge.radius_ratio

@@ -8,8 +8,8 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh
-from grafu.joints.config import at_scale
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame, drawer_frame
 from grafu.joints.rail.search import carried_mesh, slides_in_its_plane

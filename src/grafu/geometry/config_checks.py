@@ -1,6 +1,29 @@
-"""Checks of the numbers in a config. Configs use them when they are made."""
+"""Checks of the numbers in a config, which configs use when they are made, and configs for models in another scale."""
 
+from dataclasses import is_dataclass, replace
 from math import inf, isfinite
+from typing import Any, TypeVar, cast
+
+T = TypeVar("T")
+
+
+def at_scale(config: T, metre: float) -> T:
+    """Returns a config for a model on which a metre is `metre` metres long.
+
+    The fields that `LENGTHS` of its class names, and those of configs in it, are multiplied: lengths in metres on
+    furniture of usual size. Other such lengths are multiplied where they are used. It is to be asked for once.
+    """
+    if metre == 1.0:
+        return config
+    whole, changed = cast(Any, config), dict[str, object]()
+    lengths = getattr(type(config), "LENGTHS", ())
+    for name in whole.__dataclass_fields__:
+        value = getattr(whole, name)
+        if is_dataclass(value):
+            changed[name] = at_scale(value, metre)
+        elif name in lengths:
+            changed[name] = tuple(metre * v for v in value) if isinstance(value, tuple) else metre * value
+    return cast(T, replace(whole, **changed))
 
 
 def require_positive(config: object, *names: str) -> None:

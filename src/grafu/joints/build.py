@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from grafu.geometry.axis import Axis
+from grafu.geometry.config_checks import at_scale
 from grafu.joints.clearance.carve import Path
 from grafu.joints.clearance.make import make_clearance
 from grafu.joints.clearance.trim import trim
@@ -50,7 +51,7 @@ def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     if opening is not None and request.kind.turns:
         config = replace(config, door_opening=max(config.door_opening, opening))
     metre = scene.metre
-    return _BUILDERS[request.type](request, scene, gallery.at_scale(metre), config.at_scale(metre))
+    return _BUILDERS[request.type](request, scene, gallery.at_scale(metre), at_scale(config, metre))
 
 
 def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
@@ -166,7 +167,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     held_by = scene.static_obstacles_of(request.holders)
-    if not any(o.collider.box.overlaps(box, config.contact * scene.metre) for o in held_by):
+    if not any(o.collider.box.overlaps(box, config.contact) for o in held_by):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < config.least_opening:

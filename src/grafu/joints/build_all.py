@@ -13,6 +13,7 @@ from dataclasses import replace
 from functools import partial
 
 from grafu.geometry.budget import present_budget, within
+from grafu.geometry.config_checks import at_scale
 from grafu.joints.build import Built, build_joint
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.search import door_search
@@ -34,7 +35,7 @@ def expected_motions(
 def _motions(
     requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
 ) -> Iterator[tuple[str, JointMotion]]:
-    config = config.at_scale(scene.metre)
+    config = at_scale(config, scene.metre)
     for request in requests:
         if request.kind.turns:
             door = door_search(request, scene, config)

@@ -15,6 +15,7 @@ import numpy as np
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
+from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
@@ -37,7 +38,7 @@ def closed_plan(plan: RealizationPlan, asset: Asset, config: RealizationConfig) 
     What a request states of itself stays: a value at which its part is drawn, a leader that it follows.
     """
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(plan.joints), asset.extent)
-    drawers = {d.request.moving: d for d in _drawers(plan.joints, scene, config)}
+    drawers = {d.request.moving: d for d in _drawers(plan.joints, scene, at_scale(config, scene.metre))}
     found = _openings(drawers, drawers.values())
     closed = tuple(name for name in scene.moving_bodies if name not in found)
     found = _openings({name: replace(drawers[name], closed=closed) for name in found}, drawers.values())
@@ -80,7 +81,7 @@ class _Drawer:
     @property
     def least(self) -> float:
         """By how much it stands open at least, metres: less is how it was drawn."""
-        return max(self.closing.least * self.scene.metre, self.closing.least_ratio * self.frame.depth)
+        return max(self.closing.least, self.closing.least_ratio * self.frame.depth)
 
     def is_parallel(self, other: "_Drawer") -> bool:
         """Whether it opens in the direction of another."""
@@ -119,8 +120,7 @@ class _Drawer:
     def hides(self, part: Part) -> bool:
         """Whether a part lies within the outline of its front, and is lower than it: a runner."""
         local = Box.around((part.mesh.vertices - self.frame.origin) @ self.frame.rotation)
-        spare = self.closing.beside * self.scene.metre
-        half = np.array([self.frame.width, self.frame.height]) / 2 + spare
+        half = np.array([self.frame.width, self.frame.height]) / 2 + self.closing.beside
         across = np.array([np.abs([b[0], b[2]]) for b in (local.low, local.high)]).max(axis=0)
         return bool(np.all(across <= half) and local.size[2] <= self.closing.runner * self.frame.height)
 
@@ -135,16 +135,16 @@ def _drawers(requests: Iterable[JointRequest], scene: Scene, config: Realization
         is_stated = request.drawn_at > 0 or request.coupling is not None or request.parent
         if is_stated or not request.kind.slides or request.moving not in scene.parts:
             continue
-        search = drawer_search(request, scene, config.at_scale(scene.metre))
-        if search is not None and _is_drawer(search.frame, scene, config):
+        search = drawer_search(request, scene, config)
+        if search is not None and _is_drawer(search.frame, config):
             front = _front_level(search.mesh, search.frame, config.closing)
             yield _Drawer(request, scene, config, search.frame, search.body, front)
 
 
-def _is_drawer(frame: DrawerFrame, scene: Scene, config: RealizationConfig) -> bool:
+def _is_drawer(frame: DrawerFrame, config: RealizationConfig) -> bool:
     """Whether what slides is a drawer with some depth: no sliding door, no button."""
     is_upright = abs(float(frame.rotation[2, 2])) > config.drawer.level
-    return is_upright and frame.depth >= config.closing.shallowest * scene.metre
+    return is_upright and frame.depth >= config.closing.shallowest
 
 
 def _front_level(mesh: TriangleMesh, frame: DrawerFrame, config: ClosingConfig) -> float:
@@ -164,7 +164,7 @@ def _drawn_opening(drawer: _Drawer, drawers: Iterable[_Drawer]) -> float:
         return 0.0
     around = [drawer.front - level for level in _frame_levels(drawer) if np.isfinite(level)]
     sides = drawer.closing.sides
-    if sum(ahead < drawer.closing.flush * drawer.scene.metre for ahead in around) >= sides:
+    if sum(ahead < drawer.closing.flush for ahead in around) >= sides:
         return 0.0
     is_told = len(around) >= sides and not _is_by_design(drawer, drawers, min(around))
     level = _level_with_frame(drawer, min(around)) if is_told else 0.0
@@ -173,10 +173,10 @@ def _drawn_opening(drawer: _Drawer, drawers: Iterable[_Drawer]) -> float:
 
 def _is_by_design(drawer: _Drawer, drawers: Iterable[_Drawer], ahead: float) -> bool:
     """Whether a front that stands a little ahead of its case has another front in its plane: all are drawn so."""
-    config, metre = drawer.closing, drawer.scene.metre
+    config = drawer.closing
     others = (o for o in drawers if o.request.moving != drawer.request.moving and o.is_parallel(drawer))
-    in_plane = any(abs(other.front - drawer.front) < config.plane * metre for other in others)
-    return in_plane and ahead < config.plainly * metre
+    in_plane = any(abs(other.front - drawer.front) < config.plane for other in others)
+    return in_plane and ahead < config.plainly
 
 
 def _level_with_sibling(drawer: _Drawer, drawers: Iterable[_Drawer]) -> float:
@@ -206,7 +206,7 @@ def _onto_frame(drawer: _Drawer) -> float:
     free = widest_free(drawer.body, drawer.inwards, reach, obstacles, drawer.config.coarse_poses)
     if not drawer.least <= free < reach:
         return 0.0
-    thinnest, thickest = (t * drawer.scene.metre for t in config.front_thickness)
+    thinnest, thickest = config.front_thickness
     behind = [drawer.front - level for level in _frame_levels(drawer, -1.0)]
     return free if any(thinnest <= distance - free <= thickest for distance in behind) else 0.0
 
@@ -216,7 +216,7 @@ def _level_with_frame(drawer: _Drawer, ahead: float) -> float:
 
     `ahead` is how far the front stands ahead of that, of the foremost of it, metres.
     """
-    least = max(drawer.least, drawer.closing.proud * drawer.scene.metre)
+    least = max(drawer.least, drawer.closing.proud)
     is_open = least <= ahead <= drawer.closing.widest * drawer.frame.depth
     is_clean = drawer.at_rest <= drawer.runners
     return ahead if is_open and is_clean and drawer.is_free(ahead, drawer.runners) else 0.0
@@ -228,12 +228,12 @@ def _frame_levels(drawer: _Drawer, sense: float = 1.0) -> Sequence[float]:
     With a `sense` of -1 it is what lies behind the front along its borders.
     """
     frame, config = drawer.frame, drawer.closing
-    metre, depth = drawer.scene.metre, drawer.frame.depth
+    depth = drawer.frame.depth
     rays = RayCaster(drawer.around)
     start = depth  # ahead of the front
     found = []
     for across, up in _SIDES:
-        points = np.vstack([_beside(frame, across, up, sense * offset * metre) for offset in config.offsets])
+        points = np.vstack([_beside(frame, across, up, sense * offset) for offset in config.offsets])
         origins = frame.to_object(points - np.array([0.0, start, 0.0]))
         away = rays.distances(origins, np.tile(-frame.slide, (len(origins), 1))).reshape(len(config.offsets), -1)
         away = np.where(away <= start + config.widest * depth, away, np.inf)

@@ -1,16 +1,16 @@
-"""Tolerances, sizes and counts of joints. Lengths marked (extent) are fractions of the object's largest side."""
+"""Tolerances, sizes and counts of joints.
 
-from collections.abc import Mapping
-from dataclasses import dataclass, is_dataclass, replace
+Lengths are metres on furniture of usual size (see `at_scale`); those marked (extent) are fractions of the object's
+largest side, because the measures that they answer to are (docs/metrics.md).
+"""
+
+from dataclasses import dataclass
 from math import radians
-from types import MappingProxyType
-from typing import Any, TypeVar, cast, final
+from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
-from grafu.joints.hinge_config import FootingConfig, HingeConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail_config import BehindConfig, BodyConfig, ClosingConfig, DrawerConfig, FlankConfig, RailConfig
-
-T = TypeVar("T")
+from grafu.joints.hinge_config import HingeConfig
+from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
 
 
 @final
@@ -33,7 +33,7 @@ class PlanConfig:
     short_turn: float = radians(1.0)
     """A note states that a door opens by more than this less than was chosen (radians) ..."""
     short_slide: float = 0.002
-    """... or a drawer (metres)."""
+    """... or a drawer, in metres as they are chosen."""
 
     def __post_init__(self) -> None:
         require_positive(self, "short_turn", "short_slide")
@@ -80,6 +80,7 @@ class ClearanceConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("beside",)
     play: float = 2.5
     """Distance to what a path is freed from (in tolerated penetrations)."""
     touching: float = 0.9
@@ -103,6 +104,7 @@ class BlockConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("lap", "near")
     face: float = 0.9
     """Fraction of the block's face over which rays are spread."""
     rays: int = 3
@@ -110,9 +112,9 @@ class BlockConfig:
     rest: float = 0.1
     """The block ends where this fraction of the rays that meet it have done so: not all of its face need rest on it."""
     lap: float = 2e-4
-    """How deep a block is inset at both ends, so that it holds (metres on furniture of usual size)."""
+    """How deep a block is inset at both ends, so that it holds (metres)."""
     near: float = 0.1
-    """Static parts farther from a piece of hardware than this do not carry it (extent)."""
+    """Static parts farther from a piece of hardware than this do not carry it (metres)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -128,18 +130,22 @@ class RealizationConfig:
         ValueError: if a number is not above 0, a fraction not between 0 and 1, or there are fewer than two poses.
     """
 
+    LENGTHS = (
+        *("contact", "flush", "anchor", "bridge", "chosen_reach"),
+        *("max_hidden_trim", "max_back_trim", "thinnest_front"),
+    )
     depth: float = 0.0004
-    """Penetration that counts as a touch (extent): 0.4 mm on one metre; the official swing test warns at 0.5."""
+    """Penetration that counts as a touch (extent, as the paper measures it): 0.4 mm on one metre; official: 0.5."""
     contact: float = 0.012
-    """Widest seam across which two faces count as contacting (metres on furniture of usual size); official: 10 mm."""
+    """Widest seam across which two faces count as contacting (metres); official: 10 mm."""
     flush: float = 0.002
-    """Largest step between two faces that count as flush (metres on furniture of usual size); official: 4 mm."""
+    """Largest step between two faces that count as flush (metres); official: 4 mm."""
     anchor: float = 0.001
-    """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (extent)."""
+    """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (metres)."""
     bridge: float = 0.6
-    """Longest support block (extent)."""
+    """Longest support block (metres)."""
     chosen_reach: float = 0.1
-    """Longest block (extent) that bridges the gap to a chosen mount: what stands farther off does not carry it."""
+    """Longest block that bridges the gap to a chosen mount: what stands farther off does not carry it (metres)."""
     door_opening: float = radians(110)
     """How far a door may open at most; real butt hinges stop the leaf at about 110 degrees."""
     lid_opening: float = radians(95)
@@ -157,15 +163,14 @@ class RealizationConfig:
     max_trim: float = 0.02
     """Largest fraction of a side by which a moving part is made smaller (design, section 5)."""
     max_hidden_trim: float = 0.013
-    """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres on furniture of
-    usual size): its sides are not seen, and runners take as much."""
+    """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres): its
+    sides are not seen, and runners take as much."""
     max_back_trim: float = 0.005
-    """By how much a door's back, which lies on what it closes, is pressed at most, where that is more (metres on
-    furniture of usual size)."""
+    """By how much a door's back, which lies on what it closes, is pressed at most, where that is more (metres)."""
     no_hardware_width: float = 0.25
     """What slides without rails is at least this wide over its depth: a drawer, and no side of one."""
     thinnest_front: float = 0.003
-    """What ends so far behind a drawer's front is hidden by it (metres on furniture of usual size)."""
+    """What ends so far behind a drawer's front is hidden by it (metres)."""
     max_carve: float = 0.05
     """Largest fraction of a static part's volume or surface that is carved (design, section 5)."""
     max_carve_hidden: float = 0.6
@@ -229,38 +234,3 @@ class RealizationConfig:
         require_ratios(self, "no_hardware_width")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")
-
-    def at_scale(self, metre: float) -> "RealizationConfig":
-        """Returns the config for a model on which a metre is `metre` metres long; it is to be asked for once."""
-        return at_scale(self, metre)
-
-
-_LENGTHS: Mapping[type, tuple[str, ...]] = MappingProxyType(
-    {
-        BlockConfig: ("lap",),
-        HingeConfig: ("two_up_to", "one_more_per", "radius", "smallest", "leaf_margin", "tongue", "lap"),
-        SurveyConfig: ("even", "rounding"),
-        PivotConfig: ("disc_inset", "start", "plate", "plate_play", "plate_reach", "plate_end"),
-        FootingConfig: ("thinnest",),
-        DrawerConfig: ("thickest_board", "stands_out"),
-        BodyConfig: ("outside", "even"),
-        RailConfig: ("thinnest", "lowest", "common", "divider", "thinnest_divider", "divider_air", "least_travel"),
-        FlankConfig: ("inside", "ahead", "taller", "thinner"),
-        BehindConfig: ("start", "overlap", "air", "near"),
-    }
-)
-"""Fields that are lengths on furniture of usual size; other such lengths are multiplied where they are used."""
-
-
-def at_scale(config: T, metre: float) -> T:
-    """Returns a config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-    if metre == 1.0:
-        return config
-    whole, changed = cast(Any, config), dict[str, object]()
-    for name in whole.__dataclass_fields__:
-        value = getattr(whole, name)
-        if is_dataclass(value):
-            changed[name] = at_scale(value, metre)
-        elif name in _LENGTHS.get(type(config), ()):
-            changed[name] = tuple(metre * v for v in value) if isinstance(value, tuple) else metre * value
-    return cast(T, replace(whole, **changed))

@@ -49,9 +49,9 @@ def drawn_pin(search: DoorSearch) -> Axis | None:
     """
     if str(search.request.choice):
         return None
-    config, metre = search.config.hinge.drawn, search.scene.metre
+    config = search.config.hinge.drawn
     barrels = [barrel for shell in _near_border(search) for barrel in _barrels(shell, search)]
-    lines = [line for line in _lines(barrels, config.line * metre) if len(line) > 1]
+    lines = [line for line in _lines(barrels, config.line) if len(line) > 1]
     least = config.spread * search.frame.length
     spread = [line for line in lines if max(b.high for b in line) - min(b.low for b in line) >= least]
     line = max(spread, key=len, default=None)
@@ -67,7 +67,7 @@ def door_on_drawn_hinges(axis: Axis, search: DoorSearch) -> Placement | None:
 def _near_border(search: DoorSearch) -> Iterator[TriangleMesh]:
     """Yields the shells near the door's border, of the door and all that rides on it and of static parts."""
     scene, frame = search.scene, search.frame
-    reach = search.config.hinge.drawn.reach * scene.metre
+    reach = search.config.hinge.drawn.reach
     ids = [*scene.moving_bodies[search.request.moving].members, *(part.id for part in scene.static_parts)]
     for part in (scene.parts[name] for name in ids):
         box = Box.around(frame.to_border(part.box.corners()))
@@ -89,8 +89,8 @@ def _barrels(shell: TriangleMesh, search: DoorSearch) -> Iterator[_Barrel]:
     local = search.frame.to_border(shell.vertices)
     box = Box.around(local)
     radius = float(box.size[:2].max()) / 2
-    config, metre = search.config.hinge.drawn, search.scene.metre
-    if not config.thinnest * metre <= radius <= config.thickest * metre or box.size[2] < radius:
+    config = search.config.hinge.drawn
+    if not config.thinnest <= radius <= config.thickest or box.size[2] < radius:
         return
     x, y = float(box.center[0]), float(box.center[1])
     off = np.hypot(local[:, 0] - x, local[:, 1] - y)

@@ -1,6 +1,6 @@
 """What counts as a drawer, sizes of rails, and the places at which the room for them is measured.
 
-Lengths are metres on furniture of usual size; see `RealizationConfig.at_scale` for models in another scale.
+Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
 """
 
 from dataclasses import dataclass
@@ -18,6 +18,7 @@ class BodyConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("outside", "even")
     outside: float = 0.01
     """How far beside the drawer rays start (metres)."""
     even: float = 2e-3
@@ -43,8 +44,9 @@ class ClosingConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("least", "beside", "front_thickness", "shallowest", "flush", "plane", "plainly", "proud", "offsets")
     least: float = 0.015
-    """What is less open is closed (metres on furniture of usual size)."""
+    """What is less open is closed (metres)."""
     least_ratio: float = 0.02
     """What is less open is closed (fraction of the drawer's depth)."""
     widest: float = 0.9
@@ -58,28 +60,26 @@ class ClosingConfig:
     front_area: float = 0.25
     """Least area of a front's face (fraction of the drawer's outline)."""
     beside: float = 0.03
-    """How far beyond a drawer's outline a drawn runner reaches at most (metres on furniture of usual size)."""
+    """How far beyond a drawer's outline a drawn runner reaches at most (metres)."""
     runner: float = 0.6
     """Height of a drawn runner at most (fraction of the drawer's height)."""
     front_thickness: tuple[float, float] = (0.003, 0.06)
-    """Thinnest and thickest front that lies on what stands around it (metres on furniture of usual size)."""
+    """Thinnest and thickest front that lies on what stands around it (metres)."""
     sides: int = 2
     """On how many sides of a front something stands at least, to close it level with that."""
     shallowest: float = 0.1
-    """What is less deep is no drawer (metres on furniture of usual size)."""
+    """What is less deep is no drawer (metres)."""
     flush: float = 0.003
-    """How far a front stands ahead of what is beside it at most, to be level with it (metres on furniture of usual
-    size)."""
+    """How far a front stands ahead of what is beside it at most, to be level with it (metres)."""
     plane: float = 0.0005
-    """How near to one plane the faces of fronts lie that are drawn alike (metres on furniture of usual size)."""
+    """How near to one plane the faces of fronts lie that are drawn alike (metres)."""
     plainly: float = 0.05
-    """How far ahead of its case a front stands at most, to be drawn so by design where others are in its plane (metres
-    on furniture of usual size)."""
+    """How far ahead of its case a front stands at most, to be drawn so by design where others are in its plane
+    (metres)."""
     proud: float = 0.02
-    """How far a front that could be pushed in stands ahead of what is around it at least, to count as open (metres on
-    furniture of usual size)."""
+    """How far a front that could be pushed in stands ahead of what is around it at least, to count as open (metres)."""
     offsets: tuple[float, ...] = (0.004, 0.012, 0.024)
-    """How far beside a front it is looked for what stands around it (metres on furniture of usual size)."""
+    """How far beside a front it is looked for what stands around it (metres)."""
 
     def __post_init__(self) -> None:
         require_positive(self, "least", "beside", "proud", "flush", "plane", "plainly", "shallowest", "sides")
@@ -97,6 +97,7 @@ class DrawerConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("thickest_board", "stands_out")
     shallow: float = 0.15
     """What is less deep than this fraction of its smaller side is a front without a container."""
     thickest_board: float = 0.03
@@ -128,6 +129,7 @@ class FlankConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("inside", "ahead", "taller", "thinner")
     reach: float = 0.25
     """How far beside a flank a wall stands at most (extent)."""
     along: int = 12
@@ -175,6 +177,7 @@ class BehindConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("start", "overlap", "air", "near")
     inset: float = 0.02
     """How far inside the front's sides the rails stay (fraction of its width)."""
     reach: float = 1.5
@@ -238,6 +241,7 @@ class RailConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
+    LENGTHS = ("thinnest", "lowest", "common", "divider", "thinnest_divider", "divider_air", "least_travel")
     thinnest: float = 0.0025
     """Thickness below which rails are inset into the flank and the wall by what is missing (metres)."""
     lowest: float = 0.004

@@ -80,19 +80,17 @@ def shortest_bridge(
     return min(reached, key=lambda pair: pair[1], default=None)
 
 
-def resting_width(
-    snap: SnapPlane, pin: Axis, size: HingeSize, target: RayCaster, metre: float, config: FootingConfig
-) -> float:
+def resting_width(snap: SnapPlane, pin: Axis, size: HingeSize, target: RayCaster, config: FootingConfig) -> float:
     """Returns the widest leaf, measured from the pin, of which enough lies on one plane of its part; 0: none.
 
     Leaves are let into what stands before that plane by their thickness, and no deeper. The snap plane may lie
-    anywhere on its leaf, with its extents in either order and sense. `metre` is as in `Scene`.
+    anywhere on its leaf, with its extents in either order and sense.
     """
-    play = config.resting * metre
+    play = config.resting
     steps = (np.arange(config.samples) + 0.5) / config.samples
     start = _on_leaf(snap, pin, size, steps) - (size.thickness + play) * snap.normal
     distances = target.along(start, snap.normal).reshape(config.samples, config.samples)
-    near = distances[distances <= size.thickness + play + config.thickest * metre]
+    near = distances[distances <= size.thickness + play + config.thickest]
     if not len(near):
         return 0.0
     plane = max(float(np.quantile(near, config.first)), size.thickness + play)
@@ -119,6 +117,6 @@ def nearest_part(hardware: Visual, scene: Scene, request: JointRequest, config: 
     """Returns the id of the static part that hardware sits on, "" where none is near; a wanted mount wins a draw."""
     collider = MeshCollider(hardware.mesh)
     held_by = scene.static_obstacles_of(request.holders)
-    near = [o for o in held_by if o.collider.box.overlaps(collider.box, config.near * scene.extent)]
+    near = [o for o in held_by if o.collider.box.overlaps(collider.box, config.near)]
     ranked = sorted((round(collider.distance(o.collider), 4), o.id not in request.mounts, o.id) for o in near)
     return ranked[0][2] if ranked else ""

@@ -22,6 +22,7 @@ from grafu.additions.step import Addition, Deficiency, DeficiencyKind, Request, 
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import meeting, pieces_in
+from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
@@ -172,7 +173,7 @@ def complete_carcass(
 ) -> CarcassCompletion:
     """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
     closed = closed_scene(scene, plan, drawers)
-    config = config.at_scale(closed.scene.metre)
+    config = at_scale(config, closed.scene.metre)
     missing = panels_missing(closed, config)
     additions: list[Addition] = []
     refused: list[Refusal] = []

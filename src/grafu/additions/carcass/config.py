@@ -1,6 +1,6 @@
 """What counts as a carcass that lacks its back or bottom, and how the boards that close it are sized."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import cos, radians
 from typing import final
 
@@ -16,6 +16,7 @@ class CarcassConfig:
         ValueError: if a length or a fraction is not above 0.
     """
 
+    LENGTHS = ("back", "bottom", "gap", "on_edge", "front_thickness", "inset", "held", "touch")
     covered: float = 0.5
     """Fraction of a back or bottom that must be there for it to count as there."""
     walled: float = 0.6
@@ -85,8 +86,3 @@ class CarcassConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-
-    def at_scale(self, metre: float) -> "CarcassConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("back", "bottom", "gap", "on_edge", "front_thickness", "inset", "held", "touch")
-        return replace(self, **{name: metre * getattr(self, name) for name in lengths})

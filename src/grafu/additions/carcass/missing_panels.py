@@ -14,6 +14,7 @@ from grafu.additions.carcass.bays import Bay, View, find_bays, find_views
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.geometry.arrays import vec3
+from grafu.geometry.config_checks import at_scale
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.scene import Scene
@@ -52,7 +53,7 @@ def missing_panels(
     `drawers` states what counts as a drawer.
     """
     closed = closed_scene(scene, plan, drawers)
-    return panels_missing(closed, config.at_scale(closed.scene.metre))
+    return panels_missing(closed, at_scale(config, closed.scene.metre))
 
 
 def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingPanel, ...]:

@@ -30,6 +30,7 @@ from grafu.additions.step import (
 )
 from grafu.geometry.box import Box
 from grafu.geometry.cells import pieces_in, spans_of
+from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import translation
@@ -88,7 +89,7 @@ def complete_drawers(
     if not requests:
         return DrawerBoxes()
     closed = closed_scene(scene, plan, drawers)
-    config = config.at_scale(closed.scene.metre)
+    config = at_scale(config, closed.scene.metre)
     verdicts: list[BoxVerdict] = []
     additions: list[Addition] = []
     refused: list[Refusal] = []

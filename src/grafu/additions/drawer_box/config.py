@@ -1,6 +1,6 @@
 """What counts as a drawer's box, and how the boards that are added are sized."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
 from grafu.geometry.config_checks import require_positive
@@ -15,6 +15,7 @@ class BoxProbeConfig:
         ValueError: if a length or a fraction is not above 0.
     """
 
+    LENGTHS = ("front", "thinnest", "back", "touch")
     middle: float = 0.6
     """Fraction of a front's width and height in which its inner face is looked for."""
     front: float = 0.02
@@ -49,11 +50,6 @@ class BoxProbeConfig:
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
 
-    def at_scale(self, metre: float) -> "BoxProbeConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        lengths = ("front", "thinnest", "back", "touch")
-        return replace(self, **{name: metre * getattr(self, name) for name in lengths})
-
 
 @final
 @dataclass(frozen=True)
@@ -64,6 +60,10 @@ class DrawerBoxConfig:
         ValueError: if a length or a fraction is not above 0.
     """
 
+    LENGTHS = (
+        *("side_gap", "under", "over", "behind", "wall", "bottom", "highest", "inset", "to_front"),
+        *("rim", "drawn_in", "touch", "sticks_out"),
+    )
     covered: float = 0.5
     """Fraction of a side that must be there for the side to count as there: below, half is open."""
     deeper: float = 3.0
@@ -141,10 +141,3 @@ class DrawerBoxConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *(name for name in self.__dataclass_fields__ if name != "probe"))
-
-    def at_scale(self, metre: float) -> "DrawerBoxConfig":
-        """Returns the config for a model on which a metre is `metre` metres long: its lengths are multiplied."""
-        boards = ("side_gap", "under", "over", "behind", "wall", "bottom", "highest", "inset", "to_front")
-        seen = ("rim", "drawn_in", "touch", "sticks_out")
-        lengths = {name: metre * getattr(self, name) for name in (*boards, *seen)}
-        return replace(self, probe=self.probe.at_scale(metre), **lengths)

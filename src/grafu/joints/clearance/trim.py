@@ -155,12 +155,11 @@ def trim(
     """
     part = scene.parts[path.moving]
     most = config.max_trim * box_in(path.axes, part.mesh).size
-    metre = scene.metre
-    hidden = np.maximum(most, config.max_hidden_trim * metre)
-    thinnest = config.thinnest_front * metre
+    hidden = np.maximum(most, config.max_hidden_trim)
+    thinnest = config.thinnest_front
     front = _front_of(part.mesh.vertices @ path.axes, path, thinnest)
     back = _back_of(part, path) if at_back else None
-    limits = _Limits(most, hidden, front, back, config.max_back_trim * metre, thinnest, config.kept)
+    limits = _Limits(most, hidden, front, back, config.max_back_trim, thinnest, config.kept)
     play = config.clearance.play * config.depth * scene.extent
     boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
     theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])

@@ -149,7 +149,7 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
 def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, site: Site) -> Iterator[str]:
     """Yields what speaks against a hinge on its own parts."""
     footing = site.config.footing
-    if installed.packed > footing.thickest * site.scene.metre:
+    if installed.packed > footing.thickest:
         yield PACKED
     if resting_leaf(hinge, pin, site) < hinge.template.size.leaf:
         yield HANGING
@@ -158,10 +158,10 @@ def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, sit
 def resting_leaf(hinge: FittedHinge, pin: PinCandidate, site: Site) -> float:
     """Returns how wide the leaves may be, at most as they are, for enough of each to lie on its part; 0: none."""
     T, size = hinge.T_object_template, hinge.template.size
-    pin_line, metre, config = Axis(T[:3, 3], T[:3, 2]), site.scene.metre, site.config.footing
+    pin_line = Axis(T[:3, 3], T[:3, 2])
     ends = [(hinge.template.dynamic.snap, site.door_rays)]
     ends += [] if pin.inset else [(hinge.template.static.snap, site.static_rays)]
-    return min(resting_width(snap.transformed(T), pin_line, size, rays, metre, config) for snap, rays in ends)
+    return min(resting_width(snap.transformed(T), pin_line, size, rays, site.config.footing) for snap, rays in ends)
 
 
 def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:

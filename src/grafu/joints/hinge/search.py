@@ -171,9 +171,8 @@ class DoorSearch:
 
     @property
     def _tolerances(self) -> Tolerances:
-        metre = self.scene.metre
         radius = barrel_radius(self.frame, self.config.hinge) * self.request.choice.scale
-        return Tolerances(self.config.contact * metre, self.config.flush * metre, radius)
+        return Tolerances(self.config.contact, self.config.flush, radius)
 
     def in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""

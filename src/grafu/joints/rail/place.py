@@ -63,7 +63,7 @@ def _fixed(
 ) -> tuple[Visual, ...] | None:
     """Returns a rail's static end fixed to the case, or to some of its parts; None where it is out of reach."""
     rail = _visual(f"rail_{name}", end)
-    if search.scene.is_near_static(end.mesh, search.config.anchor * search.scene.extent, holders):
+    if search.scene.is_near_static(end.mesh, search.config.anchor, holders):
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
@@ -71,7 +71,7 @@ def _fixed(
         return (rail,)
     walls = search.walls_of(holders) if holders else search.static_rays
     is_chosen = holders == (search.request.choice.mount,)
-    reach = (search.config.chosen_reach if is_chosen else search.config.bridge) * search.scene.extent
+    reach = search.config.chosen_reach if is_chosen else search.config.bridge
     blocks = search.config.block
     if search.request.choice.supports is Supports.DIVIDER:
         found = _divider(end, T, walls, reach, search.config)
@@ -85,7 +85,7 @@ def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
     """Whether dividers were chosen and one that was built for another drawer stands right behind a rail."""
     if search.request.choice.supports is not Supports.DIVIDER:
         return False
-    near = search.config.anchor * search.scene.extent
+    near = search.config.anchor
     boards = (o for o in search.scene.static_hardware if o.id.startswith("support_"))
     rail = MeshCollider(end.mesh)
     return any(
@@ -98,7 +98,7 @@ def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tupl
     """Returns a rail's dynamic end fixed to the drawer; None where it is out of reach."""
     rail = _visual(f"rail_{name}", end)
     gap = MeshCollider(end.mesh).distance(MeshCollider(search.mesh))
-    if gap <= search.config.anchor * search.scene.extent:
+    if gap <= search.config.anchor:
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None

@@ -143,7 +143,7 @@ def drawer_search(
 ) -> DrawerSearch | None:
     """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle.
 
-    The config is in the scale of the scene (`RealizationConfig.at_scale`).
+    The config is in the scale of the scene (`at_scale`).
     """
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
