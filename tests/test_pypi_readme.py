@@ -34,10 +34,35 @@ def test_links_are_absolute_where_the_repository_is_stated(hook: ModuleType) -> 
     )
 
 
-def test_without_a_repository_no_link_is_broken(hook: ModuleType) -> None:
-    metadata: dict[str, dict[str, str]] = {"urls": {"Paper": "https://x.org"}}
+@pytest.mark.parametrize(
+    ("remote", "address"),
+    [
+        ("https://example.org/owner/grafu.git", "https://example.org/owner/grafu"),
+        ("https://someone:secret@example.org/owner/grafu", "https://example.org/owner/grafu"),
+        ("git@example.org:owner/grafu.git\n", "https://example.org/owner/grafu"),
+        ("ssh://git@example.org:22/group/owner/grafu.git", "https://example.org/group/owner/grafu"),
+        ("/srv/git/grafu.git", ""),
+        ("../grafu", ""),
+        ("file:///srv/git/grafu.git", ""),
+        ("", ""),
+    ],
+)
+def test_the_repository_is_the_address_of_the_remote(hook: ModuleType, remote: str, address: str) -> None:
+    assert hook.repository_at(remote) == address
+
+
+@pytest.mark.parametrize("remote", ["git@example.org:owner/grafu.git", ""], ids=["a remote", "no remote"])
+def test_no_link_on_pypi_is_broken(hook: ModuleType, remote: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    metadata: dict[str, dict[str, str]] = {}
+    monkeypatch.setattr(hook, "_origin", lambda root: remote)
     hook.ReadmeHook().update(metadata)
     text = metadata["readme"]["text"]
-    assert re.findall(r"\]\((?!https?://)", text) == []
-    assert "![" not in text
+    assert re.findall(r"\]\((?!https?://|#)", text) == []
+    assert ("![" in text) == bool(remote)
     assert text.startswith("# GraFu")
+    assert ("Repository" in metadata["urls"]) == bool(remote)
+    assert all(address.startswith("https://") for address in metadata["urls"].values())
+
+
+def test_without_a_clone_no_repository_is_stated(hook: ModuleType, tmp_path: Path) -> None:
+    assert hook._origin(tmp_path) == ""
