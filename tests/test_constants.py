@@ -92,7 +92,7 @@ OF_MODULES = {
     },
     "metrics": {"panels.py": {"POSES": SAMPLES}},
     "scene": {
-        "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME},
+        "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME, "_FRONT_RAYS": SAMPLES},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
         "scale.py": {"_COMMON": SHARED},
     },

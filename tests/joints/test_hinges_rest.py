@@ -51,7 +51,7 @@ def test_a_bulky_handle_of_the_doors_own_mesh_is_no_front():
 def test_the_front_is_where_a_tenth_of_the_outline_faces_forwards(height, front):
     raised = TriangleMesh.box_mesh(Box(vec3(0.05, -0.08, 0.05), vec3(0.35, -0.02, 0.05 + height)))
     mesh = with_shapes(DOOR, raised).mesh
-    frame = without_handle(border_frame(mesh, LEFT_EDGE), mesh, ratio=0.1, rays=48, play=1e-4)
+    frame = without_handle(border_frame(mesh, LEFT_EDGE), mesh, ratio=0.1, play=1e-4)
 
     assert frame.origin[1] == pytest.approx(-front, abs=1e-6)
     assert frame.thickness == pytest.approx(front, abs=1e-6)

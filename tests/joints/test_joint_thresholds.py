@@ -9,8 +9,7 @@ import pytest
 
 from grafu.joints.config import BlockConfig, ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge.survey import SurveyConfig
-from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig
+from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -53,7 +52,7 @@ REASONS = {
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
-    "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES},
+    "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, FlankConfig,

@@ -1,14 +1,70 @@
-"""Sizes of hinges and pivots.
-
-Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
-"""
+"""Sizes of hinges and pivots. Lengths are metres on furniture of usual size, in its scale on others (`at_scale`)."""
 
 from dataclasses import dataclass
 from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_finite, require_positive, require_ratios
-from grafu.joints.hinge.survey import SurveyConfig
+
+
+@final
+@dataclass(frozen=True)
+class SurveyConfig:
+    """Where rays are cast around a hinge border, and what of it counts as one face.
+
+    Thickness, width and length are the door's. A board is its thickness, or that of a thin board where it has none.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    LENGTHS = ("even", "rounding")
+    front: float = 0.1
+    """How much of what is seen of a door from in front its front is at least; less is a handle (fraction)."""
+    heights: int = 7
+    """Number of heights along the border at which rays are cast."""
+    met_at: int = 2
+    """At how many of them a face must be met: a flap may have stiles behind its ends alone."""
+    ends: float = 0.475
+    """Where the outermost heights lie (fraction of the length from the middle): often there are only top and bottom."""
+    start: float = 0.3
+    """How far inside the door rays start (fraction of the thickness)."""
+    start_width: float = 0.25
+    """The same at most, of rays to the side (fraction of the width)."""
+    beside: tuple[float, ...] = (0.15, 0.5, 0.85)
+    """Depths behind the front at which the gap beside the door is measured (fractions of the thickness)."""
+    in_front: tuple[float, ...] = (0.1, 0.25, 0.4)
+    """Distances beyond that gap at which the neighbour's front is measured (in boards)."""
+    shallowest: float = 0.05
+    """Least depth behind the front to which the face beside the door is followed (fraction of the thickness)."""
+    deepest: float = 1.5
+    """Largest depth behind the front to which it is followed (fraction of the thickness)."""
+    depths: int = 12
+    """Number of depths between the two."""
+    even: float = 0.003
+    """Gaps that differ by less are those of one face (metres; of doors wider than 1 m a fraction of the width)."""
+    behind: tuple[float, ...] = (0.05, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0)
+    """Distances from the border inwards at which the gap behind the door is measured, ascending (in boards)."""
+    on_border: int = 5
+    """The first so many of these distances lie on the border itself."""
+    even_behind: float = 0.1
+    """Gaps behind the door that differ by less than this and `rounding` are those of one face (in boards)."""
+    rounding: float = 1e-4
+    """What is added to that for doors without thickness, and by how much a front must stand out to count (metres)."""
+    edge: tuple[float, ...] = (0.02, 0.1, 0.3, 0.6)
+    """Distances behind the door at which a panel that stands edge-on is sought (in boards)."""
+    edge_inwards: float = 3.0
+    """How far from the border inwards the edge of such a panel lies at most (in boards)."""
+    reach: float = 4.0
+    """How wide a gap around the door is looked across (in widest seams)."""
+    aside: tuple[float, ...] = (0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0)
+    """Distances from the border outwards to which the face behind the door is followed, ascending (in boards)."""
+    outside: tuple[float, ...] = (0.25, 0.6, 1.0)
+    """Depths in what stands behind the door at which its outer side is measured (in boards)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "front", "ends", "start", "start_width")
 
 
 @final
@@ -66,9 +122,7 @@ class PivotConfig:
 @final
 @dataclass(frozen=True)
 class PinConfig:
-    """Which surroundings of a border allow which pin, and how wide the leaves are there.
-
-    A radius is the barrel's, a width the door's. A board is as in `SurveyConfig`.
+    """Which surroundings of a border allow which pin; radii are the barrel's, widths the door's, boards as above.
 
     Raises:
         ValueError: if a number is not above 0, a fraction not between 0 and 1, or a place not finite.
@@ -137,11 +191,9 @@ class FootingConfig:
     """How much of a leaf rests on its part at least, as long as anything else carries the door (fraction)."""
     first: float = 0.1
     """How much of a leaf may lie nearer to its part than the plane that it rests on (fraction)."""
-    samples: int = 10
-    """Number of places along each side of a leaf at which this is measured."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "thinnest", "thickest", "resting", "samples")
+        require_positive(self, "thinnest", "thickest", "resting")
         require_ratios(self, "snap", "side", "door_reach", "tongue", "rests", "first")
 
 

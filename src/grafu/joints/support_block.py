@@ -31,6 +31,7 @@ WOOD = Material("support block", base_color=(0.42, 0.31, 0.2, 1.0), roughness=0.
 METAL = Material("support plate", base_color=(0.55, 0.56, 0.58, 1.0), metallic=1.0, roughness=0.35)
 
 _GRID = 5  # rays per side of the rectangle (official 7.4 casts 5 x 5)
+_ON_LEAF = 10  # rays per side of a leaf
 
 
 @final
@@ -87,19 +88,19 @@ def resting_width(snap: SnapPlane, pin: Axis, size: HingeSize, target: RayCaster
     anywhere on its leaf, with its extents in either order and sense.
     """
     play = config.resting
-    steps = (np.arange(config.samples) + 0.5) / config.samples
+    steps = (np.arange(_ON_LEAF) + 0.5) / _ON_LEAF
     start = _on_leaf(snap, pin, size, steps) - (size.thickness + play) * snap.normal
-    distances = target.along(start, snap.normal).reshape(config.samples, config.samples)
+    distances = target.along(start, snap.normal).reshape(_ON_LEAF, _ON_LEAF)
     near = distances[distances <= size.thickness + play + config.thickest]
     if not len(near):
         return 0.0
     plane = max(float(np.quantile(near, config.first)), size.thickness + play)
     rests = (distances <= plane + play).mean(axis=1)
-    enough = np.flatnonzero(np.cumsum(rests) >= config.rests * np.arange(1, config.samples + 1))
+    enough = np.flatnonzero(np.cumsum(rests) >= config.rests * np.arange(1, _ON_LEAF + 1))
     if not len(enough):
         return 0.0
     last = int(enough[-1]) + 1
-    return size.leaf if last == config.samples else size.radius + last / config.samples * (size.leaf - size.radius)
+    return size.leaf if last == _ON_LEAF else size.radius + last / _ON_LEAF * (size.leaf - size.radius)
 
 
 def _on_leaf(snap: SnapPlane, pin: Axis, size: HingeSize, steps: Float[np.ndarray, " k"]) -> Points:

@@ -18,6 +18,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
 
 _THIN_BOARD = 0.008
+_FRONT_RAYS = 48  # along each side of a door
 SNAP = np.cos(np.radians(8.0))
 """Cosine: an initial axis within 8 degrees of a box axis is snapped onto it; a larger angle is a deliberate slant."""
 
@@ -100,13 +101,12 @@ def _framed(mesh: TriangleMesh, x: Vec3, z: Vec3) -> BorderFrame:
     return BorderFrame(rotation @ origin, rotation, width, thickness, length)
 
 
-def without_handle(frame: BorderFrame, mesh: TriangleMesh, ratio: float, rays: int, play: float) -> BorderFrame:
+def without_handle(frame: BorderFrame, mesh: TriangleMesh, ratio: float, play: float) -> BorderFrame:
     """Returns the frame with its front where a fraction of what is seen of the door from in front is reached.
 
-    A handle that belongs to the door's mesh stands out of that. So many rays are cast along each side; fronts that
-    differ by less than `play`, metres, are one.
+    A handle of the door's mesh stands out of that. Fronts that differ by less than `play`, metres, are one.
     """
-    steps = (np.arange(rays) + 0.5) / rays
+    steps = (np.arange(_FRONT_RAYS) + 0.5) / _FRONT_RAYS
     x, z = (side.ravel() for side in np.meshgrid(steps * frame.width, (steps - 0.5) * frame.length))
     start = frame.to_object(np.column_stack([x, np.full(len(x), frame.board), z]))
     depths = RayCaster(mesh).along(start, frame.direction(0.0, -1.0, 0.0)) - frame.board

@@ -175,8 +175,7 @@ def complete_carcass(
     closed = closed_scene(scene, plan, drawers)
     config = at_scale(config, closed.scene.metre)
     missing = panels_missing(closed, config)
-    additions: list[Addition] = []
-    refused: list[Refusal] = []
+    additions, refused = list[Addition](), list[Refusal]()
     taken = set(scene.parts)
     rooms = {id(panel.view): _room(panel.view, closed, config) for panel in {id(k.view): k for k in missing}.values()}
     for group in _groups(missing, closed.scene.extent, config):

@@ -260,7 +260,7 @@ def door_search(
     """Returns the search for one request; what is `ignored` does not count as an obstacle."""
     part = scene.parts[request.moving]
     around, drawn = config.hinge.survey, border_frame(part.mesh, request.axis)
-    frame = without_handle(drawn, part.mesh, around.front, around.front_rays, around.rounding)
+    frame = without_handle(drawn, part.mesh, around.front, around.rounding)
     most = config.door_opening if _is_stated(request) else _most_opening(frame, config)
     wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(
