@@ -1,9 +1,11 @@
 """`grafu.load` and `grafu.functionalize`: what they take, what they refuse, and that they say what the command says."""
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -65,6 +67,21 @@ WRONG_TYPES = {
     "RESULT.save(7)": "`folder` must be a path, as str or Path: got int 7",
     "RESULT.save('x', formats=3)": "`formats` must be a list of names: got int 3",
     "RESULT.save('x', page='no')": "`page` must be True or False: got str 'no'",
+    "RESULT.joint(3)": "`name` must be the id of a joint or part, as str: got int 3",
+    "RESULT.with_motion(3, 'left')": "`part` must be the id of a part, as str: got int 3",
+    "RESULT.with_hinge(3, side='left')": "`part` must be the id of a part, as str: got int 3",
+    "RESULT.with_hinge(3)": "`part` must be the id of a part, as str: got int 3",
+    "RESULT.with_hinge('lid', side=3)": "`side` must be a word such as `left`, or None: got int 3",
+    "RESULT.with_hinge('lid', template=3)": "`template` must be the id of a template, as str: got int 3",
+    "RESULT.with_hinge('lid', mount=None)": "`mount` must be the id of a part, as str: got NoneType None",
+    "RESULT.with_hinge('lid', count='two')": "`count` must be a whole number: got str 'two'",
+    "RESULT.with_hinge('lid', scale='big')": "`scale` must be a number or None: got str 'big'",
+    "RESULT.with_hinge('lid', mechanism=3)": "`mechanism` must be a class such as `contact`, or None: got int 3",
+    "RESULT.with_rail(3)": "`part` must be the id of a part, as str: got int 3",
+    "RESULT.with_handle(3, 'none')": "`name` must be the id of a joint or part, as str: got int 3",
+    "RESULT.with_label(3, 'door')": "`part` must be the id of a part, as str: got int 3",
+    "RESULT.with_label('lid', ['door'])": "`label` must be a category such as `door`: got list ['door']",
+    "RESULT.without(7)": "`part` must be the id of a part, as str: got int 7",
     "RESULT.with_motion('lid', None)": "`how` must be a word such as `left`: got NoneType None",
 }
 
@@ -112,6 +129,26 @@ def test_wrong_arguments_are_one_line(
     with pytest.raises(error, match=message) as raised:
         grafu.functionalize(asset, **arguments)  # type: ignore[arg-type]
     assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"front": "Q"}, "`front=` must be one of +X"),
+        ({"up": "Q"}, "`up=` must be one of +X"),
+        ({"scale": math.nan}, "`scale=` must be a positive number: got nan"),
+        ({"height": -1.0}, "`height=` must be a positive number: got -1.0"),
+        ({"up": "+Z", "front": "-Z"}, "`up=` and `front=` must lie on different axes"),
+        ({"piece": 2}, "`piece=` must be a number from 1, with `pieces='split'`"),
+        ({"pieces": "split", "piece": 9}, "`piece=` must be at most 1"),
+    ],
+)
+def test_an_error_of_the_reader_names_the_argument(arguments: dict[str, Any], message: str) -> None:
+    for call in (grafu.load, grafu.functionalize):
+        with pytest.raises(AssetError) as raised:
+            call(SAMPLE, **arguments)
+        assert message in str(raised.value)
+        assert "--" not in str(raised.value)
 
 
 def test_what_is_not_there_is_refused() -> None:

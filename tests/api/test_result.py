@@ -1,10 +1,13 @@
 """What one asks of a result, what is changed of it, and how it is saved."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import grafu
+from grafu.additions.config import AdditionConfig
+from grafu.additions.handle.config import HandleChoice
 from grafu.errors import ExportError, OptionError
 
 SAMPLES = Path(__file__).parent.parent.parent / "samples"
@@ -27,6 +30,14 @@ def doors(result: grafu.Result) -> list[str]:
 def test_a_result_prints_in_one_short_line(chest: grafu.Result) -> None:
     assert repr(chest) == "<grafu.Result chest: 1 joint, 0 added, 0 skipped>"
     assert max(len(repr(each)) for each in (chest.made, chest.object, chest.graph, chest.made.completion)) < 200
+
+
+def test_records_and_settings_print_in_a_few_lines(wardrobe: grafu.Result) -> None:
+    changed = replace(AdditionConfig(), top=None, rejected=frozenset({"a"}), fronts={"door_1": HandleChoice("grip")})
+    values = (wardrobe.report, *wardrobe.joints, wardrobe.settings, changed, wardrobe.settings.pipeline())
+    assert max(len(text) for value in values for text in (repr(value), str(value))) <= 350
+    assert repr(AdditionConfig()) == "AdditionConfig()"
+    assert "top=None" in repr(changed)
 
 
 def test_joints_are_those_of_the_report_and_of_the_object(wardrobe: grafu.Result) -> None:

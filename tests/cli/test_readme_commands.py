@@ -11,8 +11,11 @@ from grafu.cli.main import build_parser, main
 ROOT = Path(__file__).parent.parent.parent
 README = (ROOT / "README.md").read_text()
 PREPARE = (ROOT / "docs" / "prepare.md").read_text()
-LINES = re.findall(r"^    (grafu [^#\n]+)", README + PREPARE, re.MULTILINE)
-SHORT = [line for line in LINES if re.match(r"grafu (inspect|functionalize samples/\w+\.glb )", line)]
+PAGES = {
+    page: re.findall(r"^    (?:\.venv/bin/)?(grafu [^#\n]+)", text, re.MULTILINE)
+    for page, text in (("README.md", README), ("docs/prepare.md", PREPARE))
+}
+LINES = [line for lines in PAGES.values() for line in lines]
 
 
 def arguments_of(line: str) -> list[str]:
@@ -29,11 +32,33 @@ def test_every_line_is_a_command_on_what_the_checkout_holds() -> None:
         assert all((ROOT / word).exists() for word in words if word.startswith("samples/"))
 
 
-@pytest.mark.parametrize("line", SHORT)
-def test_a_command_runs_as_it_stands(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def is_short(line: str) -> bool:
+    return re.match(r"grafu (inspect|functionalize samples/\w+\.glb )", line) is not None
+
+
+def outputs_of(line: str) -> list[Path]:
+    """Returns the folders that a line writes, one for each input."""
+    options = build_parser().parse_args(arguments_of(line))
+    return (
+        [options.out / Path(found).stem for found in getattr(options, "inputs", [])] if hasattr(options, "out") else []
+    )
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_no_line_writes_where_an_earlier_one_of_the_page_did(page: str) -> None:
+    written = [folder for line in PAGES[page] for folder in outputs_of(line)]
+    assert len(written) >= 4
+    assert len(set(written)) == len(written)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_the_commands_of_a_page_run_one_after_another_in_one_folder(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "samples").symlink_to(ROOT / "samples")
-    assert main([*arguments_of(line), *(["--no-page"] if "functionalize" in line else [])]) == 0
+    for line in filter(is_short, PAGES[page]):
+        assert main([*arguments_of(line), *(["--no-page"] if "functionalize" in line else [])]) == 0, line
 
 
 def test_the_python_runs_as_it_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -249,4 +249,6 @@ def test_what_is_shown_of_settings_is_what_was_changed() -> None:
     assert repr(Settings()) == "Settings()"
     assert repr(Settings(trim=False)) == "Settings(trim=False)"
     long = Settings(trim=False).with_addition("top_panel", accepted=False)
-    assert repr(long) == "Settings(trim=False, additions=...)"
+    assert repr(long) == "Settings(trim=False, additions=AdditionConfig(rejected=frozenset({'top_panel'})))"
+    longer = long.with_addition("back_panel", accepted=False)
+    assert repr(longer) == "Settings(trim=False, additions=...)"

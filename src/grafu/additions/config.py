@@ -12,11 +12,12 @@ from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
 from grafu.additions.top.config import TopConfig
+from grafu.geometry.arrays import ShortRepr
 
 
 @final
 @dataclass(frozen=True)
-class AdditionConfig:
+class AdditionConfig(ShortRepr):
     """Each of None is not added.
 
     A front that cannot be grasped gets a handle, and where none fits a recessed grip; without `handles`, a grip at

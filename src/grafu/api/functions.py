@@ -1,6 +1,8 @@
 """`grafu.load` and `grafu.functionalize`: from a path to an asset, and from either to a result."""
 
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
 from os import PathLike
 from typing import Any, Final
 
@@ -17,7 +19,7 @@ from grafu.api.result import Result
 from grafu.asset.load import endings_in, load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
-from grafu.errors import OptionError
+from grafu.errors import AssetError, OptionError
 from grafu.export.output_names import output_name, with_ending
 from grafu.joints.motion_choice import MotionChoice
 from grafu.pipeline.addition_choice import choose_additions
@@ -28,6 +30,7 @@ from grafu.templates.available import open_handles
 
 PathLikeStr = str | PathLike[str]
 _READING: Final = ("up", "front", "scale", "height", "labels", "parts", "pieces", "piece")
+_OPTION: Final = re.compile(rf"--({'|'.join(reversed(_READING))})\b(?: (split|loose|[+-][XYZ]|\d[\d.e+-]*)(?![\w]))?")
 
 
 def load(
@@ -62,7 +65,8 @@ def load(
             chosen, or an argument contradicts it.
         OptionError: if `labels`, `parts` or `pieces` is another word.
     """
-    return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts, pieces, piece))
+    with _arguments_of_python():
+        return load_asset(as_path(path, "path"), _reading(up, front, scale, height, labels, parts, pieces, piece))
 
 
 def piece_names(path: PathLikeStr, **reading: Any) -> tuple[str, ...]:
@@ -78,7 +82,8 @@ def piece_names(path: PathLikeStr, **reading: Any) -> tuple[str, ...]:
     """
     _require_known(reading, _READING[:-2], "piece_names")
     found = as_path(path, "path")
-    endings = endings_in(found, _reading(**reading, pieces="split"))
+    with _arguments_of_python():
+        endings = endings_in(found, _reading(**reading, pieces="split"))
     return tuple(with_ending(output_name(found), ending) for ending in endings)
 
 
@@ -152,6 +157,16 @@ def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, LoadOptio
     if not isinstance(source, str | PathLike):
         raise TypeError(f"`source` must be a path or the asset that `grafu.load` returned: got {described(source)}")
     return load(source, **reading), _reading(**reading)
+
+
+@contextmanager
+def _arguments_of_python() -> Iterator[None]:
+    """Raises the reader's errors, which name options of the command, with the names of arguments instead."""
+    try:
+        yield
+    except AssetError as error:
+        text = _OPTION.sub(lambda m: f"`{m[1]}={m[2]!r}`" if m[2] else f"`{m[1]}=`", str(error))
+        raise type(error)(text) from error.__cause__
 
 
 def _reading(

@@ -55,6 +55,11 @@ def require_bool_or_word(value: Any, name: str, expected: str) -> bool | str:
     return value
 
 
+def require_word(value: Any, name: str, expected: str = "the id of a part, as str") -> str:
+    """Returns the value where it is a str, as `require` does."""
+    return require(value, str, name, expected)
+
+
 def optional_number(value: Any, name: str) -> float | None:
     """Returns a number as float, or None.
 
@@ -122,10 +127,11 @@ def motion_in_words(part: str, word: str) -> MotionChoice:
     """Returns how a part moves, of one word.
 
     Raises:
-        TypeError: if it is no str.
+        TypeError: if one of them is no str.
         OptionError: if it is another word than those of `Result.with_motion`.
     """
+    require_word(part, "part")
     try:
-        return choice_in_words(require(word, str, "how", "a word such as `left`"))
+        return choice_in_words(require_word(word, "how", "a word such as `left`"))
     except OptionError as error:
         raise OptionError(f"how `{part}` moves {error}") from None

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import final
 
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
-from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require
+from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require, require_word
 from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
@@ -95,8 +95,10 @@ class Result:
         """Returns the joint of this id, or that of the moving part of this id.
 
         Raises:
+            TypeError: if `name` is no str.
             OptionError: if there is none.
         """
+        require_word(name, "name", "the id of a joint or part, as str")
         for joint in self.joints:
             if name in (joint.id, joint.part):
                 return joint
@@ -142,6 +144,7 @@ class Result:
                 `slides`: it slides out of the front; `fixed`: it gets no joint.
 
         Raises:
+            TypeError: if an argument has a wrong type.
             OptionError: if there is no such part, or it cannot have this motion.
         """
         return self._with(self.settings.with_motion(part, motion_in_words(part, how)))
@@ -171,9 +174,11 @@ class Result:
             mount: the id of the part that carries it.
 
         Raises:
+            TypeError: if an argument has a wrong type.
             OptionError: if there is no such part, template or class, or a number is out of range.
         """
-        if side is not None and side not in TURNING_SIDES:
+        require_word(part, "part")
+        if side is not None and require_word(side, "side", "a word such as `left`, or None") not in TURNING_SIDES:
             raise OptionError(f"`side` must be one of {', '.join(TURNING_SIDES)}: got {side!r}")
         name = part if side else self.joint(part).part
         settings = self.settings.with_motion(name, motion_in_words(name, side)) if side else self.settings
@@ -201,8 +206,10 @@ class Result:
         `opening` is the widest opening in metres; the others are those of `with_hinge`.
 
         Raises:
+            TypeError: if an argument has a wrong type.
             OptionError: if there is no such part, template or class, or a number is out of range.
         """
+        require_word(part, "part")
         chosen = _choice(
             template=template,
             mechanism=_mechanism(mechanism),
@@ -215,10 +222,11 @@ class Result:
         """Returns the result in which a door or drawer has a handle or grip of this style, or `none`.
 
         Raises:
+            TypeError: if an argument has a wrong type.
             OptionError: if there is no such style or no such front.
         """
         known = (*open_handles(self.request.templates), *GRIPS, NO_HANDLE)
-        if require(style, str, "style", "a style such as `knob-round`") not in known:
+        if require_word(style, "style", "a style such as `knob-round`") not in known:
             raise OptionError(f"`style` must be one of {', '.join(known)}: got {style!r}")
         return self._with(self.settings.with_front(self.joint(part).part, HandleChoice(style=style)))
 
@@ -226,9 +234,11 @@ class Result:
         """Returns the result in which a part has this category.
 
         Raises:
+            TypeError: if an argument has a wrong type.
             OptionError: if there is no such part or category.
         """
-        if label not in {known.value for known in PartLabel}:
+        require_word(part, "part")
+        if require_word(label, "label", "a category such as `door`") not in {known.value for known in PartLabel}:
             raise OptionError(f"`label` must be one of {', '.join(PartLabel)}: got {label!r}")
         return self._with(self.settings.with_label(part, PartLabel(label)))
 
@@ -236,11 +246,12 @@ class Result:
         """Returns the result without these added parts.
 
         Raises:
+            TypeError: if one is no str.
             OptionError: if one of them was not added. To fix a part of the input: `with_motion(part, "fixed")`.
         """
         settings, known = self.settings, {record.part: record for record in self.added}
         for part in parts:
-            if part not in known:
+            if require_word(part, "part") not in known:
                 raise OptionError(f"`{part}` was not added: added parts are {', '.join(sorted(known)) or 'none'}")
             settings = _without(settings, known[part])
         return self._with(settings)
@@ -262,6 +273,10 @@ def _without(settings: Settings, added: AddedRecord) -> Settings:
 
 
 def _choice(**fields: object) -> JointChoice:
+    require_word(fields["template"], "template", "the id of a template, as str")
+    require_word(fields["mount"], "mount")
+    require(fields.get("count", 0), int, "count", "a whole number")
+    optional_number(fields.get("scale"), "scale")
     try:
         return JointChoice(**fields)  # type: ignore[arg-type]  # it checks them itself
     except ValueError as error:
@@ -269,7 +284,7 @@ def _choice(**fields: object) -> JointChoice:
 
 
 def _mechanism(name: str | None) -> MechanismClass | None:
-    if name is None:
+    if name is None or not require_word(name, "mechanism", "a class such as `contact`, or None"):
         return None
     known = [mechanism.value for mechanism in MechanismClass if mechanism is not MechanismClass.NONE]
     if name not in known:

@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
 from grafu.geometry.appearance import Material
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Mat3, ShortRepr, Vec3, freeze_arrays
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -31,7 +31,7 @@ _BY_WORD: Mapping[str, float] = MappingProxyType(
 
 @final
 @dataclass(frozen=True)
-class MassConfig:
+class MassConfig(ShortRepr):
     """Densities, and the least that counts as a body.
 
     Raises:

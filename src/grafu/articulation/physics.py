@@ -19,7 +19,7 @@ from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape,
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import ShortRepr, Vec3
 from grafu.geometry.budget import WhileTimeLasts, present_budget, within
 
 T = TypeVar("T")
@@ -99,7 +99,7 @@ def _about_axis(joint: Joint, carried: list[MassProperties]) -> tuple[float, flo
 
 @final
 @dataclass(frozen=True, slots=True)
-class PhysicsConfig:
+class PhysicsConfig(ShortRepr):
     """How masses, collision shapes and the resistance of joints are found."""
 
     mass: MassConfig = field(default_factory=MassConfig)

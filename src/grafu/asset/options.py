@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Literal, final
 
 from grafu.errors import AssetError, AssetTooLarge
+from grafu.geometry.arrays import ShortRepr
 
 DIRECTIONS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 
@@ -88,7 +89,7 @@ def check_parts(count: int, path: Path, limits: Limits) -> None:
 
 @final
 @dataclass(frozen=True, slots=True)
-class LoadOptions:
+class LoadOptions(ShortRepr):
     """How to read an asset; None leaves the choice to the format, the dataset or the geometry.
 
     `up` and `front` are directions in the input's own coordinates, like `+Y`; `scale` is metres per input unit;

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive
 from grafu.vocabulary import PartLabel
 
@@ -92,7 +93,7 @@ class DecodeConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
-class GuessConfig:
+class GuessConfig(ShortRepr):
     """What the rule takes for a door, a drawer or a handle where a part has no label.
 
     Lengths are fractions of the object's largest side, because graphs come in any unit; other numbers are ratios of
@@ -251,7 +252,7 @@ class RowConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
-class RuleConfig:
+class RuleConfig(ShortRepr):
     """The thresholds of the rule-based baseline."""
 
     handle_reach: float = 0.05

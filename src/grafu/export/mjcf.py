@@ -23,7 +23,7 @@ from grafu.export.mjcf_looks import MjcfLooks, drawn_meshes
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.geometry.arrays import Mat3, Vec3
+from grafu.geometry.arrays import Mat3, ShortRepr, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import within
 from grafu.vocabulary import PartLabel
@@ -39,7 +39,7 @@ _IN_STEP = "0.005 1"
 
 @final
 @dataclass(frozen=True, slots=True)
-class MjcfConfig:
+class MjcfConfig(ShortRepr):
     """What goes into an MJCF file.
 
     `armature` is a fraction of the inertia (or mass) that a joint moves, added to it: it steadies light parts.

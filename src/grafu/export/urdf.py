@@ -16,14 +16,14 @@ from grafu.export.files import ExportFiles
 from grafu.export.names import number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import ShortRepr, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.transform import roll_pitch_yaw
 
 
 @final
 @dataclass(frozen=True, slots=True)
-class UrdfConfig:
+class UrdfConfig(ShortRepr):
     """What goes into a URDF. `mujoco` adds the element that tells MuJoCo where the meshes are; others ignore it."""
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)

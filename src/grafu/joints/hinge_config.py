@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_finite, require_positive, require_ratios
 
 
 @final
 @dataclass(frozen=True)
-class SurveyConfig:
+class SurveyConfig(ShortRepr):
     """Where rays are cast around a hinge border, and what of it counts as one face.
 
     Thickness, width and length are the door's. A board is its thickness, or that of a thin board where it has none.
@@ -231,7 +232,7 @@ class DrawnConfig:
 
 @final
 @dataclass(frozen=True)
-class HingeConfig:
+class HingeConfig(ShortRepr):
     """Sizes of hinges that are not templates, what is tried where usual ones do not fit, and where it is measured.
 
     Raises:

@@ -6,6 +6,7 @@ Lengths are metres on furniture of usual size; see `at_scale` for models in anot
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 
@@ -234,7 +235,7 @@ class RailFootingConfig:
 
 @final
 @dataclass(frozen=True)
-class RailConfig:
+class RailConfig(ShortRepr):
     """Sizes of rails and of the dividers that carry them.
 
     Raises:

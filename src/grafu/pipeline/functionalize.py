@@ -15,6 +15,7 @@ from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
@@ -50,7 +51,7 @@ T = TypeVar("T")
 
 @final
 @dataclass(frozen=True)
-class PipelineConfig:
+class PipelineConfig(ShortRepr):
     """The configurations of the stages."""
 
     parsing: ParsingConfig = ParsingConfig()

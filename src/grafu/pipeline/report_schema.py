@@ -8,6 +8,7 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
 from grafu.additions.step import DeficiencyKind
+from grafu.geometry.arrays import short_repr
 from grafu.graph.completion import Question
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.words import Colour, FaultKind
@@ -25,6 +26,11 @@ class ReportRecord(BaseModel):
     """Abstract base: frozen, and strict about unknown fields."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __repr__(self) -> str:
+        return short_repr(type(self).__name__, ((name, getattr(self, name)) for name in type(self).model_fields))
+
+    __str__ = __repr__
 
 
 def schema_field(name: str) -> Any:

@@ -5,7 +5,7 @@ nothing.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, final
@@ -18,6 +18,7 @@ from grafu.additions.interior.request import CompartmentChoice
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, OptionError
+from grafu.geometry.arrays import ShortRepr
 from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import AUTOMATIC, JointChoice
@@ -30,8 +31,8 @@ SCHEMA = "grafu.settings/1"
 
 
 @final
-@dataclass(frozen=True, repr=False)
-class Settings:
+@dataclass(frozen=True)
+class Settings(ShortRepr):
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
     `labels` and `motions` go by the ids of parts, `joints` by those of moving parts. `weights` is a file of trained
@@ -51,13 +52,6 @@ class Settings:
     def __post_init__(self) -> None:
         if self.motion.is_foreign:
             raise ValueError(f"the motion source {self.motion} reads a file, which settings do not name")
-
-    def __repr__(self) -> str:
-        """What differs from the defaults; long values by their names alone, `to_json` has them."""
-        usual = {field.name: getattr(_USUAL, field.name) for field in fields(self)}
-        changed = {name: repr(getattr(self, name)) for name in usual if getattr(self, name) != usual[name]}
-        shown = (f"{name}={value if len(value) <= _SHORT else '...'}" for name, value in changed.items())
-        return f"Settings({', '.join(shown)})"
 
     def pipeline(self, own_handles: Mapping[str, HandleTemplate] | None = None) -> PipelineConfig:
         """Returns the configuration of `functionalize` that these settings stand for."""
@@ -109,10 +103,6 @@ class Settings:
     def to_json(self) -> dict[str, Any]:
         """Returns plain JSON values, every setting written out: what later versions do by default changes nothing."""
         return {"schema": SCHEMA, **_adapter().dump_python(self, mode="json")}
-
-
-_USUAL = Settings()
-_SHORT = 60  # letters of a value that `repr` shows
 
 
 def settings_from_bytes(data: bytes, where: object) -> Settings:

@@ -8,6 +8,7 @@ line states.
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive
 
 
@@ -87,7 +88,7 @@ class FrameConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
-class MemberConfig:
+class MemberConfig(ShortRepr):
     """Which of the candidates are fronts, and which shells belong to one: panes, liners, boards, handles.
 
     Raises:
@@ -209,7 +210,7 @@ class JoiningConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
-class SegmentationConfig:
+class SegmentationConfig(ShortRepr):
     """The thresholds of all steps."""
 
     candidates: CandidateConfig = CandidateConfig()

@@ -3,13 +3,15 @@
 from dataclasses import dataclass, replace
 from typing import Any, Literal, final
 
+from grafu.geometry.arrays import ShortRepr
+
 ClassCost = Literal["cross-entropy", "probability"]
 BoxError = Literal["squared", "absolute"]
 
 
 @final
 @dataclass(frozen=True)
-class LossConfig:
+class LossConfig(ShortRepr):
     """What each term weighs; a weight of 0 holds a term out (supplement, Loss Ablation).
 
     Departures from the paper, each with its reason:

@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from math import cos, radians
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive
 
 
 @final
 @dataclass(frozen=True)
-class CarcassConfig:
+class CarcassConfig(ShortRepr):
     """Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
 
     Raises:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive
 
 
@@ -53,7 +54,7 @@ class BoxProbeConfig:
 
 @final
 @dataclass(frozen=True)
-class DrawerBoxConfig:
+class DrawerBoxConfig(ShortRepr):
     """Lengths are metres on furniture of usual size, on small fronts less; see `at_scale` for models in another scale.
 
     Raises:

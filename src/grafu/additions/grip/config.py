@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 
@@ -118,7 +119,7 @@ class GroundConfig:
 
 @final
 @dataclass(frozen=True)
-class GripConfig:
+class GripConfig(ShortRepr):
     """Which grip is carved, and what must remain.
 
     Raises:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 
 NO_HANDLE = "none"
@@ -15,7 +16,7 @@ MOST_HANDLES = 4
 
 @final
 @dataclass(frozen=True)
-class HandleTrials:
+class HandleTrials(ShortRepr):
     """Which sizes and places are tried in turn where a handle does not fit, the usual one first.
 
     Raises:
@@ -56,7 +57,7 @@ class HandleTrials:
 
 @final
 @dataclass(frozen=True)
-class HandleConfig:
+class HandleConfig(ShortRepr):
     """Which handles are added, how large, and where; see `grafu.scene.scale` for models of another scale.
 
     Raises:

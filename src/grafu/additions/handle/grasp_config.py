@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_at_most_one, require_positive, require_ratios
 
 
@@ -106,7 +107,7 @@ class GripConfidences:
 
 @final
 @dataclass(frozen=True)
-class GraspConfig:
+class GraspConfig(ShortRepr):
     """What counts as room for fingers; see `grafu.scene.scale` for models in another scale.
 
     Raises:

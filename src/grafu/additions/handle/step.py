@@ -15,6 +15,7 @@ from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.place import add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
 from grafu.additions.step import Changes, Grasp, Request, StepResult
+from grafu.geometry.arrays import ShortRepr
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -22,7 +23,7 @@ from grafu.vocabulary import PartLabel
 
 @final
 @dataclass(frozen=True)
-class FrontConfig:
+class FrontConfig(ShortRepr):
     """What fronts are grasped by (None: no handles, no grips), what counts as a grasp, and by front what was chosen."""
 
     handles: HandleConfig | None = field(default_factory=HandleConfig)

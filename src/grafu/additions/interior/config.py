@@ -6,6 +6,7 @@ Lengths are metres on furniture of usual size; a model in another scale gets pan
 from dataclasses import dataclass
 from typing import final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.config import RealizationConfig
 from grafu.scene.scale import metre_on
@@ -56,7 +57,7 @@ class RoomConfig:
 
 @final
 @dataclass(frozen=True)
-class InteriorConfig:
+class InteriorConfig(ShortRepr):
     """The sizes of panels, and of compartments worth furnishing.
 
     Raises:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import radians
 from typing import Literal, final
 
+from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 
 TopShape = Literal["rectangle", "rounded", "chamfered"]
@@ -130,7 +131,7 @@ class EvidenceConfig:
 
 @final
 @dataclass(frozen=True)
-class OutlineConfig:
+class OutlineConfig(ShortRepr):
     """What carries a missing top, and the outline that is closed up around it."""
 
     below_rim: float = 0.03
@@ -224,7 +225,7 @@ class CutoutConfig:
 
 @final
 @dataclass(frozen=True)
-class TopConfig:
+class TopConfig(ShortRepr):
     """What counts as a top, and how an added one looks.
 
     Raises:

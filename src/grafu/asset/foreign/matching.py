@@ -18,7 +18,7 @@ from grafu.asset.foreign.frames import FrameGuess, drawn_together, fitted_frames
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, JointFrame
 from grafu.asset.part import Asset, Part
 from grafu.errors import AssetError
-from grafu.geometry.arrays import Mat4
+from grafu.geometry.arrays import Mat4, ShortRepr
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -30,7 +30,7 @@ _SMALLEST_SCALE = 1e-60  # of a transform: its cube is still a number
 
 @final
 @dataclass(frozen=True, slots=True)
-class MatchConfig:
+class MatchConfig(ShortRepr):
     """Which frame of a prediction is believed.
 
     Raises:
