@@ -11,15 +11,6 @@ from .state import report_of, session_of, settings_of
 
 AUTO = "auto"
 PIVOT = "pivot"
-HINGES = [
-    ("C", "Contact", "Leaves between two faces that touch"),
-    ("F", "Flush", "Leaves on two flush faces"),
-    ("P", "Perpendicular", "Leaves in an inner corner"),
-]
-RAILS = [
-    ("centre-mount", "Centre mount", "Rails at half the height of the drawer's sides"),
-    ("corner-mount", "Corner mount", "Rails that carry the drawer from below"),
-]
 SUPPORTS = [
     (AUTO, "As needed", "The shortest block from a rail to whatever stands there"),
     ("slab", "Slabs", "A slab as large as the rail, out to the wall beside it"),
@@ -61,7 +52,10 @@ def _fitting(what, make, operator, context):
 
 def _classes() -> list:
     """Returns rows: whether it is of rails, class, id, name, words."""
-    return [(rail, row[0], *row) for rail, rows in ((False, HINGES), (True, RAILS)) for row in rows]
+    from grafu.vocabulary import MECHANISM_MENU, RAIL_CLASSES
+
+    rows = MECHANISM_MENU.items()
+    return [(m in RAIL_CLASSES, m.value, m.value, m.in_words.capitalize().replace("-", " "), text) for m, text in rows]
 
 
 def _templates() -> list:

@@ -5,7 +5,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-SOURCES = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / "src").rglob("*.py")}
+FOLDERS = ("src", "blender_addon")
+SOURCES = {path.relative_to(ROOT).as_posix(): path for name in FOLDERS for path in (ROOT / name).rglob("*.py")}
 
 
 def row_of(what: str) -> str:
@@ -14,7 +15,7 @@ def row_of(what: str) -> str:
 
 
 def paths_in(text: str) -> set[str]:
-    return set(re.findall(r"`((?:src|tests|docs)/[\w/.]*)`", text))
+    return set(re.findall(r"`((?:src|tests|docs|blender_addon)/[\w/.]*)`", text))
 
 
 def test_every_file_that_is_named_is_there() -> None:
@@ -23,20 +24,25 @@ def test_every_file_that_is_named_is_there() -> None:
 
 
 def test_a_hinge_class_touches_the_files_that_name_one() -> None:
-    naming = {
-        name for name, path in SOURCES.items() if re.search(r"MechanismClass\.(?!NONE)[A-Z]", path.read_text("utf-8"))
-    }
+    # as a member, or as the letter in a literal of several: ("C", "F", "P") and ("C", "Contact", ...)
+    named = re.compile(r"MechanismClass\.(?!NONE)[A-Z]|[(\[]\"C\", \"(?:F|Contact)\"")
+    naming = {name for name, path in SOURCES.items() if named.search(path.read_text("utf-8"))}
     assert naming - paths_in(row_of("a hinge class")) == set()
 
 
 def test_a_kind_of_motion_touches_the_files_that_name_one() -> None:
     moving = re.compile(r"JointType\.(?!FIXED)[A-Z]+|\"(revolute|prismatic)\"")
-    addon = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / "blender_addon").rglob("*.py")}
     pages = {p.relative_to(ROOT).as_posix(): p for p in (ROOT / "src/grafu/viewer/templates").iterdir()}
-    every = {**SOURCES, **addon, **pages}
+    every = {**SOURCES, **pages}
     named = paths_in(row_of("a kind of joint motion"))
     assert {name for name, path in every.items() if moving.search(path.read_text("utf-8"))} - named == set()
     assert len(named) <= 15
+
+
+def test_a_format_with_words_for_motions_has_them_in_the_table() -> None:
+    table = "src/grafu/articulation/motion_kind.py"
+    assert "MotionFormat = Literal[" in SOURCES[table].read_text("utf-8")
+    assert table in paths_in(row_of("an export format"))
 
 
 def test_only_the_table_of_formats_names_an_exporter() -> None:

@@ -71,7 +71,24 @@ class MechanismClass(StrEnum):
     CORNER = "corner-mount"
     NONE = "none"
 
+    @classmethod
+    def _missing_(cls, value: object) -> "MechanismClass | None":
+        """Takes the name for people as well: `MechanismClass("contact")` is C."""
+        return next((member for member in cls if member.in_words == value), None)
+
     @property
     def in_words(self) -> str:
         """The name for people: `contact`, `flush` and `perpendicular` for the paper's C, F and P."""
-        return {"C": "contact", "F": "flush", "P": "perpendicular"}.get(self.value, self.value)
+        return _HINGE_WORDS.get(self.value, self.value)
+
+
+_HINGE_WORDS = {"C": "contact", "F": "flush", "P": "perpendicular"}
+MECHANISM_MENU: dict[MechanismClass, str] = {
+    MechanismClass.C: "Leaves between two faces that touch",
+    MechanismClass.F: "Leaves on two flush faces",
+    MechanismClass.P: "Leaves in an inner corner",
+    MechanismClass.CENTRE: "Rails at half the height of the drawer's sides",
+    MechanismClass.CORNER: "Rails that carry the drawer from below",
+}
+"""The classes that can be chosen, hinges before rails, each with a line for menus."""
+RAIL_CLASSES = (MechanismClass.CENTRE, MechanismClass.CORNER)

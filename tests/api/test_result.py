@@ -9,6 +9,7 @@ import grafu
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
 from grafu.errors import ExportError, OptionError
+from grafu.vocabulary import MechanismClass
 
 SAMPLES = Path(__file__).parent.parent.parent / "samples"
 
@@ -77,11 +78,18 @@ def test_a_handle_is_chosen_and_left_out_again(chest: grafu.Result) -> None:
     assert knob.without(knob.added[0].part).added == ()
 
 
+def test_a_class_is_given_by_its_word_or_letter(wardrobe: grafu.Result) -> None:
+    assert [MechanismClass(word) for word in ("contact", "flush", "perpendicular", "C")] == ["C", "F", "P", "C"]
+    door = doors(wardrobe)[0]
+    by_word, by_letter = (wardrobe.with_hinge(door, mechanism=name) for name in ("contact", "C"))
+    assert by_word.settings == by_letter.settings != wardrobe.settings
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
         (lambda r, d: r.with_hinge(d, side="upwards"), "`side` must be one of left, right, top, bottom"),
-        (lambda r, d: r.with_hinge(d, mechanism="Z"), "`mechanism` must be one of C, F, P"),
+        (lambda r, d: r.with_hinge(d, mechanism="Z"), "`mechanism` must be one of contact, flush, perpendicular"),
         (lambda r, d: r.with_hinge(d, template="no-such"), "template of"),
         (lambda r, d: r.with_hinge(d, count=99), "`count` must be in 0..12: got 99"),
         (lambda r, d: r.with_hinge(d, opening=-1.0), "`opening` must be above 0"),

@@ -27,7 +27,7 @@ from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, Skipp
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.words import counted
 from grafu.templates.available import open_handles
-from grafu.vocabulary import MechanismClass, PartLabel
+from grafu.vocabulary import MECHANISM_MENU, MechanismClass, PartLabel
 
 
 @final
@@ -167,7 +167,7 @@ class Result:
             part: the id of the door or flap.
             side: the border that it turns about: `left`, `right`, `top` or `bottom`.
             template: a hinge of `grafu templates`, or `pivot`.
-            mechanism: the hinge class: `C` (contact), `F` (flush) or `P` (perpendicular); see docs/templates.md.
+            mechanism: the class: `contact`, `flush`, `perpendicular` (or `C`, `F`, `P`); see docs/templates.md.
             count: how many hinges; 0: by the height of the door.
             scale: a factor on the size of the hinges, 0.25 to 4.
             opening: the widest opening, radians.
@@ -286,7 +286,8 @@ def _choice(**fields: object) -> JointChoice:
 def _mechanism(name: str | None) -> MechanismClass | None:
     if name is None or not require_word(name, "mechanism", "a class such as `contact`, or None"):
         return None
-    known = [mechanism.value for mechanism in MechanismClass if mechanism is not MechanismClass.NONE]
-    if name not in known:
-        raise OptionError(f"`mechanism` must be one of {', '.join(known)}: got {name!r}")
-    return MechanismClass(name)
+    named = {word: mechanism for mechanism in MECHANISM_MENU for word in (mechanism.in_words, mechanism.value)}
+    if name not in named:
+        known = ", ".join(mechanism.in_words for mechanism in MECHANISM_MENU)
+        raise OptionError(f"`mechanism` must be one of {known}: got {name!r}")
+    return named[name]

@@ -1,7 +1,7 @@
 """The kinds of motion that a joint may have: a table with one row each, and what everyone asks of a row.
 
-Whoever needs to know how a joint moves, in which unit its value counts, or by which word a format calls it, asks the
-row: nothing else tells one type from another. It writes no file.
+How a joint moves, in which unit its value counts and what formats call it is in its row; other code asks for `turns`,
+`slides` or `moves` and does not compare types. It writes no file.
 """
 
 from collections.abc import Callable, Mapping
@@ -101,7 +101,7 @@ class MotionKind:
     def sets_off(self, axis: Axis, point: Vec3, sense: float = 1.0) -> Vec3:
         """Returns the unit direction in which a point leaves rest; zero where it turns on the spot.
 
-        A negative `sense` asks for the way of negative values.
+        A negative `sense` asks for the direction of negative values.
         """
         step = self.displacement(axis, point[None], sense * _A_LITTLE)[0]
         length = float(np.linalg.norm(step))

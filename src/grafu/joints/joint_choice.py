@@ -16,9 +16,7 @@ from grafu.joints.config import PlanConfig
 from grafu.joints.plan import AUTOMATIC, PIVOT, JointChoice, JointRequest, RealizationPlan, Supports
 from grafu.scene.border import BorderFrame, border_frame
 from grafu.templates.template import Gallery
-from grafu.vocabulary import MechanismClass
-
-_RAILS = (MechanismClass.CENTRE, MechanismClass.CORNER)
+from grafu.vocabulary import RAIL_CLASSES, MechanismClass
 
 
 def with_choices(
@@ -94,7 +92,7 @@ def _mechanism(request: JointRequest, choice: JointChoice, gallery: Gallery) -> 
         raise OptionError(f"side, count and scale are chosen for hinges: `{request.moving}` slides on two rails")
     if not slides and choice.supports is not Supports.AUTO:
         raise OptionError(f"supports are chosen for rails: `{request.moving}` turns on hinges")
-    if choice.mechanism is not None and slides is not (choice.mechanism in _RAILS):
+    if choice.mechanism is not None and slides is not (choice.mechanism in RAIL_CLASSES):
         raise OptionError(f"`{request.moving}` is {request.type}: got the class {choice.mechanism}")
     if choice.template in ("", PIVOT):
         return choice.mechanism

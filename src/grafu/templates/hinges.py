@@ -4,8 +4,9 @@ How a pose stays clean and connected, by construction (R is the barrel's radius;
 
 * The pin and half of the knuckles are static. The other knuckles are tubes that turn about the pin with
   `PIN_CLEARANCE` between, so both ends stay that near in every pose. Neighbouring knuckles leave `KNUCKLE_GAP`.
-* A leaf keeps clear of the whole barrel, but for tongues that reach into its own knuckles. Leaves of class C are apart
-  by twice `SEAM_GAP`; F and P leaves lie in different sectors around the pin for every angle within the range.
+* A leaf keeps clear of the whole barrel, but for tongues that reach into its own knuckles. Leaves of contact hinges are
+  apart by twice `SEAM_GAP`; those of flush and perpendicular ones lie in different sectors around the pin for every
+  angle within the range.
 * Everything stays within the hinge's length along the pin, pin heads and finials included.
 """
 
@@ -30,7 +31,7 @@ from grafu.vocabulary import MechanismClass
 
 PIN_CLEARANCE = 5e-5  # metres between pin and moving knuckle; less on a barrel under 1.25 mm
 KNUCKLE_GAP = 2e-4  # metres between neighbouring knuckles
-SEAM_GAP = 1e-4  # metres from the seam's middle to a leaf of class C
+SEAM_GAP = 1e-4  # metres from the seam's middle to a leaf of a contact hinge
 _PIN = 0.5  # radius of the pin in radii of the barrel
 _TONGUE = 0.66  # how far from the axis a tongue ends, in radii of the barrel: inside the knuckle's wall, off the pin
 
@@ -121,7 +122,7 @@ def _sides(mechanism: MechanismClass, size: HingeSize) -> tuple[_Side, _Side]:
         return _Side(-x, -y, inner, size.radius), _Side(x, -y, inner, size.radius)
     if mechanism is MechanismClass.P:
         return _Side(y, -x, inner, size.radius), _Side(x, -y, inner, size.radius)
-    raise TemplateError(f"a hinge must be of class C, F or P: got {mechanism}")
+    raise TemplateError(f"a hinge must be of class contact, flush or perpendicular: got {mechanism.in_words}")
 
 
 def _snap(side: _Side, size: HingeSize) -> SnapPlane:
