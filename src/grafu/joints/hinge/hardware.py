@@ -82,6 +82,7 @@ FLOOR = "the floor"
 PACKED, HANGING, LOOSE = "a thick block", "a leaf in the air", "a disc beside what carries it"
 """What speaks against a hinge as if others struck it: a block too thick, too little below a leaf, a pivot too wide."""
 FLAWS = frozenset((FLOOR, PACKED, HANGING, LOOSE))
+OF_PLACE = frozenset((PACKED, HANGING))  # the same for all templates of a class
 
 
 @final

@@ -10,10 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import final
 
-import numpy as np
-
 from grafu.articulation.articulated_object import Visual
-from grafu.geometry.mesh import merge_meshes
 from grafu.joints.hinge.candidates import (
     PIVOTS,
     PinCandidate,
@@ -23,8 +20,18 @@ from grafu.joints.hinge.candidates import (
     is_leaf,
     turns_about_itself,
 )
-from grafu.joints.hinge.hardware import FLAWS, FLOOR, LOOSE, InstalledHinge, Site, install, judged_hinge, resting_leaf
-from grafu.joints.hinge.pivot import pivot_ends
+from grafu.joints.hinge.hardware import (
+    FLAWS,
+    FLOOR,
+    LOOSE,
+    OF_PLACE,
+    InstalledHinge,
+    Site,
+    install,
+    judged_hinge,
+    resting_leaf,
+)
+from grafu.joints.hinge.pivot import is_on_mount, pivot_ends, with_flaw
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
 from grafu.joints.limits import in_the_way
 from grafu.joints.plan import PIVOT
@@ -34,6 +41,7 @@ from grafu.templates.template import Gallery, HingeModel, HingeSize
 
 _HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
+_Drawbacks = tuple[int, bool, bool, int]
 _FEWEST = 2  # hinges of a door that has no room for all
 _STRUCK = 3  # heights at which a neighbour runs into a hinge before the pin is given up: doors strike all along it
 
@@ -66,33 +74,44 @@ def _placed(search: DoorSearch, gallery: Gallery, count: int) -> Placement | Non
     left_out: list[_Try] = []
     for one in _tries(search, gallery, count):
         found = one.placement
-        is_wide = found.upper >= search.config.restricted * search.wanted
-        may_be_narrow = search.request.coupling is None and all(other.whole() is None for other in left_out)
-        if not found.struck_by and (is_wide or may_be_narrow):
+        if not found.struck_by and (not _is_narrow(found, search) or _may_be_narrow(search, left_out)):
             return _noted(found, [other.placement for other in left_out], search.request.moving)
         left_out.append(one)
     return _least_struck(left_out, search)
 
 
+def _may_be_narrow(search: DoorSearch, left_out: Sequence[_Try]) -> bool:
+    """Whether the door may open too little: it follows no leader, and nothing that was left out finds a place."""
+    return search.request.coupling is None and all(other.whole() is None for other in left_out)
+
+
 def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None:
-    """Returns the first whole placement that the fewest joints that stand would run into, wide and sound at best."""
-    least: Placement | None = None
-    for one in tries:
-        placement = one.whole()
-        if placement is not None and (least is None or _drawbacks(placement, search) < _drawbacks(least, search)):
-            least = placement
-        if least is not None and not any(_drawbacks(least, search)):
+    """Returns the first whole placement that the fewest joints that stand would run into, wide and sound at best.
+
+    A whole placement has the drawbacks of its first hinge at least: what cannot be better is not placed as a whole.
+    """
+    in_order = sorted((_drawbacks(one.placement, search), rank, one) for rank, one in enumerate(tries))
+    best: tuple[_Drawbacks, int, Placement] | None = None
+    for least, rank, one in in_order:
+        if best is not None and best[:2] <= (least, rank):
             break
-    if least is None:
+        placement = one.whole()
+        if placement is not None and (best is None or (_drawbacks(placement, search), rank) < best[:2]):
+            best = _drawbacks(placement, search), rank, placement
+    if best is None:
         return None
-    hits = (f"{name} runs into its hardware" for name in _built_ones(least.struck_by, search))
-    return replace(least, notes=tuple(hits))
+    hits = (f"{name} runs into its hardware" for name in _built_ones(best[2].struck_by, search))
+    return replace(best[2], notes=tuple(hits))
 
 
-def _drawbacks(placement: Placement, search: DoorSearch) -> tuple[int, bool, bool, int]:
+def _is_narrow(placement: Placement, search: DoorSearch) -> bool:
+    return placement.upper < search.config.restricted * search.wanted
+
+
+def _drawbacks(placement: Placement, search: DoorSearch) -> _Drawbacks:
     """Returns how many joints that stand run into it, whether it opens too little or is loose, and how many flaws."""
-    is_narrow, flaws = placement.upper < search.config.restricted * search.wanted, FLAWS & {*placement.struck_by}
-    return len(_built_ones(placement.struck_by, search)), is_narrow, LOOSE in flaws, len(flaws)
+    flaws, hits = FLAWS & {*placement.struck_by}, _built_ones(placement.struck_by, search)
+    return len(hits), _is_narrow(placement, search), LOOSE in flaws, len(flaws)
 
 
 def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
@@ -141,7 +160,9 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, coun
         attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
         placement = attempt(is_whole=False)
         if placement is not None:
-            yield _Try(placement, partial(attempt, is_whole=True))
+            yield _Try(placement, cache(partial(attempt, is_whole=True)))
+            if OF_PLACE & {*placement.struck_by}:
+                return  # the place is at fault, and the same for all templates
 
 
 def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
@@ -154,29 +175,16 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     held = [
-        _as_disc(hinge, judged, site, search) for hinge in judgements if hinge is not None and _is_on_mount(hinge, site)
+        hinge
+        if turns_about_itself(search.frame, search.request.axis, search.config.hinge)
+        else with_flaw(hinge, judged.pin, site)
+        for hinge in judgements
+        if hinge is not None and is_on_mount(hinge, site)
     ]
-    free = [hinge for hinge in held if not {*hinge.struck_by} - FLAWS]
     if held:
+        free = [hinge for hinge in held if not {*hinge.struck_by} - FLAWS]
         placement = _placement(judged, PIVOT, upper, free or held, search)
         yield _Try(placement, lambda: placement)
-
-
-def _as_disc(hinge: InstalledHinge, judged: JudgedPin, site: Site, search: DoorSearch) -> InstalledHinge:
-    """Returns a pivot with its flaw, if any: no static part carries it, or it is wide to reach one beside the door."""
-    points = search.frame.to_border(hinge.dynamic[0].mesh.vertices)
-    is_wide = float(np.ptp(points[:, 0])) > 2 * search.config.hinge.pivot.widest * judged.pin.radius
-    is_carried = site.scene.is_near_static(merge_meshes(hinge.static_meshes), site.anchor, site.holders)
-    about_itself = turns_about_itself(search.frame, search.request.axis, search.config.hinge)
-    if about_itself or (is_carried and not is_wide):
-        return hinge
-    return replace(hinge, struck_by=(*hinge.struck_by, LOOSE))
-
-
-def _is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
-    """Whether the static end sits on what alone may hold it, if that is limited."""
-    static = merge_meshes(hinge.static_meshes)
-    return not site.holders or site.scene.is_near_static(static, site.anchor, site.holders)
 
 
 def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
