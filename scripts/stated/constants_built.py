@@ -122,6 +122,9 @@ def joints() -> Iterator[Sentence]:
     page = "joints.md"
     yield page, "smaller by {} of the largest side on each side", (BUILT.depth,)
     pin, footing = BUILT.hinge.pin, BUILT.hinge.footing
+    turns = (degrees(BUILT.closing.least_turn), degrees(BUILT.closing.widest_turn))
+    yield page, "the least angle, of {:g} to {:g} degrees", turns
+    yield page, "or lies at most {} mm behind it", (mm(BUILT.closing.behind),)
     yield page, "a face beside the door within {:g} barrel radii", (pin.widest_seam,)
     yield page, "a face behind the border within {:g} radii, at most {:g} wider", (pin.widest_seam, pin.widest_strip)
     yield page, "a face beside the door within {:g} mm", (1000 * BUILT.contact,)

@@ -36,6 +36,7 @@ REASONS = {
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
+    "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},

@@ -26,7 +26,7 @@ from grafu.pipeline.addition_choice import choose_additions
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.motion_source import MotionSource, parse_motion
 from grafu.pipeline.settings import Settings
-from grafu.templates.available import open_handles
+from grafu.templates.gallery import open_handles
 
 PathLikeStr = str | PathLike[str]
 _READING: Final = ("up", "front", "scale", "height", "labels", "parts", "pieces", "piece")

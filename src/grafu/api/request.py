@@ -16,7 +16,7 @@ from grafu.joints.motion_choice import MotionChoice, choice_in_words
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.settings import Settings
 from grafu.processes.cache import CACHED_VALUES, Cache
-from grafu.templates.available import open_gallery
+from grafu.templates.gallery import open_gallery
 from grafu.templates.user import load_handles
 
 T = TypeVar("T")

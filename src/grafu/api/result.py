@@ -26,7 +26,7 @@ from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.words import counted
-from grafu.templates.available import open_handles
+from grafu.templates.gallery import open_handles
 from grafu.vocabulary import MECHANISM_MENU, MechanismClass, PartLabel
 
 

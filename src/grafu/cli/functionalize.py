@@ -14,7 +14,6 @@ from grafu.cli.part_options import add_addition_options, motion_choice, part_mov
 from grafu.cli.verb import complain
 from grafu.errors import AssetError, OptionError
 from grafu.export.formats import known_formats
-from grafu.templates.available import open_gallery
 
 if TYPE_CHECKING:
     from grafu.cli.job import Failed, Job, JobOptions, JobResult
@@ -153,6 +152,8 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     formats = tuple(dict.fromkeys(name.strip().lower() for name in options.formats.split(",") if name.strip()))
     for name in formats:
         exporter_for(name)
+    from grafu.templates.gallery import open_gallery
+
     open_gallery(options.templates)
     _require_weights(options)
     settings = stated_settings(options)
@@ -259,7 +260,7 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
     """
     from grafu.cli.part_options import addition_config
     from grafu.pipeline.settings import Settings
-    from grafu.templates.available import open_handles
+    from grafu.templates.gallery import open_handles
 
     base = read_settings(options.settings) if options.settings else Settings()
     settings = replace(

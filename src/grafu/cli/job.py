@@ -17,7 +17,6 @@ from grafu.errors import AssetError, ExportError, FunctionalizationError
 from grafu.export.output_names import output_name, same_place, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import Limits
-from grafu.templates.available import open_gallery
 
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
@@ -212,6 +211,7 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     from grafu.export.files import write_files
     from grafu.geometry.budget import UNLIMITED, Budget
     from grafu.pipeline.functionalize import functionalize
+    from grafu.templates.gallery import open_gallery
 
     options = job.options
     _require_free(job)

@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the user's templates are at fault or the output cannot be written.
     """
-    from grafu.templates.available import open_gallery, open_handles
+    from grafu.templates.gallery import open_gallery, open_handles
 
     gallery, handles = open_gallery(options.templates), open_handles(options.templates)
     _print_gallery(gallery)

@@ -1,4 +1,4 @@
-"""How far drawers stand open as they are drawn, found from the meshes, and the plan in which they are closed first.
+"""How far drawers stand open as they are drawn, found from the meshes, and the plan in which all are closed first.
 
 A drawer stands open where it can be pushed in, and its place is plain: level with drawers like it, or until its front
 lies on what stands around its opening, or until its front is level with that on all sides. What blocks it on the way,
@@ -19,6 +19,7 @@ from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
+from grafu.joints.closing_doors import DrawnAngle, drawn_angles
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box, widest_free
 from grafu.joints.nesting import bodies_of
@@ -33,23 +34,32 @@ _SIDES = ((-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
 
 
 def closed_plan(plan: RealizationPlan, asset: Asset, config: RealizationConfig) -> RealizationPlan:
-    """Returns the plan in which each drawer that stands open states so, whoever requested its joint.
+    """Returns the plan in which each door and drawer that stands open states so, whoever requested its joint.
 
     What a request states of itself stays: a value at which its part is drawn, a leader that it follows.
     """
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(plan.joints), asset.extent)
-    drawers = {d.request.moving: d for d in _drawers(plan.joints, scene, at_scale(config, scene.metre))}
+    config = at_scale(config, scene.metre)
+    doors = drawn_angles(plan.joints, scene, config)
+    drawers = {d.request.moving: d for d in _drawers(plan.joints, scene, config)}
     found = _openings(drawers, drawers.values())
     closed = tuple(name for name in scene.moving_bodies if name not in found)
     found = _openings({name: replace(drawers[name], closed=closed) for name in found}, drawers.values())
     joints = tuple(_ajar(r, found[r.moving]) if r.moving in found else r for r in plan.joints)
-    return replace(plan, joints=joints) if found else plan
+    joints = tuple(
+        _ajar(replace(r, axis=doors[r.moving].axis), doors[r.moving].angle) if r.moving in doors else r for r in joints
+    )
+    return replace(plan, joints=joints) if found or doors else plan
 
 
 def _openings(drawers: Mapping[str, "_Drawer"], all_drawers: Iterable["_Drawer"]) -> dict[str, float]:
     """Returns how far those drawers stand open that do, by the id of the moving part."""
     openings = {name: _drawn_opening(drawer, all_drawers) for name, drawer in drawers.items()}
     return {name: opening for name, opening in openings.items() if opening > 0}
+
+
+def _about(request: JointRequest, drawn: DrawnAngle) -> JointRequest:
+    return _ajar(replace(request, axis=drawn.axis), drawn.angle)
 
 
 def _ajar(request: JointRequest, opening: float) -> JointRequest:

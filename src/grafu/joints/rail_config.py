@@ -1,9 +1,7 @@
-"""What counts as a drawer, sizes of rails, and the places at which the room for them is measured.
-
-Lengths are metres on furniture of usual size; see `at_scale` for models in another scale.
-"""
+"""What counts as a drawer, and sizes of rails; lengths are metres on furniture of usual size (`at_scale`)."""
 
 from dataclasses import dataclass
+from math import radians
 from typing import final
 
 from grafu.geometry.arrays import ShortRepr
@@ -45,7 +43,18 @@ class ClosingConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("least", "beside", "front_thickness", "shallowest", "flush", "plane", "plainly", "proud", "offsets")
+    LENGTHS = (
+        "least",
+        "beside",
+        "front_thickness",
+        "shallowest",
+        "flush",
+        "plane",
+        "plainly",
+        "proud",
+        "offsets",
+        "behind",
+    )
     least: float = 0.015
     """What is less open is closed (metres)."""
     least_ratio: float = 0.02
@@ -81,9 +90,18 @@ class ClosingConfig:
     """How far a front that could be pushed in stands ahead of what is around it at least, to count as open (metres)."""
     offsets: tuple[float, ...] = (0.004, 0.012, 0.024)
     """How far beside a front it is looked for what stands around it (metres)."""
+    behind: float = 0.012
+    """How far behind the back of a closed door what it lies on stands at most (metres)."""
+    door_sides: int = 3
+    """On how many sides of a closed door something stands or lies behind it at least."""
+    least_turn: float = radians(4)
+    """How far a door is turned at least, to count as open (radians) ..."""
+    widest_turn: float = radians(135)
+    """... and at most (radians)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "least", "beside", "proud", "flush", "plane", "plainly", "shallowest", "sides")
+        require_positive(self, "least", "beside", "proud", "flush", "plane", "plainly", "shallowest", "sides", "behind")
+        require_positive(self, "door_sides", "least_turn", "widest_turn")
         require_ratios(self, "least_ratio", "widest", "alike", "parallel", "faces_front", "front_area", "runner")
         if not 0 < self.front_thickness[0] < self.front_thickness[1] or min(self.offsets) <= 0:
             raise ValueError("`front_thickness` must rise and `offsets` be above 0")

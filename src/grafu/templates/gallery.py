@@ -1,13 +1,18 @@
-"""The built-in gallery: one table of styles and real-world sizes. It builds nothing until asked."""
+"""The built-in gallery, one table of styles and real-world sizes, and what a run can use with it: the user's own first.
+
+It builds nothing until asked.
+"""
 
 from functools import cache
 from math import radians
+from pathlib import Path
 
 from grafu.templates import leaves
+from grafu.templates.handles import HANDLES
 from grafu.templates.hinges import HingeStyle, hinge_model
 from grafu.templates.rails import CENTRE_STYLE, CORNER_STYLE, rail_model
 from grafu.templates.solids import BLACK, BRASS, BRONZE, NICKEL, STEEL
-from grafu.templates.template import Gallery, HingeModel, HingeSize, RailModel, RailSize
+from grafu.templates.template import Gallery, HandleTemplate, HingeModel, HingeSize, RailModel, RailSize
 from grafu.vocabulary import MechanismClass
 
 _C, _F, _P = MechanismClass.C, MechanismClass.F, MechanismClass.P
@@ -79,3 +84,28 @@ def builtin_gallery() -> Gallery:
     hinges: tuple[HingeModel, ...] = tuple(hinge_model(*row) for row in _HINGES)
     rails: tuple[RailModel, ...] = tuple(rail_model(*row) for row in _RAILS)
     return Gallery(hinges, rails)
+
+
+def open_gallery(folder: Path | None) -> Gallery:
+    """Returns the built-in gallery; the templates in `folder` come first where one is given.
+
+    Raises:
+        TemplateError: if a template in the folder is at fault.
+    """
+    if folder is None:
+        return builtin_gallery()
+    from grafu.templates.user import load_gallery
+
+    return builtin_gallery().extended(load_gallery(folder))
+
+
+def open_handles(folder: Path | None) -> dict[str, HandleTemplate]:
+    """Returns all handles by id, the user's own in `folder` first; one of theirs replaces a built-in one of its name.
+
+    Raises:
+        TemplateError: if a handle in the folder is at fault.
+    """
+    from grafu.templates.user import load_handles
+
+    own = load_handles(folder) if folder is not None else {}
+    return {**own, **{template.id: template for template in HANDLES if template.id not in own}}

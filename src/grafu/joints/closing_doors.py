@@ -1,0 +1,155 @@
+"""How far upright doors stand open as they are drawn, found from the meshes, and the axis about which they close.
+
+A door stands open where it is turned against the furniture, or free of it, and fits where it is turned back to: the
+way is free, and on most of its sides something stands beside it or lies behind its border. A door that fits as it is
+drawn is closed, at whatever angle: fronts of corner cabinets.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import atan2, pi
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat4, Vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.intersection import SweptBody
+from grafu.geometry.mesh import heading_of, mesh_near
+from grafu.geometry.raycast import RayCaster
+from grafu.geometry.transform import transform_points
+from grafu.joints.config import RealizationConfig
+from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box
+from grafu.joints.plan import JointRequest
+from grafu.joints.rail_config import ClosingConfig
+from grafu.scene.border import BorderFrame, border_frame, part_axes
+from grafu.scene.scene import Obstacle, Scene
+
+_ALONG = np.linspace(0.15, 0.85, 5)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class DrawnAngle:
+    """How far a door stands open as it is drawn, radians, and the axis about which it closes."""
+
+    angle: float
+    axis: Axis
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class _Door:
+    """A door as it is drawn."""
+
+    request: JointRequest
+    scene: Scene
+    config: RealizationConfig
+    frame: BorderFrame
+    body: SweptBody
+
+    @property
+    def closing(self) -> ClosingConfig:
+        return self.config.closing
+
+    @cached_property
+    def around(self) -> RayCaster:
+        """What stands around it: static parts, and other moving bodies as they are drawn."""
+        scene, own = self.scene, self.request.moving
+        meshes = [part.mesh for part in scene.static_parts]
+        meshes += [scene.moving_mesh(name) for name in scene.moving_bodies if name != own]
+        return RayCaster(mesh_near(meshes, scene.moving_mesh(own).box.grown(self.frame.width)))
+
+    @cached_property
+    def near(self) -> list[Obstacle]:
+        """What stands where it may be turned to."""
+        box = self.scene.moving_mesh(self.request.moving).box.grown(self.frame.width)
+        return in_the_way(self.scene.static_obstacles, box)
+
+    def sides(self, frame: BorderFrame) -> Sequence[bool]:
+        """Whether something stands beside or lies behind a door: at its hinges, its free edge, below and above it."""
+        return [self._is_held(frame, across, up) for across, up in ((-1, 0), (1, 0), (0, -1), (0, 1))]
+
+    def _is_held(self, frame: BorderFrame, across: int, up: int) -> bool:
+        """Whether on one side of a door what stands beside it is level with it, or something lies behind its border."""
+        closing, start = self.closing, frame.width
+        levels = []
+        for offset in (*closing.offsets, *(-offset for offset in closing.offsets)):
+            points = _beside(frame, across, up, offset)
+            origins = frame.to_object(points + np.array([0.0, start, 0.0]))
+            levels.append(start - self.around.along(origins, frame.direction(0.0, -1.0, 0.0)))
+        beside, behind = np.split(np.array(levels), 2)
+        back = -frame.thickness - closing.behind
+        is_level = (beside >= back) & (beside <= closing.proud)
+        lies_on = (behind >= back) & (behind <= -frame.thickness + closing.flush)
+        return bool(np.median((is_level | lies_on).any(axis=0)) == 1.0)
+
+    def is_free(self, angle: Axis, opening: float) -> bool:
+        """Whether it can be turned back about an axis by an opening, radians."""
+
+        def inwards(value: float) -> Mat4:
+            return angle.rotation(-value)
+
+        at_rest = blockers_at(self.body, inwards(0.0), self.near)
+        obstacles = [o for o in self.near if o.id not in at_rest]
+        near = in_the_way(obstacles, swept_box(self.scene.moving_mesh(self.request.moving).box, inwards, opening))
+        return is_free(self.body, inwards, opening, near, self.config.coarse_poses)
+
+
+def drawn_angles(requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig) -> dict[str, DrawnAngle]:
+    """Returns how far those doors stand open that do, by the id of the moving part.
+
+    The config is in the scale of the scene (`at_scale`).
+    """
+    found = {}
+    for request in requests:
+        is_stated = request.drawn_at > 0 or request.coupling is not None or request.parent
+        if is_stated or not request.kind.turns or request.moving not in scene.parts:
+            continue
+        mesh = scene.parts[request.moving].mesh
+        frame = border_frame(mesh, request.axis)
+        if abs(float(frame.rotation[2, 2])) < config.level_axis or frame.width < config.closing.shallowest:
+            continue
+        body = scene.swept_body(request.moving, config.closing.flush, part_axes(mesh))
+        angle = _drawn_angle(_Door(request, scene, config, frame, body))
+        if angle is not None:
+            found[request.moving] = angle
+    return found
+
+
+def _drawn_angle(door: _Door) -> DrawnAngle | None:
+    """Returns how far a door stands open, by the least turn that closes it; None where none does."""
+    if sum(door.sides(door.frame)) >= door.closing.door_sides:
+        return None
+    fits: list[tuple[float, int, DrawnAngle]] = []
+    for angle, axis in _ways_back(door):
+        sides = sum(door.sides(_turned(door.frame, axis.rotation(-angle))))
+        if sides >= door.closing.door_sides and door.is_free(axis, angle):
+            fits.append((round(angle, 3), -sides, DrawnAngle(angle, axis)))
+    return min(fits, key=lambda fit: fit[:2])[2] if fits else None
+
+
+def _ways_back(door: _Door) -> Iterator[tuple[float, Axis]]:
+    """Yields the angles by which a door comes to stand along the furniture, about each border of its hinge side."""
+    frame, config = door.frame, door.closing
+    leaf = frame.direction(1.0, 0.0, 0.0)
+    heading = heading_of(part.mesh for part in door.scene.static_parts)
+    turned = (atan2(float(leaf[1]), float(leaf[0])) - heading) * float(np.sign(frame.rotation[2, 2]))
+    for quarter in range(4):
+        angle = (turned - quarter * pi / 2) % (2 * pi)
+        if config.least_turn <= angle <= config.widest_turn:
+            for y in (0.0, -frame.thickness):
+                yield angle, frame.axis_at(0.0, y)
+
+
+def _turned(frame: BorderFrame, T: Mat4) -> BorderFrame:
+    origin: Vec3 = transform_points(T, frame.origin[None])[0]
+    return replace(frame, origin=origin, rotation=T[:3, :3] @ frame.rotation)
+
+
+def _beside(frame: BorderFrame, across: int, up: int, offset: float) -> np.ndarray:
+    """Returns points in a row along one side of a door, so far outside it, in the frame of its border."""
+    x = _ALONG * frame.width if not across else (frame.width + offset if across > 0 else -offset)
+    z = (_ALONG - 0.5) * frame.length if not up else up * (frame.length / 2 + offset)
+    return np.column_stack(np.broadcast_arrays(x, 0.0, z)).reshape(len(_ALONG), 3)
