@@ -108,6 +108,8 @@ OF_MODULES = {
         "drawers.py": {"_DIRECTIONS": NUMBERING},
         "handles.py": {},
         "rows.py": {},
+        "selection.py": {"_LEAST": VOTES},
+        "slots.py": {},
         "rule.py": {"_FRONTS": NUMBERING},
         "rule_scene.py": {"CARRIES": VOTES, "_FLAT": TOLERANCE},
         "votes.py": {"_PRIOR": VOTES},

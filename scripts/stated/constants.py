@@ -9,8 +9,8 @@ from math import degrees
 from grafu.asset import loose
 from grafu.asset.foreign import matching
 from grafu.cli import evaluate, limit_options
+from grafu.completion.config import DecodeConfig
 from grafu.completion.features import FeatureConfig
-from grafu.completion.selection import SOME_CHANCE
 from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.data.corruption.config import PAPER as CORRUPTION
 from grafu.data.furfun import folder
@@ -122,7 +122,7 @@ def learning() -> Iterator[Sentence]:
     yield "dataset.md", "masked with a chance of {:g} %", (per_cent(CORRUPTION.label_masking),)
     yield "dataset.md", "a grid of {} steps", (STEPS,)
     yield "dataset.md", "lie within {} units", (folder.SAME_PLACE,)
-    yield "graph.md", "of the edge ({} more)", (SOME_CHANCE,)
+    yield "graph.md", "of the edge ({} more)", (DecodeConfig().some_parent,)
 
 
 def others() -> Iterator[Sentence]:

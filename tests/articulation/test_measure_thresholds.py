@@ -17,7 +17,7 @@ SAMPLES = "how many rays, cells, poses or directions an algorithm takes"
 TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
 EFFORT = "after how many tries a search ends, or how much is done in a simpler way"
 UNIT = "a unit, a constant of mathematics, or a row of a table"
-MEASURE = "the definition of a measure, as the paper and docs/metrics.md state it"
+MEASURE = "the definition of a measure, as the paper, docs/metrics.md or docs/evaluation.md state it"
 PHYSICS = "a constant of physics, or the density of a material"
 
 REASONS = {
@@ -38,6 +38,29 @@ REASONS = {
         "motion.py": {"ANGLE": MEASURE},
         "panels.py": {"POSES": SAMPLES},
         "tops.py": {"_DIRECTIONS": SAMPLES, "_CELLS": SAMPLES, "_SIDES": SAMPLES},
+    },
+    "evaluation": {
+        "bootstrap.py": dict.fromkeys(("LEVEL", "RESAMPLES", "SEED", "_BLOCK"), SAMPLES),
+        "completeness.py": {"_ONE_PANEL": MEASURE},
+        "dataset.py": dict.fromkeys(("TEST_SEED", "_DEEPEST", "_MOST_MADE", "_TEST_COUNT"), SAMPLES),
+        "dataset_release.py": {"DRAWER_RANGE": MEASURE, "DOOR_RANGE": MEASURE, "_FITS": TOLERANCE},
+        "distribution.py": {"TRAINING_COUNT": SAMPLES, "TRAINING_SEED": SAMPLES},
+        "measures.py": {"OPENS": MEASURE},
+        "methods.py": {"LEVELS": MEASURE},
+        "motion_table.py": dict.fromkeys(("(TOPS, HANDLES, INTERIORS)", "MASKING", "MODELS", "MOTION"), UNIT),
+        "moving_parts.py": dict.fromkeys(("DEPTH_RATIO", "IN_PLANE", "LARGEST", "WIDEST_TURN"), MEASURE),
+        "output.py": {"TOP": UNIT},
+        "plausible.py": dict.fromkeys(("(_LINE_POINTS, _SAMPLES)", "_POSES"), SAMPLES)
+        | dict.fromkeys(("HELD", "LEVER", "NEAR"), MEASURE),
+        "records.py": {"_MOST_BYTES": EFFORT},
+        "statistics.py": dict.fromkeys(
+            ("(_LOW, _HIGH)", "_CHANCE", "_GROUP", "_GROUPS", "_INSIDE", "_ROUNDING"), SAMPLES
+        ),
+        "statistics_fronts.py": dict.fromkeys(("_BELOW", "_LEVEL", "_THIRDS"), MEASURE)
+        | {"_GRID": SAMPLES, "_UP": UNIT},
+        "statistics_measures.py": {"_FLAT": TOLERANCE},
+        "tasks.py": {"_SMALL": EFFORT},
+        "twins.py": dict.fromkeys(("ALIKE", "ON", "SAME_BOX"), MEASURE) | {"_POINTS": SAMPLES},
     },
 }
 

@@ -69,6 +69,15 @@ class DecodeConfig:
     no_parent: float = 0.8
     """A handle is decoration from this probability of no parent on, if no edge states otherwise."""
 
+    some_parent: float = 0.05
+    """The chance of being a handle's parent that remains to each door and drawer, where no edge states it."""
+
+    least_half: float = 0.005
+    """Half a side of a new part at least (the authors' 0.005 of the object): thinner is an error of the regression."""
+
+    slack: float = 0.01
+    """How far boxes are grown before they are compared: thin boards seldom overlap exactly."""
+
     mirror: bool = True
     """Whether the last result is the mean of two passes, on the graph and on its mirror image across X. It costs one
     pass, and 160 synthetic models (seed 990001) gained 0.018 of hinge F1 with labels and 0.012 without, 0.006 of
@@ -84,11 +93,12 @@ class DecodeConfig:
             self.second_rail,
             self.edge_for_label,
             self.flank,
+            self.some_parent,
         )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
-        if min(self.rounds, self.reach, self.grasp, self.outward) < 0:
-            raise ValueError(f"`rounds`, `reach`, `grasp` and `outward` must not be negative: got {self}")
+        if min(self.rounds, self.reach, self.grasp, self.outward, self.least_half, self.slack) < 0:
+            raise ValueError(f"counts, lengths and powers of a DecodeConfig must not be negative: got {self}")
 
 
 @final

@@ -55,7 +55,6 @@ def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
 
 
 _NO_SUPPORT = "there is no static part that could carry it: label the static parts"
-SOME_CHANCE = 0.05  # of being the parent, where no edge states it
 _MOVES_WITH = frozenset({PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE})
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
@@ -96,7 +95,7 @@ def parent_ratios(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
     """
     logits = np.append(view.probabilities.parent[slot, slots], view.probabilities.no_parent)
     chosen = softmax(logits)
-    return chosen[:-1] * (SOME_CHANCE + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
+    return chosen[:-1] * (view.config.some_parent + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
 def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:

@@ -22,10 +22,6 @@ from grafu.graph.parse import ParsingConfig
 from grafu.vocabulary import PartLabel
 
 _ADDABLE = [LABEL_CODES[label] for label in ADDABLE]
-# Thinner boxes are errors of the regression (the authors': half sizes of at least 0.005 of the object).
-_LEAST_HALF = 0.005
-# Both boxes are grown by this fraction of the object before they are compared: thin boards seldom overlap exactly.
-_SLACK = 0.01
 
 
 @final
@@ -80,7 +76,7 @@ def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | N
     ranking = ranking_of([label.value for label in ADDABLE], ratios)
     label = PartLabel(ranking.choice)
     origin, scale = object_frame(view.graph)
-    half = np.maximum(probabilities.half[slot], _LEAST_HALF)
+    half = np.maximum(probabilities.half[slot], view.config.least_half)
     box = Box.from_center(probabilities.centre[slot] * scale + origin, half * scale)
     name = _new_id(label, others)
     exists = float(probabilities.exists[slot])
@@ -111,6 +107,6 @@ def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:
 
 def _is_there(node: PartNode, others: tuple[PartNode, ...], view: View) -> bool:
     """Whether a part of this label stands in the same place already."""
-    slack = _SLACK * view.extent
+    slack = view.config.slack * view.extent
     alike = (other.box for other in others if other.label is node.label)
     return any(node.box.intersection_over_union(box, slack) > view.config.overlap for box in alike)
