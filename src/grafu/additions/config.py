@@ -12,7 +12,7 @@ from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
 from grafu.additions.top.config import TopConfig
-from grafu.geometry.arrays import ShortRepr
+from grafu.visible import ShortRepr
 
 
 @final

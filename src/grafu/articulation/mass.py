@@ -14,12 +14,13 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
 from grafu.geometry.appearance import Material
-from grafu.geometry.arrays import ArrayValue, Mat3, ShortRepr, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.transform import rotation_matrix
+from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
 _BY_WORD: Mapping[str, float] = MappingProxyType(

@@ -19,8 +19,9 @@ from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape,
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
-from grafu.geometry.arrays import ShortRepr, Vec3
+from grafu.geometry.arrays import Vec3
 from grafu.geometry.budget import WhileTimeLasts, present_budget, within
+from grafu.visible import ShortRepr
 
 T = TypeVar("T")
 GRAVITY = 9.81

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Literal, final
 
 from grafu.errors import AssetError, AssetTooLarge
-from grafu.geometry.arrays import ShortRepr
+from grafu.visible import ShortRepr
 
 DIRECTIONS = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 

@@ -23,9 +23,10 @@ from grafu.export.mjcf_looks import MjcfLooks, drawn_meshes
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.geometry.arrays import Mat3, ShortRepr, Vec3
+from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import within
+from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
 VISUAL_GROUP, COLLISION_GROUP, GRASP_GROUP = "2", "3", "4"  # the first is shown by default, the others are not

@@ -16,9 +16,10 @@ from grafu.export.files import ExportFiles
 from grafu.export.names import number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
-from grafu.geometry.arrays import ShortRepr, Vec3
+from grafu.geometry.arrays import Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.transform import roll_pitch_yaw
+from grafu.visible import ShortRepr
 
 
 @final

@@ -1,10 +1,9 @@
-"""Array shapes by name, the base of every value that holds arrays, and short reprs.
+"""Array shapes by name, and the base of every value that holds arrays.
 
 Arrays inside values are copies that cannot be written to; values compare and hash by content.
 """
 
-from collections.abc import Callable, Iterable
-from dataclasses import MISSING, Field
+from collections.abc import Callable
 from hashlib import blake2b
 from typing import Any, ClassVar
 
@@ -20,9 +19,6 @@ Mat4 = Float[np.ndarray, "4 4"]
 Scalars = Float[np.ndarray, " n"]
 Indices = Int[np.ndarray, " n"]
 Mask = Bool[np.ndarray, " n"]
-
-_LONGEST_REPR = 280  # characters of a repr before its last field
-_LONGEST_VALUE = 60  # characters of a value
 
 
 def frozen_array(values: Any, dtype: type = np.float64) -> Any:
@@ -101,38 +97,3 @@ def _short(value: object) -> str:
     if isinstance(value, tuple | dict) and len(value) > 4:
         return f"<{len(value)} items>"
     return repr(value)
-
-
-class ShortRepr:
-    """Abstract base of configurations: the repr lists only the fields that differ from their defaults."""
-
-    __slots__ = ()
-    __dataclass_fields__: ClassVar[dict[str, Any]]
-
-    def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
-        if "__repr__" not in cls.__dict__:
-            cls.__repr__ = ShortRepr.__repr__  # type: ignore[method-assign]  # `dataclass` would write its own
-
-    def __repr__(self) -> str:
-        fields = ((name, getattr(self, name), _default(field)) for name, field in self.__dataclass_fields__.items())
-        changed = ((name, value) for name, value, default in fields if default is MISSING or value != default)
-        return short_repr(type(self).__name__, changed)
-
-
-def _default(field: Field[Any]) -> Any:
-    return field.default if field.default_factory is MISSING else field.default_factory()
-
-
-def short_repr(name: str, fields: Iterable[tuple[str, object]]) -> str:
-    """Returns `name(field=value, ...)`: a long value becomes `...`, and where the text grows long it ends so."""
-    shown: list[str] = []
-    room = _LONGEST_REPR - len(name)
-    for field, value in fields:
-        text = repr(value)
-        shown.append(f"{field}={text if len(text) <= _LONGEST_VALUE else '...'}")
-        room -= len(shown[-1]) + 2
-        if room < 0:
-            shown[-1] = "..."
-            break
-    return f"{name}({', '.join(shown)})"

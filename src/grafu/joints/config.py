@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from math import radians
 from typing import final
 
-from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.hinge_config import HingeConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
+from grafu.visible import ShortRepr
 
 
 @final

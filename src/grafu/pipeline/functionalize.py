@@ -15,7 +15,6 @@ from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
-from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
@@ -44,6 +43,7 @@ from grafu.pipeline.stages import (
 from grafu.processes.cache import NO_CACHE, Cache
 from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery, HandleTemplate
+from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
 T = TypeVar("T")

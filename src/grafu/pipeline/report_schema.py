@@ -8,11 +8,11 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
 from grafu.additions.step import DeficiencyKind
-from grafu.geometry.arrays import short_repr
 from grafu.graph.completion import Question
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
+from grafu.visible import short_repr
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
 
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]

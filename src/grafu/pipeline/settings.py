@@ -18,13 +18,13 @@ from grafu.additions.interior.request import CompartmentChoice
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, OptionError
-from grafu.geometry.arrays import ShortRepr
 from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.pipeline.functionalize import PipelineConfig
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.template import HandleTemplate
+from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
 SCHEMA = "grafu.settings/1"

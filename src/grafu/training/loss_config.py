@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any, Literal, final
 
-from grafu.geometry.arrays import ShortRepr
+from grafu.visible import ShortRepr
 
 ClassCost = Literal["cross-entropy", "probability"]
 BoxError = Literal["squared", "absolute"]

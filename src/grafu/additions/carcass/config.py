@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import cos, radians
 from typing import final
 
-from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive
+from grafu.visible import ShortRepr
 
 
 @final

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, final
 
-from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.visible import ShortRepr
 
 
 class GripKind(StrEnum):

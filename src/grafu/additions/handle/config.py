@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import final
 
-from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
+from grafu.visible import ShortRepr
 
 NO_HANDLE = "none"
 """`HandleChoice.style` of a front that gets nothing."""

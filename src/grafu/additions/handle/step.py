@@ -15,9 +15,9 @@ from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.place import add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
 from grafu.additions.step import Changes, Grasp, Request, StepResult
-from grafu.geometry.arrays import ShortRepr
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
+from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
 

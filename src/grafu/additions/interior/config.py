@@ -6,10 +6,10 @@ Lengths are metres on furniture of usual size; a model in another scale gets pan
 from dataclasses import dataclass
 from typing import final
 
-from grafu.geometry.arrays import ShortRepr
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.config import RealizationConfig
 from grafu.scene.scale import metre_on
+from grafu.visible import ShortRepr
 
 
 @final

@@ -18,11 +18,12 @@ from grafu.asset.foreign.frames import FrameGuess, drawn_together, fitted_frames
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, JointFrame
 from grafu.asset.part import Asset, Part
 from grafu.errors import AssetError
-from grafu.geometry.arrays import Mat4, ShortRepr
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.transform import scale_of
+from grafu.visible import ShortRepr
 from grafu.vocabulary import JointType, PartLabel
 
 _SMALLEST_SCALE = 1e-60  # of a transform: its cube is still a number
