@@ -3,9 +3,9 @@
 import grafu
 
 result = grafu.functionalize("samples/wardrobe.glb", top="rounded")
-door = next(joint.part for joint in result.joints if joint.type == "revolute")
+door = "door_3"
 
-changed = result.with_hinge(door, side="right", count=3).with_handle(door, "bar-slim")
+changed = result.with_hinge(door, side="left", count=3).with_handle(door, "bar-slim")
 for name, each in (("before", result), ("after", changed)):
     joint = each.joint(door)
     print(f"{name}: {door} turns about x = {joint.origin[0]:.2f} m on {joint.count} x {joint.template}")

@@ -77,7 +77,8 @@ def _placed(search: DoorSearch, gallery: Gallery, count: int) -> Placement | Non
         if not found.struck_by and (not _is_narrow(found, search) or _may_be_narrow(search, left_out)):
             return _noted(found, [other.placement for other in left_out], search.request.moving)
         left_out.append(one)
-    return _least_struck(left_out, search)
+    least, is_cut = _least_struck(left_out, search), any(_is_faulty(one) for one in left_out)
+    return _least_struck([*_tries(search, gallery, count, True)], search) if least is None and is_cut else least
 
 
 def _may_be_narrow(search: DoorSearch, left_out: Sequence[_Try]) -> bool:
@@ -98,10 +99,12 @@ def _least_struck(tries: Sequence[_Try], search: DoorSearch) -> Placement | None
         placement = one.whole()
         if placement is not None and (best is None or (_drawbacks(placement, search), rank) < best[:2]):
             best = _drawbacks(placement, search), rank, placement
-    if best is None:
-        return None
-    hits = (f"{name} runs into its hardware" for name in _built_ones(best[2].struck_by, search))
-    return replace(best[2], notes=tuple(hits))
+    hits = (f"{name} runs into its hardware" for name in _built_ones(best[2].struck_by, search)) if best else ()
+    return replace(best[2], notes=tuple(hits)) if best else None
+
+
+def _is_faulty(one: _Try) -> bool:
+    return bool(OF_PLACE & {*one.placement.struck_by})
 
 
 def _is_narrow(placement: Placement, search: DoorSearch) -> bool:
@@ -136,15 +139,18 @@ def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> 
     return replace(placement, notes=tuple(notes))
 
 
-def _tries(search: DoorSearch, gallery: Gallery, count: int) -> Iterator[_Try]:
-    """Yields what hardware can be placed on the pins that leave the door free enough, best pins first."""
+def _tries(search: DoorSearch, gallery: Gallery, count: int, is_thorough: bool = False) -> Iterator[_Try]:
+    """Yields placements, best pins first; a pin whose place is at fault gets one template, unless it `is_thorough`."""
     tried = 0
     for judged in search.in_order():
         if judged.free < search.config.least_opening * search.wanted or tried > _ENOUGH:
             return
         tried += judged.pin.preference >= PIVOTS
         pivots = judged.pin.is_pivot
-        yield from _with_pivots(judged, search) if pivots else _with_hardware(judged, search, gallery, count)
+        for one in _with_pivots(judged, search) if pivots else _with_hardware(judged, search, gallery, count):
+            yield one
+            if _is_faulty(one) and not is_thorough:
+                break
 
 
 def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, count: int) -> Iterator[_Try]:
@@ -161,8 +167,6 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, coun
         placement = attempt(is_whole=False)
         if placement is not None:
             yield _Try(placement, cache(partial(attempt, is_whole=True)))
-            if OF_PLACE & {*placement.struck_by}:
-                return  # the place is at fault, and the same for all templates
 
 
 def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
